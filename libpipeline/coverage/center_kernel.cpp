@@ -51,13 +51,13 @@ HWY_INLINE Doubles quotient_rounded_up(Doubles dividend, Doubles divisor, Double
 
 /// An AxisInDoubles, in all lanes.
 struct AxisLanes {
-  HWY_INLINE explicit AxisLanes(const AxisInDoubles& axis)
-      : count(all(axis.count)),
-        step(all(axis.step)),
-        inverse(all(axis.inverse_step)),
-        factor(all(axis.vertex_factor)),
-        origin(all(axis.origin)),
-        largest(all(axis.largest)) {}
+  HWY_INLINE explicit AxisLanes(const GridAxis& axis)
+      : count(all(axis.in_doubles.count)),
+        step(all(axis.in_doubles.step)),
+        inverse(all(axis.in_doubles.inverse_step)),
+        factor(all(axis.in_doubles.vertex_factor)),
+        origin(all(axis.in_doubles.origin)),
+        largest(all(axis.in_doubles.largest)) {}
 
   /// How far a coordinate is from the middle, on the grid.
   HWY_INLINE Doubles scaled(Doubles coordinate) const {
@@ -92,10 +92,6 @@ HWY_INLINE GridPoints pick_points(Doubles mask, const GridPoints& yes, const Gri
 }
 
 struct Edges {
-  HWY_INLINE Edges of(std::size_t lane) const {
-    return {all_of(crossing, lane), all_of(row_step, lane), all_of(column_step, lane), all_of(inverse, lane)};
-  }
-
   Doubles crossing;
   Doubles row_step;
   Doubles column_step;
@@ -105,23 +101,6 @@ struct Edges {
 /// The numbers from which the rows of some triangles are calculated (see ExactRows), or those of one, in all
 /// lanes.
 struct RowSources {
-  HWY_INLINE RowSources of(std::size_t lane) const {
-    return {all_of(first_row, lane),
-            all_of(middle_row, lane),
-            all_of(end_row, lane),
-            all_of(first_column, lane),
-            all_of(column_count, lane),
-            all_of(longest_is_left, lane),
-            all_of(twice_total, lane),
-            all_of(is_flat, lane),
-            all_of(a_z, lane),
-            all_of(b_z, lane),
-            all_of(c_z, lane),
-            longest.of(lane),
-            upper.of(lane),
-            lower.of(lane)};
-  }
-
   Doubles first_row;
   Doubles middle_row;
   Doubles end_row;
@@ -285,50 +264,34 @@ struct RowLanes {
   }
 };
 
-/// The rule `center` for lanes.h.
-struct Rule {
-  using RowLanes = HWY_NAMESPACE::RowLanes;
-  HWY_INLINE explicit Rule(const ExactGrid& exact_grid)
-      : grid(exact_grid), column_axis(exact_grid.columns.in_doubles), row_axis(exact_grid.rows.in_doubles) {}
+/// The rule `center` for lanes.h, by what an axis, some triangles and a row of each become.
+template <typename Axes, typename Triangles, typename Rows>
+struct RuleOf {
+  using RowLanes = Rows;
+  HWY_INLINE explicit RuleOf(const ExactGrid& exact_grid)
+      : grid(exact_grid), columns(exact_grid.columns), row_axis(exact_grid.rows) {}
 
   [[nodiscard]] CenterRows rows(const TaggedTriangle& triangle) const { return {grid, triangle.triangle}; }
-  HWY_INLINE TriangleLanes prepared(const TaggedTriangle* triangles, const RowRange& range) const {
-    return {column_axis, row_axis, triangles, range};
+  HWY_INLINE Triangles prepared(const TaggedTriangle* triangles, const RowRange& range) const {
+    return {columns, row_axis, triangles, range};
   }
-  HWY_INLINE static RowLanes some_rows(const RowSources& sources, Doubles rows) { return {sources, rows}; }
-  static double slope(const TriangleLanes& four, std::size_t lane, const RowLanes&, std::size_t) {
+  template <typename Sources>
+  HWY_INLINE static Rows some_rows(const Sources& sources, Doubles rows) {
+    return {sources, rows};
+  }
+  static double slope(const Triangles& four, std::size_t lane, const Rows&, std::size_t) {
     return four.half_slope[lane];
   }
   /// Columns are counted in halves.
   static Axis axis() { return {0, 2}; }
 
   const ExactGrid& grid;
-  AxisLanes column_axis;
-  AxisLanes row_axis;
+  Axes columns;
+  Axes row_axis;
 };
-
-/// Likewise for triangles that have other coordinates than decimals.
-struct DoubleRule {
-  using RowLanes = DoubleRowLanes;
-  HWY_INLINE explicit DoubleRule(const ExactGrid& exact_grid)
-      : grid(exact_grid), columns(exact_grid.columns), row_axis(exact_grid.rows) {}
-
-  [[nodiscard]] CenterRows rows(const TaggedTriangle& triangle) const { return {grid, triangle.triangle}; }
-  HWY_INLINE DoubleTriangleLanes prepared(const TaggedTriangle* triangles, const RowRange& range) const {
-    return {columns, row_axis, triangles, range};
-  }
-  HWY_INLINE static RowLanes some_rows(const DoubleRowSources& sources, Doubles rows) {
-    return {sources, rows};
-  }
-  static double slope(const DoubleTriangleLanes& four, std::size_t lane, const RowLanes&, std::size_t) {
-    return four.half_slope[lane];
-  }
-  static Axis axis() { return Rule::axis(); }
-
-  const ExactGrid& grid;
-  PixelAxis columns;
-  PixelAxis row_axis;
-};
+using Rule = RuleOf<AxisLanes, TriangleLanes, RowLanes>;
+/// For triangles that have other coordinates than decimals.
+using DoubleRule = RuleOf<PixelAxis, DoubleTriangleLanes, DoubleRowLanes>;
 
 /// The triangles whose x and y are decimals. Usually all are, or none.
 LaneSet decimals_of(const TaggedTriangle* triangles) {

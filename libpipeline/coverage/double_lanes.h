@@ -15,8 +15,6 @@ namespace {
 /// A DoubleDouble in each lane. Every kernel calculates the same: the error of a product is exact, with or
 /// without fused operations.
 struct Pairs {
-  HWY_INLINE Pairs of(std::size_t lane) const { return {all_of(hi, lane), all_of(lo, lane)}; }
-
   Doubles hi;
   Doubles lo;
 };

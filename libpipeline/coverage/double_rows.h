@@ -28,9 +28,6 @@ HWY_INLINE CertainPixels first_pixel(Doubles whole, Doubles rest, Doubles doubt,
 }
 
 struct DoubleEdges {
-  HWY_INLINE DoubleEdges of(std::size_t lane) const {
-    return {all_of(u, lane), v.of(lane), all_of(slope, lane), all_of(doubt, lane)};
-  }
   /// The first pixel at or after the edge on its row.
   HWY_INLINE CertainPixels cross(Doubles rows, Doubles column_count) const {
     // u is off by u 2^-53 at most, and the product by seven times that of itself.
@@ -55,12 +52,6 @@ HWY_INLINE DoubleEdges pick_edges(Doubles mask, const DoubleEdges& yes, const Do
 
 /// As RowSources.
 struct DoubleRowSources {
-  HWY_INLINE DoubleRowSources of(std::size_t lane) const {
-    return {all_of(middle_row, lane), all_of(end_row, lane), column_count,   all_of(longest_is_left, lane),
-            longest.of(lane),         upper.of(lane),        lower.of(lane), corner.of(lane),
-            per_column.of(lane),      per_row.of(lane)};
-  }
-
   Doubles middle_row;
   Doubles end_row;
   Doubles column_count;

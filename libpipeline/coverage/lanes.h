@@ -64,9 +64,20 @@ HWY_INLINE Numbers numbers_of(Doubles value) {
 HWY_INLINE double number_in(Doubles value, std::size_t lane) {
   return numbers_of(value)[lane];
 }
-/// The number in a lane, in all of them.
-HWY_INLINE Doubles all_of(Doubles value, std::size_t lane) {
-  return all(number_in(value, lane));
+/// Of a struct of Doubles alone: each number in a lane, in all of them.
+template <typename Lanes>
+HWY_INLINE Lanes lane_of(const Lanes& some, std::size_t lane) {
+  static_assert(sizeof(Lanes) % sizeof(Doubles) == 0);
+  Lanes result;
+  const char* const from = reinterpret_cast<const char*>(&some) + lane * sizeof(double);
+#pragma GCC unroll 32
+  for (std::size_t i = 0; i < sizeof(Lanes); i += sizeof(Doubles)) {
+    double number;
+    std::memcpy(&number, from + i, sizeof number);
+    const Doubles in_all = all(number);
+    std::memcpy(reinterpret_cast<char*>(&result) + i, &in_all, sizeof in_all);
+  }
+  return result;
 }
 HWY_INLINE double largest_of(Doubles value) {
   return hn::GetLane(hn::MaxOfLanes(kDoubles, value));
@@ -74,9 +85,6 @@ HWY_INLINE double largest_of(Doubles value) {
 
 /// A point of each of some triangles.
 struct Points {
-  /// One of them, in all lanes.
-  HWY_INLINE Points of(std::size_t lane) const { return {all_of(x, lane), all_of(y, lane), all_of(z, lane)}; }
-
   Doubles x;
   Doubles y;
   Doubles z;
@@ -181,7 +189,7 @@ template <typename Rule, typename TriangleLanes>
 TaggedSpan* append_triangle(const Rule& rule, const TriangleLanes& some, std::size_t lane,
                             const TaggedTriangle& triangle, const RowRange& range, TaggedSpan* spans) {
   if (!some.ordinary.has(lane)) return append_spans(rule.rows(triangle), triangle.tag, range, spans);
-  const auto sources = some.sources.of(lane);
+  const auto sources = lane_of(some.sources, lane);
   const Axis axis = rule.axis();
   const int end = static_cast<int>(number_in(some.end_row(), lane));
   for (int row = static_cast<int>(number_in(some.begin_row, lane)); row < end;) {

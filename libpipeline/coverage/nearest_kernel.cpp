@@ -40,11 +40,6 @@ HWY_INLINE Doubles is_lower(const Points& a, const Points& b) {
 
 /// The numbers from which the rows of some triangles are calculated, or those of one, in all lanes.
 struct RowSources {
-  HWY_INLINE RowSources of(std::size_t lane) const {
-    return {lowest.of(lane),     middle.of(lane),          highest.of(lane),
-            all_of(slope, lane), all_of(is_edge_on, lane), all_of(last_row, lane)};
-  }
-
   Points lowest;
   Points middle;
   Points highest;
