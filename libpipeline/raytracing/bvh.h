@@ -86,8 +86,8 @@ void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, 
   const std::array<double, 3> origins = {ray.origin.x, ray.origin.y, ray.origin.z};
   const std::array<double, 3> directions = {ray.direction.x, ray.direction.y, ray.direction.z};
   const auto by_axis = [](const auto& value) { return std::array{value(0), value(1), value(2)}; };
-  const auto origin = by_axis([&](std::size_t axis) { return TwoDoubles(origins[axis]); });
-  const auto inverse = by_axis([&](std::size_t axis) { return TwoDoubles(1 / directions[axis]); });
+  const auto origin = by_axis([&](std::size_t axis) { return both(origins[axis]); });
+  const auto inverse = by_axis([&](std::size_t axis) { return both(1 / directions[axis]); });
   // The side where the ray enters a box.
   const auto entrance =
       by_axis([&](std::size_t axis) { return std::size_t{std::signbit(directions[axis])}; });
@@ -105,10 +105,10 @@ void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, 
       for (std::uint32_t i = begin; i < end; ++i) test(ids_[i]);
     } else {
       const Node& node = nodes_[current];
-      TwoDoubles entry(first), leave(limit);
+      TwoDoubles entry = both(first), leave = both(limit);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto distance = [&](std::size_t side) {
-          return (TwoDoubles::from_floats(node.sides[axis][side].data()) - origin[axis]) * inverse[axis];
+          return (from_floats(node.sides[axis][side].data()) - origin[axis]) * inverse[axis];
         };
         // 0 times infinity, on a side of a box, leaves them as they are.
         entry = greater(distance(entrance[axis]), entry);
@@ -116,8 +116,8 @@ void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, 
       }
       const int entered = at_most(entry, leave);
       if (entered == 3) {
-        const std::size_t nearer = entry.second() < entry.first() ? 1 : 0;
-        stack[waiting_count++] = {node.children[1 - nearer], nearer == 0 ? entry.second() : entry.first()};
+        const std::size_t nearer = entry[1] < entry[0] ? 1 : 0;
+        stack[waiting_count++] = {node.children[1 - nearer], nearer == 0 ? entry[1] : entry[0]};
         current = node.children[nearer];
         continue;
       }
