@@ -22,6 +22,11 @@ inline Vec3 difference(const Vec3& a, const Vec3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+/// By coordinate.
+inline Vec3 product(const Vec3& a, const Vec3& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
 inline Vec3 scaled(const Vec3& v, double factor) {
   return {factor * v.x, factor * v.y, factor * v.z};
 }

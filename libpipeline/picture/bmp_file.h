@@ -13,13 +13,12 @@ namespace pipeline {
 /// An InputError naming `path` if the image does not fit into a BMP, which counts its bytes in 32 bits.
 void check_bmp_size(const std::string& path, int columns, int rows);
 
-/// Takes an image row by row, from the top, and writes it as a Windows bitmap: 24 bits per pixel, rows from
-/// the bottom. Blocks of 64 KiB are written at their positions in the file, so that few rows are in memory;
-/// where the file cannot seek (a pipe), the whole image is kept in memory. Failures to write are IoErrors.
+/// Writes a Windows bitmap: 24 bits per pixel, rows from the bottom. Blocks of 64 KiB are written at their
+/// positions in the file, so that few rows are in memory; where the file cannot seek (a pipe), the whole
+/// image is kept in memory.
 class BmpWriter final : public ImageWriter {
  public:
-  /// Writes to a file descriptor, which the caller keeps and closes; `path` names it in messages. Throws like
-  /// check_bmp_size.
+  /// Throws like check_bmp_size.
   BmpWriter(int descriptor, const std::string& path, int columns, int rows);
 
   void write_row(std::span<const Color> colors) override;

@@ -21,17 +21,11 @@ void check_depth_image_name(const std::string& path);
 /// in between, rounded to the nearest integer, halves up.
 std::uint16_t depth_brightness(double depth, const Viewport& screen);
 
-/// Takes the depths of an image row by row, from the top, and writes them as brightness. Failures to write
-/// are IoErrors.
+/// A writer of depths (NDC z) as brightness, as an ImageWriter of colors; `path` chooses the format.
 class DepthImageWriter {
  public:
-  /// Writes to a file descriptor, which the caller keeps and closes; `path` chooses the format and names the
-  /// file in messages.
   DepthImageWriter(int descriptor, const std::string& path, const Viewport& screen);
-
-  /// Takes the depths (NDC z) of the next row, from the left.
   void write_row(std::span<const double> depths);
-  /// Writes the rows still buffered; to be called after the last row.
   void finish();
 
  private:

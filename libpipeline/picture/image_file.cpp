@@ -7,6 +7,7 @@
 #include "libpipeline/picture/bmp_file.h"
 #include "libpipeline/picture/netpbm_file.h"
 #include "libpipeline/picture/png_file.h"
+#include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/error.h"
 
 namespace pipeline {
@@ -89,10 +90,6 @@ const ImageFormat& format_of(const std::string& path) {
   reject_extension(path, "an image file", image_extensions());
 }
 
-char to_lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
 }  // namespace
 
 std::vector<std::string_view> image_extensions() {
@@ -127,9 +124,7 @@ std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& pat
 }
 
 std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), to_lower);
-  return extension;
+  return in_lower_case(std::filesystem::path(path).extension().string());
 }
 
 bool is_device_without_extension(const std::string& path) {

@@ -10,7 +10,8 @@
 
 namespace pipeline {
 
-/// Takes an image row by row, from the top, and writes it in some format. Failures to write are IoErrors.
+/// Takes an image row by row, from the top, and writes it in some format to a file descriptor, which the
+/// caller keeps and closes. Failures to write are IoErrors, which name the file by its path.
 class ImageWriter {
  public:
   ImageWriter() = default;
@@ -43,9 +44,8 @@ void check_image_size(const std::string& path, int columns, int rows);
 /// Whether an image of that name can hold the alpha of its pixels: PNG only.
 bool can_hold_alpha(const std::string& path);
 
-/// Writes an image to a file descriptor, which the caller keeps and closes; `path` chooses the format and
-/// names the file in messages. With alpha only where can_hold_alpha(path); it is straight: colors are not
-/// multiplied by it. Throws like the checks.
+/// The writer of an image, whose format `path` chooses. With alpha only where can_hold_alpha(path); it is
+/// straight: colors are not multiplied by it. Throws like the checks.
 std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows,
                                           bool has_alpha = false);
 

@@ -9,16 +9,12 @@ namespace pipeline {
 /// gray, the high byte first.
 enum class PixelBytes { rgb8, rgba8, gray16 };
 
-/// Takes a binary Netpbm image, a PPM (P6) or a PGM (P5), row by row from the top, and writes it in blocks.
-/// Failures to write are IoErrors.
+/// A writer of bytes, as an ImageWriter of colors (image_file.h): a binary Netpbm image, a PPM (P6) or a PGM
+/// (P5), in blocks.
 class NetpbmWriter {
  public:
-  /// Writes to a file descriptor, which the caller keeps and closes; `path` names it in messages.
   NetpbmWriter(int descriptor, const std::string& path, PixelBytes pixels, int columns, int rows);
-
-  /// Takes the bytes of the next row.
   void write_row(std::span<const unsigned char> bytes);
-  /// Writes the rows still buffered; to be called after the last row.
   void finish();
 
  private:

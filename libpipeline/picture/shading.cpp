@@ -7,10 +7,6 @@
 namespace pipeline {
 namespace {
 
-Vec3 product(const Vec3& a, const Vec3& b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 Vec3 turned_towards(const Vec3& direction, const Vec3& v) {
   return dot(v, direction) < 0 ? scaled(v, -1) : v;
 }

@@ -8,10 +8,6 @@
 namespace pipeline {
 namespace {
 
-Vec3 product(const Vec3& a, const Vec3& b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 double largest(const Vec3& v) {
   return std::max({v.x, v.y, v.z});
 }

@@ -10,17 +10,13 @@ namespace {
 
 constexpr std::string_view kTriangle = "triangle\n", kPush = "push\n", kPop = "pop\n";
 
-bool may_begin_number(char c) {
-  return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
-}
-
 /// The length of a triangle at the beginning of `text` whose keyword and vertices stand on lines of their
 /// own; 0 if there is none.
 std::size_t length_of_triangle(std::string_view text) {
   if (!text.starts_with(kTriangle)) return 0;
   std::size_t end = kTriangle.size();
   for (int vertex = 0; vertex < 3; ++vertex) {
-    if (end >= text.size() || !may_begin_number(text[end])) return 0;
+    if (!begins_like_number(text.substr(std::min(end, text.size()), 1))) return 0;
     end = text.find('\n', end) + 1;
     if (end == 0) return 0;
   }

@@ -11,12 +11,6 @@ char to_lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-std::string in_lower_case(std::string_view word) {
-  std::string lower(word);
-  std::ranges::transform(lower, lower.begin(), to_lower);
-  return lower;
-}
-
 /// The least number of insertions, deletions, replacements and swaps of neighbors that make `b` of `a`, no
 /// letter changed twice.
 std::size_t distance(std::string_view a, std::string_view b) {
@@ -38,6 +32,12 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::string in_lower_case(std::string_view word) {
+  std::string lower(word);
+  std::ranges::transform(lower, lower.begin(), to_lower);
+  return lower;
+}
 
 std::string_view nearest_word(std::string_view found, std::span<const std::string_view> known) {
   constexpr std::size_t kMaxLength = 40;  // no known word is longer

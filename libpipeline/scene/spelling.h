@@ -6,6 +6,8 @@
 
 namespace pipeline {
 
+std::string in_lower_case(std::string_view word);
+
 /// The known word that `found` is most likely meant to be: the nearest, if at most every third letter has to
 /// be inserted, deleted, replaced or swapped with its neighbor; empty if there is none. Upper and lower case
 /// are the same letter. (F. Damerau, A technique for computer detection and correction of spelling errors,

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "libpipeline/numbers/vec_math.h"
+#include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/error.h"
 #include "tools/mesh2scene/lost_digits.h"
 
@@ -45,12 +46,6 @@ double fov_y_degrees(const aiCamera& camera, bool is_gltf) {
   const double fov_y = is_multiple ? fov_x / aspect : 2 * std::atan(std::tan(fov_x / 2) / aspect);
   // Four decimals hide that the file's angle is a float in radians.
   return std::round(degrees(fov_y) * 1e4) / 1e4;
-}
-
-bool ends_with(std::string text, const std::string& end) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-  return text.ends_with(end);
 }
 
 /// The sRGB value of a linear one (IEC 61966-2-1).
@@ -113,7 +108,7 @@ ImportedModel::ImportedModel(const std::string& path, std::unique_ptr<ModelFiles
       notes_.push_back(name() + ":" + lost);
   importer_->SetIOHandler(nullptr);  // which does not delete the former one
   delete opened;
-  is_gltf_ = ends_with(path, ".gltf") || ends_with(path, ".glb");
+  is_gltf_ = in_lower_case(path).ends_with(".gltf") || in_lower_case(path).ends_with(".glb");
   place(*scene_->mRootNode, {});
   if (meshes_.empty()) throw std::runtime_error(name() + ": expected a model with triangles, found none");
   check_vertices();
@@ -171,7 +166,7 @@ void ImportedModel::check_vertices() const {
 
 void ImportedModel::make_normals(double crease_degrees) {
   // The normals in STL are those of flat triangles, also where the surface is round.
-  const bool drops_normals = ends_with(path_, ".stl");
+  const bool drops_normals = in_lower_case(path_).ends_with(".stl");
   for (const PlacedMesh& placed : meshes_)
     if ((drops_normals || !placed.mesh->HasNormals()) && !made_normals_.contains(placed.mesh))
       made_normals_[placed.mesh] = smooth_normals(*placed.mesh, crease_degrees);
@@ -286,7 +281,7 @@ const aiMaterial* ImportedModel::material(const aiMesh& mesh) const {
   const bool has_name = material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS;
   // assimp's material for meshes without one: white and without a name for PLY, the last for glTF.
   const bool is_default = (has_name && name == aiString(AI_DEFAULT_MATERIAL_NAME)) ||
-                          (!has_name && ends_with(path_, ".ply")) ||
+                          (!has_name && in_lower_case(path_).ends_with(".ply")) ||
                           (is_gltf_ && mesh.mMaterialIndex + 1 == scene_->mNumMaterials);
   return is_default ? nullptr : &material;
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "libpipeline/numbers/bounding_box.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/number_parser.h"
@@ -109,12 +110,9 @@ const char* name_of(UpAxis axis) {
 
 /// "it reaches from X Y Z to X Y Z (--at looks elsewhere, --zoom closer)", with four digits.
 std::string extent_of(const ImportedModel& model) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low = {kInfinity, kInfinity, kInfinity}, high = {-kInfinity, -kInfinity, -kInfinity};
-  model.for_each_corner([&](const Vec3& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  });
+  BoundingBox box;
+  model.for_each_corner([&](const Vec3& p) { box.add(Triangle{p, p, p}); });
+  const auto& [low, high] = box;
   std::array<char, 128> text{};
   std::snprintf(text.data(), text.size(), "it reaches from %.4g %.4g %.4g to %.4g %.4g %.4g", low.x, low.y,
                 low.z, high.x, high.y, high.z);
