@@ -1,6 +1,6 @@
 #include "tools/trace/ray_report.h"
 
-#include <string_view>
+#include <array>
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/raytracing/ray_log.h"
@@ -9,19 +9,7 @@
 namespace pipeline {
 namespace {
 
-std::string_view name_of(RayKind kind) {
-  switch (kind) {
-    case RayKind::primary:
-      return "primary";
-    case RayKind::shadow:
-      return "shadow";
-    case RayKind::mirrored:
-      return "mirrored";
-    case RayKind::refracted:
-      break;
-  }
-  return "refracted";
-}
+constexpr std::array kNames = {"primary", "shadow", "mirrored", "refracted"};  // by RayKind
 
 std::string to_text(const Vec3& v) {
   return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
@@ -36,7 +24,9 @@ std::string target_of(const RayLog::Entry& entry) {
 
 std::string to_text(const RayLog::Entry& entry) {
   std::string text(2 * static_cast<std::size_t>(entry.depth), ' ');
-  text.append(name_of(entry.kind)).append(" weight ").append(shortest_text(entry.weight));
+  text.append(kNames[static_cast<std::size_t>(entry.kind)])
+      .append(" weight ")
+      .append(shortest_text(entry.weight));
   text.append(" from ").append(to_text(entry.origin));
   if (entry.is_cut) return text + " cut";
   return text + " to " + target_of(entry) + " brings " + to_text(entry.brought);

@@ -1,9 +1,10 @@
 #include "tools/trace/rendering.h"
 
-#include <functional>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libpipeline/raytracing/ray_caster.h"
@@ -11,45 +12,18 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "tools/rim/empty_picture_note.h"
-#include "tools/trace/light_colors.h"
 #include "tools/trace/ray_report.h"
-#include "tools/trace/surface_colors.h"
+#include "tools/trace/sample_colors.h"
 #include "tools/trace/trace_work.h"
 #include "tools/trace/traced_picture.h"
 #include "tools/trace/traced_scene.h"
 #include "tools/zbuf/fragment_report.h"
-#include "tools/zbuf/image_rows.h"
-#include "tools/zbuf/pixel_files.h"
+#include "tools/zbuf/picture_outputs.h"
 #include "tools/zbuf/screen.h"
 #include "tools/zbuf/surface_shading.h"
 
 namespace pipeline {
 namespace {
-
-/// One of `Colors` for each worker of a pool, made by the worker itself.
-template <typename Colors>
-class WorkersColors {
- public:
-  using Maker = std::function<std::unique_ptr<Colors>()>;
-
-  WorkersColors(const ThreadPool& pool, Maker maker)
-      : maker_(std::move(maker)), workers_(static_cast<std::size_t>(pool.size())) {}
-
-  SampleColors& operator()(int worker) {
-    auto& colors = workers_[static_cast<std::size_t>(worker)];
-    if (!colors) colors = maker_();
-    return *colors;
-  }
-  template <typename Visitor>
-  void for_each(Visitor&& visit) const {
-    for (const auto& colors : workers_)
-      if (colors) visit(*colors);
-  }
-
- private:
-  Maker maker_;
-  std::vector<std::unique_ptr<Colors>> workers_;
-};
 
 PictureRays rays_of(const TraceOptions& chosen) {
   const ZbufOptions& picture = chosen.picture;
@@ -65,21 +39,13 @@ PictureRays rays_of(const TraceOptions& chosen) {
 
 /// Writes image and depths.
 void write_all(Tool& tool, const ZbufOptions& chosen, const TracedPicture& picture, Color background) {
-  const Viewport& screen = picture.screen;
-  ImageRows image(chosen.image_path, screen, 1, background);
-  PixelFiles pixels(tool.output(), chosen, screen);
-  for (int row = 0; row < screen.rows; ++row) {
-    if (!picture.depths.empty()) pixels.write_depths(picture.row_of(picture.depths, row));
-    if (pixels.wants_triangles()) pixels.write_triangles(picture.row_of(picture.triangles, row));
-    if (image.is_wanted()) image.write_row(picture.row_of(picture.colors, row));
+  PictureOutputs outputs(tool, chosen, picture.screen, 1, background);
+  for (int row = 0; row < picture.screen.rows; ++row) {
+    if (!picture.depths.empty()) outputs.write_depths(picture.row_of(picture.depths, row));
+    if (outputs.wants_triangles()) outputs.write_triangles(picture.row_of(picture.triangles, row));
+    if (outputs.wants_colors()) outputs.write_colors(picture.row_of(picture.colors, row));
   }
-  pixels.close();
-  image.close();
-  tool.close_output();
-  image.commit();
-  pixels.commit();
-  if (chosen.summarizes) Tool::report(summary(chosen.image_path, screen, picture.covered_count));
-  tool.timing().lap(&Timing::write_seconds);
+  outputs.finish(picture.covered_count);
 }
 
 /// Why triangles do not show: the notes of `project` and of `zbuf`.
@@ -128,29 +94,25 @@ void trace(Tool& tool, const TraceOptions& chosen, const Viewport& screen, Stati
   ThreadPool pool(chosen.thread_count());
   std::vector<std::string> probe_lines;
   const TracedPicture picture = [&] {
-    Stopwatch watch;
+    auto last = std::chrono::steady_clock::now();
+    const auto lap = [&] {
+      const auto now = std::chrono::steady_clock::now();
+      return std::chrono::duration<double>(now - std::exchange(last, now)).count();
+    };
     const ProjectionTransform& projection = scene.projection();
     const TracedTriangles& triangles = scene.triangles();
     const Bvh bvh = hierarchy_of(triangles, PixelRays(projection, screen), pool,
                                  casts_any_rays ? RaysOfBoxes::any : RaysOfBoxes::primary);
     const LightTransport transport(triangles, bvh, setup);
-    work.build_seconds = watch.lap();
+    work.build_seconds = lap();
 
-    WorkersColors<SurfaceColors> surface_colors(
-        pool, [&] { return std::make_unique<SurfaceColors>(scene, shader ? &*shader : nullptr); });
-    WorkersColors<LightColors> light_colors(pool, [&] {
-      return std::make_unique<LightColors>(transport, projection, places.screen(), background);
-    });
-    const ColorsOfWorker colors =
-        traces_light ? ColorsOfWorker(std::ref(light_colors)) : ColorsOfWorker(std::ref(surface_colors));
-    TracedPicture all = traced_picture(scene, bvh, screen, places, rays, background, colors, pool, work);
-    light_colors.for_each([&](const LightColors& light) {
-      light.add_to(work);
-      shown_light.add(light.shown());
-    });
-    if (shader)
-      surface_colors.for_each([&](const SurfaceColors& surface) { shader->add_shown(surface.shown()); });
-    work.cast_seconds = watch.lap();
+    const PixelRays sample_rays(projection, places.screen());
+    const auto make_colors = [&]() -> std::unique_ptr<SampleColors> {
+      if (!traces_light) return std::make_unique<SurfaceColors>(scene, shader ? &*shader : nullptr);
+      return std::make_unique<LightColors>(transport, sample_rays, background, work, shown_light);
+    };
+    TracedPicture all = traced_picture(scene, bvh, screen, places, rays, background, make_colors, pool, work);
+    work.cast_seconds = lap();
     for (const Pixel& pixel : probed)
       for (const std::string& line :
            ray_lines(pixel, {triangles, bvh, projection, screen}, transport, PixelRays(projection, screen)))

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     ZbufOptions& picture = chosen.picture;
-    chosen.complete(::isatty(STDOUT_FILENO) == 1);
+    chosen.complete(tool.options(), ::isatty(STDOUT_FILENO) == 1);
     const NamedFile config = config_of(tool, picture);
     tool.expect_separate(outputs_of(picture, statistics), {config, chosen.projection->scene()});
     const Viewport screen = read_screen(tool, picture, config);

@@ -1,6 +1,7 @@
 #include "tools/trace/trace_options.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <thread>
 
@@ -12,19 +13,7 @@ namespace {
 constexpr int kMaxThreads = 256;
 constexpr int kSamplesOfSampling = 5;
 
-std::string name_of(Sampling sampling) {
-  switch (sampling) {
-    case Sampling::basic:
-      return "basic";
-    case Sampling::regular:
-      return "regular";
-    case Sampling::jittered:
-      return "jittered";
-    case Sampling::adaptive:
-      break;
-  }
-  return "adaptive";
-}
+constexpr std::array kSamplings = {"basic", "regular", "jittered", "adaptive"};  // by Sampling
 constexpr int kMaxDepth = 1000;  // what a thread's stack has room for
 
 }  // namespace
@@ -40,10 +29,10 @@ TraceOptions::TraceOptions(CommandLine& options) {
   options.begin_group("Pixels");
   options.add_choice<std::optional<Sampling>>(
       "--sampling", sampling,
-      {{name_of(Sampling::basic), Sampling::basic},
-       {name_of(Sampling::regular), Sampling::regular},
-       {name_of(Sampling::jittered), Sampling::jittered},
-       {name_of(Sampling::adaptive), Sampling::adaptive}},
+      {{kSamplings[0], Sampling::basic},
+       {kSamplings[1], Sampling::regular},
+       {kSamplings[2], Sampling::jittered},
+       {kSamplings[3], Sampling::adaptive}},
       "Where the rays of a pixel go. basic: one through its center; regular: through the centers of N x N "
       "cells, as in zbuf; jittered: through a random point of each cell, the same in every run; adaptive: as "
       "jittered, but where the cells in the corners and in the middle look alike, through these alone. "
@@ -56,7 +45,6 @@ TraceOptions::TraceOptions(CommandLine& options) {
       "--threshold", threshold, 0, 255,
       "With --sampling adaptive: the first samples of a pixel are alike if no channel differs by "
       "this much; 0 takes all samples; N");
-  picture.sample_count = threshold = kNotGiven;
   options.add_whole("--threads", picture.thread_count, 0, kMaxThreads,
                     "How many threads trace rays, 0 for one on every core");
   options.begin_group("Color and light");
@@ -79,18 +67,18 @@ TraceOptions::TraceOptions(CommandLine& options) {
   picture.add_framed(options);
 }
 
-void TraceOptions::complete(bool is_terminal) {
+void TraceOptions::complete(const CommandLine& options, bool is_terminal) {
   picture.complete(is_terminal);
-  if (picture.sample_count == kNotGiven)
-    picture.sample_count = sampling && *sampling != Sampling::basic ? kSamplesOfSampling : 1;
+  if (!options.is_given("--samples") && sampling && *sampling != Sampling::basic)
+    picture.sample_count = kSamplesOfSampling;
   if (sampling == Sampling::basic && picture.sample_count > 1)
     throw UsageError("--samples: " + expected_but_found("1 with --sampling basic, which has one ray a pixel",
                                                         "'" + std::to_string(picture.sample_count) + "'"));
-  if (threshold == kNotGiven)
-    threshold = default_threshold_;
-  else if (sampling != Sampling::adaptive)
-    throw UsageError("--threshold: " + expected_but_found("--sampling adaptive, which alone has one",
-                                                          sampling ? name_of(*sampling) : "no --sampling"));
+  if (options.is_given("--threshold") && sampling != Sampling::adaptive)
+    throw UsageError(
+        "--threshold: " +
+        expected_but_found("--sampling adaptive, which alone has one",
+                           sampling ? kSamplings[static_cast<std::size_t>(*sampling)] : "no --sampling"));
 }
 
 int TraceOptions::thread_count() const {

@@ -17,7 +17,7 @@ struct TraceOptions {
 
   /// Chooses the options that depend on others, and on whether standard output is a terminal. A UsageError if
   /// options exclude each other.
-  void complete(bool is_terminal);
+  void complete(const CommandLine& options, bool is_terminal);
   /// At least 1.
   [[nodiscard]] int thread_count() const;
 
@@ -29,10 +29,6 @@ struct TraceOptions {
   bool without_recursion = false;
   double min_contribution = 1.0 / 510;
   int max_depth = 32;
-
- private:
-  static constexpr int kNotGiven = -1;
-  const int default_threshold_ = threshold;
 };
 
 }  // namespace pipeline

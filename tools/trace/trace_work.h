@@ -1,9 +1,7 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
-#include <utility>
 
 #include "libpipeline/raytracing/light_transport.h"
 
@@ -20,17 +18,5 @@ struct TraceWork {
 
 /// The line of `--timing`.
 std::string to_text(const TraceWork& work);
-
-class Stopwatch {
- public:
-  /// The seconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace pipeline

@@ -50,8 +50,8 @@ struct Shared {
 /// The rays of one thread.
 class PixelTracer {
  public:
-  PixelTracer(const Shared& shared, SampleColors& colors)
-      : shared_(shared), colors_(colors), centers_(shared.centers), samples_(shared.samples) {}
+  PixelTracer(const Shared& shared, std::unique_ptr<SampleColors> colors)
+      : shared_(shared), colors_(std::move(colors)), centers_(shared.centers), samples_(shared.samples) {}
 
   void trace(int row, int column, std::size_t pixel, TracedPicture& picture) {
     if (shared_.casts_centers) {
@@ -61,11 +61,12 @@ class PixelTracer {
         if (shared_.rays.has_depths) picture.depths[pixel] = seen->depth;
         if (shared_.rays.has_triangles)
           picture.triangles[pixel] = static_cast<std::int64_t>(shared_.triangles.number(seen->id));
-        if (shared_.shows_centers) picture.colors[pixel] = colors_.color(row, column, *seen);
+        if (shared_.shows_centers) picture.colors[pixel] = colors_->color(row, column, *seen);
       }
     }
     if (shared_.rays.has_colors && !shared_.shows_centers) picture.colors[pixel] = mean_of(row, column);
   }
+  [[nodiscard]] const SampleColors& colors() const { return *colors_; }
   [[nodiscard]] std::uint64_t ray_count() const { return ray_count_; }
   [[nodiscard]] std::uint64_t covered_count() const { return covered_count_; }
   [[nodiscard]] std::uint64_t exact_count() const { return centers_.exact_count() + samples_.exact_count(); }
@@ -93,12 +94,12 @@ class PixelTracer {
     for (const int sample : samples) {
       const auto place = shared_.places.of(row, column, sample);
       const auto seen = samples_.cast(place.row, place.column, false);
-      visit(seen ? colors_.color(place.row, place.column, *seen) : shared_.background);
+      visit(seen ? colors_->color(place.row, place.column, *seen) : shared_.background);
     }
   }
 
   const Shared& shared_;
-  SampleColors& colors_;
+  std::unique_ptr<SampleColors> colors_;
   RayCaster::Thread centers_;
   RayCaster::Thread samples_;
   std::uint64_t ray_count_ = 0;
@@ -109,7 +110,7 @@ class PixelTracer {
 
 TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
                              const SamplePlaces& places, const PictureRays& rays, Color background,
-                             const ColorsOfWorker& colors, ThreadPool& pool, TraceWork& work) {
+                             const ColorsMaker& make_colors, ThreadPool& pool, TraceWork& work) {
   TracedPicture picture(screen);
   const std::size_t pixel_count =
       static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns);
@@ -137,7 +138,7 @@ TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Vie
   std::atomic<int> tile_count = 0;
   pool.start(tiles.count(), [&](int tile, int worker) {
     auto& tracer = tracers[static_cast<std::size_t>(worker)];
-    if (!tracer) tracer = std::make_unique<PixelTracer>(shared, colors(worker));
+    if (!tracer) tracer = std::make_unique<PixelTracer>(shared, make_colors());
     const std::uint64_t before = tracer->ray_count();
     tiles.for_each_pixel(
         tile, [&](int row, int column, std::size_t pixel) { tracer->trace(row, column, pixel, picture); });
@@ -151,6 +152,7 @@ TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Vie
     if (!tracer) continue;
     work.exact_decisions += tracer->exact_count();
     picture.covered_count += tracer->covered_count();
+    tracer->colors().add_up();
   }
   return picture;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -44,13 +45,13 @@ struct TracedPicture {
   std::uint64_t covered_count = 0;      // of pixels whose center shows something; 0 if that is not requested
 };
 
-/// The colors for each worker of a pool.
-using ColorsOfWorker = std::function<SampleColors&(int worker)>;
+/// Makes the colors of a thread, in that thread.
+using ColorsMaker = std::function<std::unique_ptr<SampleColors>()>;
 
 /// Casts the rays of a picture. The places of its samples are those of `places`, on whose screen the colors
 /// are calculated. Neither picture nor work depends on the number of threads.
 TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
                              const SamplePlaces& places, const PictureRays& rays, Color background,
-                             const ColorsOfWorker& colors, ThreadPool& pool, TraceWork& work);
+                             const ColorsMaker& make_colors, ThreadPool& pool, TraceWork& work);
 
 }  // namespace pipeline

@@ -71,17 +71,11 @@ class AllEdgesOf final : public AllEdges {
   PixelTag last_id_ = 0;
 };
 
-template <typename CoverageRule, typename Depth>
-std::unique_ptr<AllEdges> edges_of(const ZbufOptions& chosen, const Viewport& screen) {
-  return std::make_unique<AllEdgesOf<CoverageRule, Depth>>(screen, chosen.depth_epsilon);
-}
-
 }  // namespace
 
 std::unique_ptr<AllEdges> all_edges(const ZbufOptions& chosen, const Viewport& screen) {
   if (!chosen.has_all_edges || !chosen.has_image()) return nullptr;
-  return dispatch(chosen,
-                  [&]<typename Rule, typename Depth>() { return edges_of<Rule, Depth>(chosen, screen); });
+  return made_for<AllEdges, AllEdgesOf>(chosen, screen, chosen.depth_epsilon);
 }
 
 }  // namespace pipeline

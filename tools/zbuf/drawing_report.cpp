@@ -50,18 +50,11 @@ class ReportOf final : public DrawingReport {
   std::optional<DrawingCounter<CoverageRule, Depth>> counter_;
 };
 
-template <typename CoverageRule, typename Depth>
-std::unique_ptr<DrawingReport> report_of(const ZbufOptions& chosen, const Viewport& screen, bool counts) {
-  return std::make_unique<ReportOf<CoverageRule, Depth>>(chosen, screen, counts);
-}
-
 }  // namespace
 
 std::unique_ptr<DrawingReport> drawing_report(const ZbufOptions& chosen, const Viewport& screen,
                                               bool counts) {
-  return dispatch(chosen, [&]<typename Rule, typename Depth>() {
-    return report_of<Rule, Depth>(chosen, screen, counts);
-  });
+  return made_for<DrawingReport, ReportOf>(chosen, chosen, screen, counts);
 }
 
 }  // namespace pipeline

@@ -93,11 +93,6 @@ class FragmentReportOf final : public FragmentReport {
   std::optional<LogFile> file_;
 };
 
-template <typename CoverageRule, typename Depth>
-std::unique_ptr<FragmentReport> report_of(const ZbufOptions& chosen, const Viewport& screen) {
-  return std::make_unique<FragmentReportOf<CoverageRule, Depth>>(chosen, screen);
-}
-
 }  // namespace
 
 std::vector<Pixel> probed_pixels(const ZbufOptions& chosen, const Viewport& screen) {
@@ -108,8 +103,7 @@ std::vector<Pixel> probed_pixels(const ZbufOptions& chosen, const Viewport& scre
 
 std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen) {
   if (chosen.probes.empty() && chosen.fragments_path.empty()) return nullptr;
-  return dispatch(chosen,
-                  [&]<typename Rule, typename Depth>() { return report_of<Rule, Depth>(chosen, screen); });
+  return made_for<FragmentReport, FragmentReportOf>(chosen, chosen, screen);
 }
 
 }  // namespace pipeline

@@ -22,10 +22,8 @@
 #include "tools/zbuf/all_edges.h"
 #include "tools/zbuf/drawing_report.h"
 #include "tools/zbuf/fragment_report.h"
-#include "tools/zbuf/image_rows.h"
-#include "tools/zbuf/pixel_files.h"
+#include "tools/zbuf/picture_outputs.h"
 #include "tools/zbuf/screen.h"
-#include "tools/zbuf/seen_file.h"
 #include "tools/zbuf/surface_shading.h"
 #include "tools/zbuf/triangle_store.h"
 
@@ -170,70 +168,45 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore
       tool, reader, report, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
-/// The colors of rows of pixels, or of samples, from their tags.
-class RowColors {
- public:
-  RowColors(TriangleStore& store, std::optional<SurfaceShader>& shader, AllEdges* edges, int first_row)
-      : store_(store), shader_(shader), edges_(edges), row_number_(first_row) {}
-
-  /// Those of the next row, valid until the next call.
-  std::span<const Color> next(std::span<const PixelTag> tags) {
-    if (edges_ != nullptr) tags = edges_->row(row_number_, *shader_->setup().wireframe);
-    if (shader_) return shader_->shade(row_number_++, tags);
-    colors_.resize(tags.size());
-    store_.color(tags, colors_);
-    return colors_;
-  }
-
- private:
-  TriangleStore& store_;
-  std::optional<SurfaceShader>& shader_;
-  AllEdges* edges_;
-  std::vector<Color> colors_;
-  int row_number_;  // of the samples
-};
-
 template <VisibilityAlgorithm Visible>
 void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
                const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader,
                AllEdges* edges) {
   const Viewport& screen = visible.center_screen;
-  ImageRows image(chosen.image_path, screen, chosen.sample_count, store.background_color());
-  RowColors colors(store, shader, edges, chosen.sample_count * screen.drawn_rows().first);
-  PixelFiles pixels(tool.output(), chosen, screen);
+  PictureOutputs outputs(tool, chosen, screen, chosen.sample_count, store.background_color());
+  int row_number = chosen.sample_count * screen.drawn_rows().first;  // of the samples
+  std::vector<Color> plain_colors;
+  const auto write_colors = [&](std::span<const PixelTag> tags) {
+    if (!outputs.wants_colors()) return;
+    if (edges != nullptr) tags = edges->row(row_number, *shader->setup().wireframe);
+    if (shader) return outputs.write_colors(shader->shade(row_number++, tags));
+    plain_colors.resize(tags.size());
+    store.color(tags, plain_colors);
+    outputs.write_colors(plain_colors);
+  };
   std::vector<std::int64_t> numbers;
-  std::optional<SeenFile> seen_file;
-  if (store.keeps_text()) seen_file.emplace(tool.output(), chosen.seen_path);
   KeptIds seen(store.id_count());
   const auto mark = [&](std::span<const PixelTag> tags) {
-    if (seen_file) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
+    if (outputs.seen() != nullptr) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
   };
   std::uint64_t covered_count = 0;
   visible.centers.for_each_row([&](const VisibleRow& row) {
     mark(row.tags);
-    pixels.write_depths(row.depths);
-    if (pixels.wants_triangles()) pixels.write_triangles(store.numbers_of(row.tags, numbers));
+    outputs.write_depths(row.depths);
+    if (outputs.wants_triangles()) outputs.write_triangles(store.numbers_of(row.tags, numbers));
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
-    if (!visible.samples && image.is_wanted()) image.write_row(colors.next(row.tags));
+    if (!visible.samples) write_colors(row.tags);
   });
   if (visible.samples) {
     visible.samples->for_each_row([&](const VisibleRow& row) {
       mark(row.tags);
-      if (image.is_wanted()) image.write_row(colors.next(row.tags));
+      write_colors(row.tags);
     });
   }
-  if (seen_file) seen_file->write(reader, store, seen);
-  pixels.close();
-  image.close();
-  if (seen_file) seen_file->close();
-  tool.close_output();
-  image.commit();
-  pixels.commit();
-  if (seen_file) seen_file->commit();
-  if (chosen.summarizes) Tool::report(summary(chosen.image_path, screen, covered_count));
-  tool.timing().lap(&Timing::write_seconds);
+  if (outputs.seen() != nullptr) store.write_seen(*outputs.seen(), reader, seen);
+  outputs.finish(covered_count);
 }
 
 /// That the picture is empty, or squeezed. The note is about the whole picture; a band of it may well show

@@ -63,9 +63,11 @@ void TriangleStore::add_texts(const TriangleBatch& p_ndc, KeptIds::Id first_id,
   last_number_ = numbers[last];
 }
 
-void TriangleStore::write_texts(TextWriter& text, KeptIds& seen) const {
+void TriangleStore::write_seen(TextWriter& text, const StageReader& reader, KeptIds& seen) const {
+  text.append(reader.header_text());
   texts_->complete(seen, false);
   texts_->write(text, seen);
+  if (reader.header().framed) text.append("end\n");
 }
 
 /// Keeps the last triangle, too: the next may be another piece of it.

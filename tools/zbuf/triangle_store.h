@@ -11,6 +11,7 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/chunked_array.h"
 #include "libpipeline/stream/kept_ids.h"
+#include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/text_store.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "tools/zbuf/all_edges.h"
@@ -71,8 +72,8 @@ class TriangleStore {
   [[nodiscard]] bool keeps_text() const { return texts_.has_value(); }
   /// Ids are less.
   [[nodiscard]] std::size_t id_count() const { return next_id_; }
-  /// Writes the texts of the triangles that are seen, all pieces of each.
-  void write_texts(TextWriter& text, KeptIds& seen) const;
+  /// Writes a stage text of the triangles that are seen, all pieces of each, with the header as it was read.
+  void write_seen(TextWriter& text, const StageReader& reader, KeptIds& seen) const;
 
   /// True if it is time to let go of triangles.
   [[nodiscard]] bool is_full() const {

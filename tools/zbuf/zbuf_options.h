@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -86,6 +87,20 @@ decltype(auto) dispatch(const ZbufOptions& chosen, Visitor&& visit) {
         return visit.template operator()<Rule, Depth>();
       },
       chosen.coverage, chosen.depth);
+}
+
+template <typename Interface, template <typename, typename> typename Of, typename Rule, typename Depth,
+          typename... Arguments>
+std::unique_ptr<Interface> made(const Arguments&... arguments) {
+  return std::make_unique<Of<Rule, Depth>>(arguments...);
+}
+/// The Of<Rule, Depth> for the coverage rule and the depth format chosen: made in a function of its own, as
+/// clang 14 loses members of a class that is first named in a visitor.
+template <typename Interface, template <typename, typename> typename Of, typename... Arguments>
+std::unique_ptr<Interface> made_for(const ZbufOptions& chosen, const Arguments&... arguments) {
+  return dispatch(chosen, [&]<typename Rule, typename Depth>() {
+    return made<Interface, Of, Rule, Depth>(arguments...);
+  });
 }
 
 /// Adds an option that takes the name of one type of a list; its help ends with a line for each.

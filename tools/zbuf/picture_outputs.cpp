@@ -1,0 +1,74 @@
+#include "tools/zbuf/picture_outputs.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "libpipeline/picture/depth_text.h"
+
+namespace pipeline {
+namespace {
+
+/// "out.bmp: 400 x 300, 61 % covered". Only an empty picture has 0 %, only a full one 100 %.
+std::string summary(const std::string& image_path, const Viewport& screen, std::uint64_t covered_count) {
+  const std::uint64_t pixel_count = std::uint64_t(screen.columns) * std::uint64_t(screen.drawn_row_count());
+  std::uint64_t percent = (200 * covered_count / pixel_count + 1) / 2;  // rounded half up
+  if (covered_count > 0 && covered_count < pixel_count) percent = std::clamp<std::uint64_t>(percent, 1, 99);
+  return image_path + ": " + std::to_string(screen.columns) + " x " +
+         std::to_string(screen.drawn_row_count()) + ", " + std::to_string(percent) + " % covered";
+}
+
+}  // namespace
+
+PictureOutputs::PictureOutputs(Tool& tool, const ZbufOptions& chosen, const Viewport& screen,
+                               int sample_count, Color background)
+    : tool_(tool), chosen_(chosen), screen_(screen) {
+  if (chosen.has_image()) {
+    image_ = image_writer(opened(image_file_of(chosen.image_path)), chosen.image_path, screen.columns,
+                          screen.drawn_row_count(), !background.is_opaque());
+    if (sample_count > 1) means_.emplace(screen.columns, sample_count, background);
+  }
+  if (chosen.z_buffer_path != "none") depths_ = text_writer(chosen.z_buffer_path, depth_file_);
+  const auto open = [&](const std::string& path, auto& writer) {
+    if (!path.empty()) writer.emplace(opened(path), path, screen);
+  };
+  open(chosen.depth_image_path, depth_image_);
+  open(chosen.depth_array_path, depth_array_);
+  open(chosen.triangle_array_path, triangles_);
+  if (!chosen.seen_path.empty()) seen_ = text_writer(chosen.seen_path, seen_file_);
+}
+
+TextWriter* PictureOutputs::text_writer(const std::string& path, std::optional<TextWriter>& of_file) {
+  return path == "-" ? &tool_.output() : &of_file.emplace(opened(path), path);
+}
+
+void PictureOutputs::write_colors(std::span<const Color> colors) {
+  if (!means_) return image_->write_row(colors);
+  if (const auto complete = means_->add(colors)) image_->write_row(*complete);
+}
+
+void PictureOutputs::write_depths(std::span<const double> depths) {
+  if (depths_ != nullptr) write_depth_row(*depths_, depths, screen_.rear);
+  if (depth_image_) depth_image_->write_row(depths);
+  if (!depth_array_) return;
+  array_row_.assign(depths.begin(), depths.end());
+  std::ranges::replace_if(
+      array_row_, [this](double depth) { return !(depth < screen_.rear); },
+      std::numeric_limits<double>::quiet_NaN());
+  depth_array_->write_row(array_row_);
+}
+
+void PictureOutputs::finish(std::uint64_t covered_count) {
+  if (seen_ != nullptr) seen_->flush();
+  if (depths_ != nullptr) depths_->flush();
+  if (depth_image_) depth_image_->finish();
+  if (depth_array_) depth_array_->finish();
+  if (triangles_) triangles_->finish();
+  if (image_) image_->finish();
+  for (OutputFile& file : files_) file.close();
+  tool_.close_output();
+  for (OutputFile& file : files_) file.commit();
+  if (chosen_.summarizes) Tool::report(summary(chosen_.image_path, screen_, covered_count));
+  tool_.timing().lap(&Timing::write_seconds);
+}
+
+}  // namespace pipeline

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libpipeline/picture/depth_image.h"
+#include "libpipeline/picture/image_file.h"
+#include "libpipeline/picture/pixel_array.h"
+#include "libpipeline/picture/supersampling.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/scene/viewport.h"
+#include "libpipeline/text/output_file.h"
+#include "libpipeline/text/text_writer.h"
+#include "tools/rim/tool.h"
+#include "tools/zbuf/zbuf_options.h"
+
+namespace pipeline {
+
+/// What a run writes of its picture, as far as each is requested: the image, the depths, as text to standard
+/// output or a file, as an image and an array, the array of the triangles seen, and the text of `--seen`.
+/// Opens all at once; closes them, and standard output, before the first gets its name.
+class PictureOutputs {
+ public:
+  /// The image takes the colors of `sample_count` x `sample_count` samples a pixel. A background that is not
+  /// opaque needs an image that can_hold_alpha.
+  PictureOutputs(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, int sample_count,
+                 Color background);
+
+  [[nodiscard]] bool wants_colors() const { return image_ != nullptr; }
+  [[nodiscard]] bool wants_triangles() const { return triangles_.has_value(); }
+  /// Where the text of `--seen` goes; null if there is none.
+  [[nodiscard]] TextWriter* seen() { return seen_; }
+  // Each takes the next row, from the top.
+  void write_colors(std::span<const Color> colors);
+  void write_depths(std::span<const double> depths);
+  /// The numbers of triangles, if they are wanted.
+  void write_triangles(std::span<const std::int64_t> numbers) { triangles_->write_row(numbers); }
+  /// Writes all that is still buffered, closes and commits the files. Where the run summarizes, reports how
+  /// many pixels are covered.
+  void finish(std::uint64_t covered_count);
+
+ private:
+  int opened(const std::string& path) { return files_.emplace_back(path).descriptor(); }
+  TextWriter* text_writer(const std::string& path, std::optional<TextWriter>& of_file);
+
+  Tool& tool_;
+  const ZbufOptions& chosen_;
+  Viewport screen_;
+  std::deque<OutputFile> files_;
+  std::unique_ptr<ImageWriter> image_;
+  std::optional<Downsampler> means_;
+  std::optional<TextWriter> depth_file_, seen_file_;
+  TextWriter* depths_ = nullptr;  // standard output or that of the file; null: none
+  TextWriter* seen_ = nullptr;    // likewise
+  std::optional<DepthImageWriter> depth_image_;
+  std::optional<PixelArrayWriter<double>> depth_array_;
+  std::vector<double> array_row_;
+  std::optional<PixelArrayWriter<std::int64_t>> triangles_;
+};
+
+}  // namespace pipeline
