@@ -8,13 +8,12 @@
 namespace pipeline {
 namespace {
 
-/// CornerWeights::area at a pixel's center, which is no double, exactly but for one rounding; times the count
-/// of pixels. `are_divided`: by w, so x and y are in NDC.
-Ball exact_area(const Vec3& p, const Vec3& q, const PixelGrid& grid, const PixelCenter& pixel,
-                bool are_divided) {
+/// Twice the signed area that p and q make with a pixel's center, which is no double, exactly but for one
+/// rounding; times the count of pixels. `are_divided`: by w, so x and y are in NDC.
+Ball exact_area(const Vec3& p, const Vec3& q, const PixelGrid& grid, int row, int column, bool are_divided) {
   const double columns = grid.columns, rows = grid.rows;
-  const double right = 2.0 * pixel.column + 1 - columns,
-               up = rows - 2.0 * pixel.row - 1;  // in half pixels, from the middle
+  const double right = 2.0 * column + 1 - columns,
+               up = rows - 2.0 * row - 1;  // in half pixels, from the middle
   const double p_w = are_divided ? 1 : p.z, q_w = are_divided ? 1 : q.z;
   const double x_unit = rows * right, y_unit = columns * up;
   const Ball area = exact_sum({{columns * rows, p.x, q.y},
@@ -49,7 +48,8 @@ CornerWeights::CornerWeights(const PixelGrid& grid, const ClipTriangle& corners,
     : scaled_(screen_corners_of(corners, are_divided)), are_divided_(are_divided) {
   for (std::size_t v = 0; v < 3; ++v)
     corners_[v] = {corners[v].position.x, corners[v].position.y, corners[v].w};
-  are_plain_ = are_divided && are_plain(grid);
+  const auto& [a, b, c] = scaled_;
+  doubt_ = are_divided && are_plain(grid) ? -1 : terms(a, b, grid) + terms(b, c, grid) + terms(c, a, grid);
 }
 
 /// The error of an area is within 2^-48 of its two w times the largest coordinate times the length of an
@@ -64,15 +64,10 @@ bool CornerWeights::are_plain(const PixelGrid& grid) const {
   return reach * length * largest_w <= 0x1p13 * std::fabs(ab.x * ac.y - ab.y * ac.x) * least_w;
 }
 
-bool CornerWeights::are_certain(const PixelGrid& grid, double sum) const {
-  const auto& [a, b, c] = scaled_;
-  return std::fabs(sum) * 0x1p16 > terms(a, b, grid) + terms(b, c, grid) + terms(c, a, grid);
-}
-
 // L3
-CornerWeights::Weights CornerWeights::exactly_at(const PixelGrid& grid, const PixelCenter& pixel) const {
+CornerWeights::Weights CornerWeights::exactly_at(const PixelGrid& grid, int row, int column) const {
   const auto area = [&](std::size_t p, std::size_t q) {
-    return exact_area(corners_[p], corners_[q], grid, pixel, are_divided_);
+    return exact_area(corners_[p], corners_[q], grid, row, column, are_divided_);
   };
   std::array<Ball, 3> weights = {area(1, 2), area(2, 0), area(0, 1)};
   const bool is_negative = (weights[0] + weights[1] + weights[2]).sign() < 0;
@@ -81,8 +76,9 @@ CornerWeights::Weights CornerWeights::exactly_at(const PixelGrid& grid, const Pi
     if (weight.sign() < 0) weight = Ball(0);
   }
   if (std::ranges::all_of(weights, &Ball::is_exact_zero)) return {1, 0, 0};
-  const auto shares = normalized(weights);
-  return {shares[0].nearest_double(), shares[1].nearest_double(), shares[2].nearest_double()};
+  const Ball sum = weights[0] + weights[1] + weights[2];
+  const auto share = [&](const Ball& weight) { return (weight / sum).nearest_double(); };
+  return {share(weights[0]), share(weights[1]), share(weights[2])};
 }
 
 }  // namespace pipeline

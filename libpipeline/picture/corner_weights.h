@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 
 #include "libpipeline/numbers/vec.h"
@@ -21,38 +20,20 @@ class CornerWeights {
   /// The positions of `corners` are in clip space, or in NDC if they `are_divided` by w.
   CornerWeights(const PixelGrid& grid, const ClipTriangle& corners, bool are_divided);
 
-  [[nodiscard]] Weights at(const PixelGrid& grid, const PixelCenter& pixel) const {
-    const auto& [a, b, c] = scaled_;
-    Weights weights = {area(b, c, pixel), area(c, a, pixel), area(a, b, pixel)};
-    const double sum = weights[0] + weights[1] + weights[2];
-    if (!are_plain_ && !are_certain(grid, sum)) return exactly_at(grid, pixel);
-    const double side = sum < 0 ? -1 : 1;
-    for (double& weight : weights) weight = std::max(side * weight, 0.0);
-    return normalized(weights);
-  }
+  /// x and y of clip space, and w for z, over the largest |w|.
+  [[nodiscard]] const Triangle& scaled() const { return scaled_; }
+  /// In doubles, weights are certain where 2^16 times the sum of the determinants of scaled() exceeds this.
+  [[nodiscard]] double doubt() const { return doubt_; }
+  /// Wherever the center lies.
+  [[nodiscard]] Weights exactly_at(const PixelGrid& grid, int row, int column) const;
 
  private:
-  /// Twice the signed area that the points p and q of the screen make with a pixel's center, times their w. A
-  /// point is x and y of clip space, and w for z, of any sign.
-  static double area(const Vec3& p, const Vec3& q, const PixelCenter& pixel) {
-    const double x = pixel.x, y = pixel.y;
-    return (p.x - x * p.z) * (q.y - y * q.z) - (p.y - y * p.z) * (q.x - x * q.z);
-  }
-  /// Divided by their sum.
-  template <typename Number>
-  static std::array<Number, 3> normalized(const std::array<Number, 3>& numbers) {
-    const Number sum = numbers[0] + numbers[1] + numbers[2];
-    return {numbers[0] / sum, numbers[1] / sum, numbers[2] / sum};
-  }
-
-  [[nodiscard]] bool are_certain(const PixelGrid& grid, double sum) const;
   [[nodiscard]] bool are_plain(const PixelGrid& grid) const;
-  [[nodiscard]] Weights exactly_at(const PixelGrid& grid, const PixelCenter& pixel) const;
 
-  Triangle scaled_;   // x and y of clip space, and w for z, over the largest |w|
+  Triangle scaled_;
   Triangle corners_;  // as given, with w for z
   bool are_divided_ = false;
-  bool are_plain_ = false;  // doubles are enough, whichever pixel is asked for
+  double doubt_ = 0;  // -1 if doubles are enough, whichever pixel is asked for
 };
 
 /// x and y of clip space, and w for z. Only their ratios count: scaled like this, nothing leaves a double's

@@ -1,87 +1,145 @@
 #include "libpipeline/picture/shading.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
-#include "libpipeline/numbers/vec_math.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libpipeline/picture/shading.cpp"
+#include "libpipeline/picture/light_lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pipeline {
+namespace HWY_NAMESPACE {
+namespace {
+
+static_assert(kLanes <= kMaxLanesShaded);
+
+// What doubles miss of a half is far less than this, so that halves go up.
+constexpr double kAlmostHalf = 0.5 + 0x1p-20;
+
+// L6; NaN counts as 0
+HWY_INLINE auto rounded(Doubles channel) {
+  constexpr hn::Rebind<std::int32_t, decltype(kDoubles)> kInts;
+  const Doubles clamped = hn::Min(hn::Max(channel, hn::Zero(kDoubles)), all(255));
+  return hn::DemoteTo(kInts, clamped + all(kAlmostHalf));  // rounds down
+}
+
+/// Writes kLanes colors.
+HWY_INLINE void store_rounded(const Vectors& color, Color* colors) {
+  const auto red = rounded(color.x), green = rounded(color.y), blue = rounded(color.z);
+  const auto packed = hn::Or(hn::ShiftLeft<16>(red), hn::Or(hn::ShiftLeft<8>(green), blue));
+  std::array<std::int32_t, kLanes> rgb;
+  hn::StoreU(packed, hn::DFromV<decltype(packed)>(), rgb.data());
+  static_assert(sizeof(Color) == sizeof rgb[0]);
+  std::memcpy(static_cast<void*>(colors), rgb.data(), sizeof rgb);
+}
+
+/// Those of the corners in x, y, z, for kLanes pixels from the `first` of the run; L3.
+HWY_INLINE Vectors corner_weights(const PixelRun& run, int first) {
+  const auto& [a, b, c] = run.weights.scaled();
+  const Doubles x = all(run.grid.left_x) + hn::Iota(kDoubles, run.column + first) * all(run.grid.dx);
+  const Doubles y = all(run.grid.y_of(run.row)), zero = hn::Zero(kDoubles);
+  // Of the corners, from a pixel's center, times their w; the areas are twice those that two make with it.
+  const Vectors w = all(Vec3{a.z, b.z, c.z});
+  const Vectors right = all(Vec3{a.x, b.x, c.x}) - w * x, up = all(Vec3{a.y, b.y, c.y}) - w * y;
+  const Vectors areas = {right.y * up.z - up.y * right.z, right.z * up.x - up.z * right.x,
+                         right.x * up.y - up.x * right.y};
+  const Doubles sum = areas.x + areas.y + areas.z;
+  const Vectors turned = areas * side_of(sum);
+  const Vectors inside = {hn::Max(turned.x, zero), hn::Max(turned.y, zero), hn::Max(turned.z, zero)};
+  Vectors weights = inside / (inside.x + inside.y + inside.z);
+  const auto is_certain = hn::Gt(hn::Abs(sum) * all(0x1p16), all(run.weights.doubt()));
+  if (HWY_LIKELY(hn::AllTrue(kDoubles, is_certain))) return weights;
+  const Doubles certain = hn::IfThenElseZero(is_certain, all(1));
+  for (std::size_t lane = 0; lane < kLanes && first + static_cast<int>(lane) < run.count; ++lane) {
+    if (hn::ExtractLane(certain, lane) != 0) continue;
+    const auto exact = run.weights.exactly_at(run.grid, run.row, run.column + first + static_cast<int>(lane));
+    weights = {hn::InsertLane(weights.x, lane, exact[0]), hn::InsertLane(weights.y, lane, exact[1]),
+               hn::InsertLane(weights.z, lane, exact[2])};
+  }
+  return weights;
+}
+
+HWY_INLINE Vectors mean(const Vec3& a, const Vec3& b, const Vec3& c, const Vectors& weights) {
+  return all(a) * weights.x + all(b) * weights.y + all(c) * weights.z;
+}
+
+// L4
+void shade(const PixelRun& run, const Lighting& lighting, Color* colors) {
+  const auto& [a, b, c] = run.corners;
+  for (int i = 0; i < run.count; i += static_cast<int>(kLanes)) {
+    const Vectors weights = corner_weights(run, i);
+    const Vectors own = mean(a.color, b.color, c.color, weights);
+    if (run.material == nullptr) {
+      store_rounded(own, colors + i);
+      continue;
+    }
+    const PointLanes points = {mean(a.position, b.position, c.position, weights),
+                               mean(a.normal, b.normal, c.normal, weights), own};
+    const auto intensity = [](const Light& light) { return light.intensity; };
+    const Vectors to_eye = to_eye_from(points.position, lighting);
+    store_rounded(lit(points, lighting, *run.material, to_eye, intensity), colors + i);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pipeline
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 
 namespace pipeline {
 namespace {
 
-Vec3 turned_towards(const Vec3& direction, const Vec3& v) {
-  return dot(v, direction) < 0 ? scaled(v, -1) : v;
-}
-
-/// A factor of 0 weakens nothing, not even at a distance that overflows a double.
-double attenuation_at(double distance, const Attenuation& a) {
-  double weakening = a.constant;
-  if (a.linear != 0) weakening += a.linear * distance;
-  if (a.quadratic != 0) weakening += a.quadratic * distance * distance;
-  return 1 / weakening;
-}
-
-double clamped_channel(double value) {
-  return std::clamp(value, 0.0, 255.0);
-}
-
-// What doubles miss of a half is far less than this, so that halves go up.
-constexpr double kHalf = 0.5 + 0x1p-20;
-
-// L6
-std::uint8_t rounded_channel(double value) {
-  return static_cast<std::uint8_t>(clamped_channel(value) + kHalf);  // rounds down
-}
-
-/// `arriving(light)` is the part of a light's intensity that reaches the point.
 template <typename Arriving>
 Vec3 lit_color_of(const SurfacePoint& point, const Lighting& lighting, const Material& material,
-                  const Vec3& to_eye, const Arriving& arriving) {
-  const Vec3 normal = turned_towards(to_eye, unit_vector(point.normal));
-  Vec3 diffuse = scaled(lighting.ambient, material.ambient);
-  Vec3 specular;
-  for (const Light& light : lighting.lights) {
-    const Vec3 way = difference(light.position, point.position);
-    const Vec3 to_light = unit_vector(way);
-    const double cosine = dot(normal, to_light);
-    if (!(cosine > 0)) continue;
-    const Vec3 intensity = scaled(arriving(light), attenuation_at(dot(way, to_light), lighting.attenuation));
-    diffuse = sum(diffuse, scaled(intensity, material.diffuse * cosine));
-    const Vec3 half = unit_vector(sum(to_light, to_eye));
-    const double highlight = whole_power(std::max(0.0, dot(normal, half)), material.shininess);
-    specular = sum(specular, scaled(intensity, material.specular * highlight));
-  }
-  return sum(product(point.color, diffuse), scaled(specular, 255));
+                  const N_SCALAR::Vectors& to_eye, const Arriving& arriving) {
+  const auto& [position, normal, color] = point;
+  const N_SCALAR::PointLanes points = {N_SCALAR::all(position), N_SCALAR::all(normal), N_SCALAR::all(color)};
+  const N_SCALAR::Vectors seen = N_SCALAR::lit(points, lighting, material, to_eye, arriving);
+  return {seen.x.raw, seen.y.raw, seen.z.raw};
 }
 
 }  // namespace
 
-double whole_power(double base, std::uint64_t exponent) {
-  double power = 1;
-  for (; exponent != 0; exponent >>= 1) {
-    if ((exponent & 1) != 0) power *= base;
-    base *= base;
-  }
-  return power;
-}
-
 // L5
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material) {
-  const Vec3 to_eye = lighting.is_perspective ? unit_vector(scaled(point.position, -1)) : Vec3{0, 0, 1};
+  const N_SCALAR::Vectors to_eye = N_SCALAR::to_eye_from(N_SCALAR::all(point.position), lighting);
   return lit_color_of(point, lighting, material, to_eye, [](const Light& light) { return light.intensity; });
 }
 
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material,
                const Vec3& to_eye, const LightPart& part) {
-  return lit_color_of(point, lighting, material, to_eye, [&](const Light& light) {
-    return product(light.intensity, part(static_cast<std::size_t>(&light - lighting.lights.data())));
+  return lit_color_of(point, lighting, material, N_SCALAR::all(to_eye), [&](const Light& light) {
+    const Vec3 arriving = part(static_cast<std::size_t>(&light - lighting.lights.data()));
+    return Vec3{light.intensity.x * arriving.x, light.intensity.y * arriving.y,
+                light.intensity.z * arriving.z};
   });
 }
 
 Vec3 clamped_color(const Vec3& color) {
-  return {clamped_channel(color.x), clamped_channel(color.y), clamped_channel(color.z)};
+  const auto clamped = [](double channel) { return std::clamp(channel, 0.0, 255.0); };
+  return {clamped(color.x), clamped(color.y), clamped(color.z)};
 }
 
 Color rounded_color(const Vec3& color) {
-  return {rounded_channel(color.x), rounded_channel(color.y), rounded_channel(color.z)};
+  Color rounded;
+  N_SCALAR::store_rounded(N_SCALAR::all(color), &rounded);
+  return rounded;
+}
+
+const KernelTable<RunShader>& run_shaders() {
+  static constexpr KernelTable<RunShader> kKernels = PIPELINE_KERNEL_TABLE(shade);
+  return kKernels;
+}
+
+RunShader run_shader() {
+  static const RunShader chosen = chosen_kernel(run_shaders());
+  return chosen;
 }
 
 }  // namespace pipeline
+
+#endif

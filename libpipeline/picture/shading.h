@@ -1,13 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/picture/corner_weights.h"
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/color.h"
+#include "libpipeline/scene/pixel_grid.h"
 
 namespace pipeline {
 
@@ -47,14 +50,34 @@ using LightPart = std::function<Vec3(std::size_t light)>;
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material,
                const Vec3& to_eye, const LightPart& part);
 
-/// `base` to a whole power by repeated squaring, so that it does not depend on the system's library; 1 to the
-/// power 0.
-double whole_power(double base, std::uint64_t exponent);
-
 /// Each channel clamped to 0 to 255.
 Vec3 clamped_color(const Vec3& color);
 
 /// Each channel clamped to 0 to 255 and rounded, halves up: also what is less than 2^-20 below one.
 Color rounded_color(const Vec3& color);
+
+/// Neighboring pixels of a row that show the same triangle, and what of it is interpolated between its
+/// corners, perspective-correctly: their colors or, with a material, what is lit at each pixel.
+struct PixelRun {
+  const CornerWeights& weights;
+  const std::array<SurfacePoint, 3>& corners;
+  const Material* material;
+  const PixelGrid& grid;
+  int row;
+  int column;  // of the first
+  int count;
+};
+
+/// No kernel shades more pixels at a time.
+constexpr std::size_t kMaxLanesShaded = 8;
+
+/// Writes the colors of a run's pixels, and as many as make the last kMaxLanesShaded whole. Every kernel
+/// writes the same.
+using RunShader = void (*)(const PixelRun& run, const Lighting& lighting, Color* colors);
+
+const KernelTable<RunShader>& run_shaders();
+
+/// The kernel in use.
+RunShader run_shader();
 
 }  // namespace pipeline

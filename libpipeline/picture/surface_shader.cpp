@@ -10,15 +10,14 @@
 namespace pipeline {
 namespace {
 
-using Weights = CornerWeights::Weights;
-
 // Of the surfaces ready to be shaded, 150 KiB.
 constexpr std::size_t kMaxCached = 512;
 
-SurfacePoint mean(const std::array<SurfacePoint, 3>& p, const Weights& w) {
-  return {mean(Triangle{p[0].position, p[1].position, p[2].position}, w),
-          mean(Triangle{p[0].normal, p[1].normal, p[2].normal}, w),
-          mean(Triangle{p[0].color, p[1].color, p[2].color}, w)};
+SurfacePoint middle(const std::array<SurfacePoint, 3>& p) {
+  constexpr std::array<double, 3> kEqual = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+  return {mean(Triangle{p[0].position, p[1].position, p[2].position}, kEqual),
+          mean(Triangle{p[0].normal, p[1].normal, p[2].normal}, kEqual),
+          mean(Triangle{p[0].color, p[1].color, p[2].color}, kEqual)};
 }
 
 /// Gives every corner the normal of the triangle.
@@ -92,8 +91,8 @@ SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::siz
   return static_cast<SurfaceId>(triangles_.size() - 1);
 }
 
-const SurfaceShader::Surface& SurfaceShader::surface(SurfaceId id) {
-  CachedSurface& cached = cache_[id % cache_.size()];
+const SurfaceShader::Surface& SurfaceShader::surface(SurfaceId id, Worker& worker) const {
+  CachedSurface& cached = worker.cache[id % worker.cache.size()];
   if (cached.id != id)
     cached = {id, made_surface(triangles_[id], has_normals_, materials_.size() == 0 ? 0 : materials_[id])};
   return cached.surface;
@@ -117,7 +116,7 @@ void SurfaceShader::keep(const KeptIds& kept) {
   assert(kept.size() == triangles_.size());
   triangles_.keep(kept);
   materials_.keep(kept);
-  cache_.clear();
+  for (Worker& worker : workers_) worker.cache.clear();
   if (setup_.wireframe) setup_.wireframe->keep(kept);
 }
 
@@ -130,42 +129,48 @@ void SurfaceShader::add_edges(const TriangleBatch& p_ndc, std::size_t index, con
 
 void SurfaceShader::light_corners(Surface& surface) const {
   if (setup_.model == ShadingModel::flat) {
-    const Vec3 color = lit_color_of(mean(surface.corners, {1.0 / 3, 1.0 / 3, 1.0 / 3}), surface);
+    const Vec3 color = lit_color_of(middle(surface.corners), surface);
     for (SurfacePoint& corner : surface.corners) corner.color = color;
   } else if (setup_.model == ShadingModel::gouraud) {
     for (SurfacePoint& corner : surface.corners) corner.color = clamped_color(lit_color_of(corner, surface));
   }
 }
 
-std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> ids) {
-  row_.resize(ids.size());
-  if (cache_.empty()) cache_.resize(std::min(std::bit_ceil(ids.size()), kMaxCached));
+std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> ids, int number) {
+  Worker& worker = workers_[static_cast<std::size_t>(number)];
+  worker.row.resize(ids.size() + kMaxLanesShaded);  // the last run may write beyond it
+  if (worker.cache.empty()) worker.cache.resize(std::min(std::bit_ceil(ids.size()), kMaxCached));
   const std::size_t first = first_surface(ids);
-  std::fill_n(row_.begin(), first, setup_.background);
+  std::fill_n(worker.row.begin(), first, setup_.background);
   // Neighbors mostly show the same triangle, which is looked up once.
   for (std::size_t column = first, end; column < ids.size(); column = end) {
     end = column + 1;
     while (end < ids.size() && ids[end] == ids[column]) ++end;
-    shade_columns(row, column, end, ids[column]);
+    shade_columns(row, column, end, ids[column], worker);
   }
-  if (!shown_.show_something && first < ids.size()) look_for_something(first, ids);
-  return row_;
+  worker.row.resize(ids.size());
+  if (!worker.shown.show_something && first < ids.size()) look_for_something(first, ids, worker);
+  return worker.row;
 }
 
-void SurfaceShader::look_for_something(std::size_t first, std::span<const SurfaceId> ids) {
+void SurfaceShader::look_for_something(std::size_t first, std::span<const SurfaceId> ids,
+                                       Worker& worker) const {
+  ShownColors& shown = worker.shown;
   const auto shows = [&](Color color) { return differ_visibly(color, setup_.background); };
-  shown_.show_something = std::any_of(row_.begin() + static_cast<std::ptrdiff_t>(first), row_.end(), shows);
-  if (shown_.show_something || setup_.model == ShadingModel::none) return;
+  shown.show_something =
+      std::any_of(worker.row.begin() + static_cast<std::ptrdiff_t>(first), worker.row.end(), shows);
+  if (shown.show_something || setup_.model == ShadingModel::none) return;
   for (std::size_t i = first; i < ids.size(); ++i)
     if (ids[i] != kNoSurface && (i == first || ids[i] != ids[i - 1]))
-      shown_.light_in_front = std::max(shown_.light_in_front.value_or(0), light_in_front_of(ids[i]));
+      shown.light_in_front =
+          std::max(shown.light_in_front.value_or(0), light_in_front_of(surface(ids[i], worker)));
 }
 
 /// The greatest intensity of the lights in front of a surface, where it is lit once, or at a corner: those
 /// that would light it if they were white and no distance weakened them.
-double SurfaceShader::light_in_front_of(SurfaceId id) {
-  std::array<SurfacePoint, 3> points = surface(id).corners;
-  if (setup_.model == ShadingModel::flat) points.fill(mean(points, {1.0 / 3, 1.0 / 3, 1.0 / 3}));
+double SurfaceShader::light_in_front_of(const Surface& surface) const {
+  std::array<SurfacePoint, 3> points = surface.corners;
+  if (setup_.model == ShadingModel::flat) points.fill(middle(points));
   for (SurfacePoint& point : points) point.color = {1, 1, 1};
   Lighting alone;
   alone.is_perspective = setup_.lighting.is_perspective;
@@ -178,31 +183,42 @@ double SurfaceShader::light_in_front_of(SurfaceId id) {
   return greatest;
 }
 
-void SurfaceShader::shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id) {
+void SurfaceShader::shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id,
+                                  Worker& worker) const {
+  Color* const colors = worker.row.data();
+  if (id == kNoSurface) {
+    std::fill(colors + begin, colors + end, setup_.background);
+    return;
+  }
+  const Surface& shown = surface(id, worker);
+  if (!setup_.wireframe)
+    return shade_run(shown, row, static_cast<int>(begin), static_cast<int>(end - begin), colors + begin);
+  const Wireframe::Edges& edges = setup_.wireframe->edges(id);
   const double y = grid_.y_of(row);
-  const std::span<Color> colors = std::span(row_).subspan(begin, end - begin);
-  std::ranges::fill(colors, setup_.background);
-  if (id == kNoSurface) return;
-  const Surface& shown = surface(id);
-  const bool is_flat = setup_.model == ShadingModel::flat;
-  const Color flat_color = is_flat ? rounded_color(shown.corners[0].color) : Color();
-  const Wireframe::Edges* const edges = setup_.wireframe ? &setup_.wireframe->edges(id) : nullptr;
-  for (std::size_t i = 0; i < colors.size(); ++i) {
-    const int column = static_cast<int>(begin + i);
-    const double x = grid_.x_of(column);
-    if (edges == nullptr || Wireframe::is_on_edge(*edges, x, y))
-      colors[i] = is_flat ? flat_color : color_at(shown, {row, column, x, y});
+  for (std::size_t i = begin; i < end; ++i) {
+    const int column = static_cast<int>(i);
+    if (Wireframe::is_on_edge(edges, grid_.x_of(column), y))
+      shade_run(shown, row, column, 1, colors + i);
+    else
+      colors[i] = setup_.background;
   }
 }
 
-// L4
-Color SurfaceShader::color_at(const Surface& surface, const PixelCenter& pixel) const {
-  const auto& [a, b, c] = surface.corners;
-  if (setup_.model == ShadingModel::flat) return rounded_color(a.color);
-  const Weights weights = surface.weights.at(grid_, pixel);
-  if (setup_.model == ShadingModel::phong)
-    return rounded_color(lit_color_of(mean(surface.corners, weights), surface));
-  return rounded_color(mean(Triangle{a.color, b.color, c.color}, weights));
+void SurfaceShader::shade_run(const Surface& surface, int row, int column, int count, Color* colors) const {
+  if (setup_.model == ShadingModel::flat) {
+    std::fill_n(colors, count, rounded_color(surface.corners[0].color));
+    return;
+  }
+  const Material* const lit_by_pixel =
+      setup_.model == ShadingModel::phong ? &setup_.materials[surface.material] : nullptr;
+  run_shader()({surface.weights, surface.corners, lit_by_pixel, grid_, row, column, count}, setup_.lighting,
+               colors);
+}
+
+Color SurfaceShader::color_at(const Surface& surface, int row, int column) const {
+  std::array<Color, kMaxLanesShaded> colors;
+  shade_run(surface, row, column, 1, colors.data());
+  return colors[0];
 }
 
 }  // namespace pipeline

@@ -76,8 +76,11 @@ class SurfaceShader {
   /// Lets go of the triangles that are not kept; the others have new ids from now on. The one added last has
   /// to be kept.
   void keep(const KeptIds& kept);
-  /// The colors of a row of the image, by the ids seen in it. Valid until the next call.
-  std::span<const Color> shade(int row, std::span<const SurfaceId> ids);
+  /// Makes room for the workers of a pool; at first there is one.
+  void set_workers(int count) { workers_.resize(static_cast<std::size_t>(count)); }
+  /// The colors of a row of the image, by the ids seen in it. Valid until the worker's next call; workers may
+  /// call it at the same time.
+  std::span<const Color> shade(int row, std::span<const SurfaceId> ids, int worker = 0);
 
   // Without keeping triangles, on any number of threads at a time:
   /// A triangle of a batch in NDC; `own_color` is its color if it carries none.
@@ -87,12 +90,16 @@ class SurfaceShader {
                         attributes.materials.empty() ? 0 : attributes.materials[index]);
   }
   /// Its color at the center of a pixel; there are no edges of a wireframe.
-  [[nodiscard]] Color color_at(const Surface& surface, const PixelCenter& pixel) const;
+  [[nodiscard]] Color color_at(const Surface& surface, int row, int column) const;
   /// Adds the statistics of such colors.
   void add_shown(const ShownColors& shown) { shown_.add(shown); }
 
   /// The colors of all triangles added and pixels shaded so far.
-  [[nodiscard]] const ShownColors& shown() const { return shown_; }
+  [[nodiscard]] ShownColors shown() const {
+    ShownColors all = shown_;
+    for (const Worker& worker : workers_) all.add(worker.shown);
+    return all;
+  }
   [[nodiscard]] const Setup& setup() const { return setup_; }
   [[nodiscard]] const PixelGrid& grid() const { return grid_; }
 
@@ -105,28 +112,32 @@ class SurfaceShader {
     SurfaceId id = kNoSurface;
     Surface surface;
   };
+  struct Worker {
+    std::vector<CachedSurface> cache;  // each id has one entry; those of a row are mostly seen in the next
+    std::vector<Color> row;
+    ShownColors shown;
+  };
 
   [[nodiscard]] KeptTriangle unclipped(const TriangleBatch& p_ndc, std::size_t index, Color own_color) const;
-  [[nodiscard]] const Surface& surface(SurfaceId id);
+  [[nodiscard]] const Surface& surface(SurfaceId id, Worker& worker) const;
   [[nodiscard]] Surface made_surface(const KeptTriangle& kept, bool has_normals,
                                      std::uint32_t material) const;
   [[nodiscard]] Vec3 lit_color_of(const SurfacePoint& point, const Surface& surface) const {
     return lit_color(point, setup_.lighting, setup_.materials[surface.material]);
   }
   void light_corners(Surface& surface) const;
-  void look_for_something(std::size_t first, std::span<const SurfaceId> ids);
-  [[nodiscard]] double light_in_front_of(SurfaceId id);
+  void look_for_something(std::size_t first, std::span<const SurfaceId> ids, Worker& worker) const;
+  [[nodiscard]] double light_in_front_of(const Surface& surface) const;
   void add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners);
-  void shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id);
+  void shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id, Worker& worker) const;
+  void shade_run(const Surface& surface, int row, int column, int count, Color* colors) const;
 
   PixelGrid grid_;
   Setup setup_;
   ChunkedArray<KeptTriangle> triangles_;
   ChunkedArray<std::uint32_t> materials_;  // of the triangles; empty if there is one for all
   bool has_normals_ = false;
-  std::vector<CachedSurface>
-      cache_;  // each id has one entry; those of a row are mostly seen in the next, too
-  std::vector<Color> row_;
+  std::vector<Worker> workers_ = std::vector<Worker>(1);
   ShownColors shown_;
 };
 

@@ -4,16 +4,8 @@
 
 namespace pipeline {
 
-/// The center of a pixel in NDC, rounded.
-struct PixelCenter {
-  int row;
-  int column;
-  double x;
-  double y;
-};
-
-/// The positions of a viewport's pixel centers in NDC: row 0 at the top, column 0 on the left. Their error:
-/// tests/proofs/pixel_center.g.
+/// The positions of a viewport's pixel centers in NDC, rounded: row 0 at the top, column 0 on the left. Their
+/// error: tests/proofs/pixel_center.g.
 struct PixelGrid {
   explicit PixelGrid(const Viewport& viewport)
       : columns(viewport.columns),
@@ -27,9 +19,6 @@ struct PixelGrid {
 
   [[nodiscard]] double x_of(int column) const { return left_x + column * dx; }
   [[nodiscard]] double y_of(int row) const { return top_y - row * dy; }
-  [[nodiscard]] PixelCenter center(int row, int column) const {
-    return {row, column, x_of(column), y_of(row)};
-  }
 
   int columns;
   int rows;

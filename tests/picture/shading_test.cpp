@@ -2,8 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "libpipeline/numbers/vec_math.h"
+#include "tests/numbers/testable_targets.h"
 
 namespace pipeline {
 namespace {
@@ -143,11 +150,18 @@ TEST(Shading, ANormalOfNoDirectionFacesNothing) {
 }
 
 TEST(Shading, PowersAreWhole) {
-  EXPECT_EQ(whole_power(0, 0), 1);
-  EXPECT_EQ(whole_power(0.5, 1), 0.5);
-  EXPECT_EQ(whole_power(3, 5), 243);
-  EXPECT_EQ(whole_power(0.5, 1000), 0x1p-1000);
-  EXPECT_EQ(whole_power(0.5, std::numeric_limits<std::size_t>::max()), 0);
+  // n.h = 2 / sqrt 5, as above.
+  Material material = {1, 0, 1, 0};
+  for (const auto& [exponent, power] : {std::pair(0u, 1.0),
+                                        {1u, 2 / std::sqrt(5)},
+                                        {5u, 32 / std::sqrt(3125)},
+                                        {10u, 1024.0 / 3125},
+                                        {10000u, std::pow(0.8, 5000)}}) {
+    material.shininess = exponent;
+    EXPECT_NEAR(lit_color(kFacing, lit_by({4, 0, 1}, {1, 1, 1}), material).x, 255 * power, 1e-12);
+  }
+  material.shininess = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_EQ(lit_color(kFacing, lit_by({4, 0, 1}, {1, 1, 1}), material), (Vec3{}));
 }
 
 TEST(Shading, ClampedChannelsStayBetween0And255) {
@@ -163,6 +177,65 @@ TEST(Shading, ChannelsRoundHalvesUpAndStopAtTheEnds) {
 
 TEST(Shading, WhatDoublesMissOfAHalfCounts) {
   EXPECT_EQ(rounded_color({3.5 - 0x1p-21, 3.5 - 0x1p-19, 0.5 - 1e-13}), Color(4, 3, 1));
+}
+
+constexpr int kRow = 2, kColumns = 21;
+
+/// A lit triangle, or a sliver of one, whose weights doubles cannot tell.
+struct RandomRun {
+  explicit RandomRun(std::mt19937_64& rng) {
+    const auto number = [&] { return std::uniform_real_distribution<double>(-1, 1)(rng); };
+    const auto vec = [&] { return Vec3{number(), number(), number()}; };
+    ClipTriangle triangle;
+    for (std::size_t v = 0; v < 3; ++v) {
+      triangle[v] = {scaled(vec(), 3), 2 + number(), {}, {}};
+      corners[v] = {sum(vec(), {0, 0, -3}), vec(), sum(scaled(vec(), 127), {128, 128, 128})};
+    }
+    if (rng() % 4 == 0) triangle[2].position = sum(triangle[1].position, scaled(vec(), 1e-14));
+    weights = CornerWeights(grid, triangle, rng() % 2 == 0);
+    material = {0.5, 1, rng() % 3 * 0.5, rng() % 200};
+    for (std::size_t i = rng() % 3; i > 0; --i)
+      lighting.lights.push_back({scaled(vec(), 5), {0.5, 0.7, 0.9}});
+    lighting.ambient = {0.1, 0.2, 0.3};
+    if (rng() % 2 == 0) lighting.attenuation = {0.5, 0.1, 0.1};
+    lighting.is_perspective = rng() % 2 == 0;
+  }
+
+  [[nodiscard]] Color color(int column, bool is_lit) const {
+    const auto weight = weights.exactly_at(grid, kRow, column);
+    const auto& [a, b, c] = corners;
+    const SurfacePoint point = {mean(Triangle{a.position, b.position, c.position}, weight),
+                                mean(Triangle{a.normal, b.normal, c.normal}, weight),
+                                mean(Triangle{a.color, b.color, c.color}, weight)};
+    return rounded_color(is_lit ? lit_color(point, lighting, material) : point.color);
+  }
+
+  PixelGrid grid{Viewport{kColumns, 5}};
+  CornerWeights weights;
+  std::array<SurfacePoint, 3> corners;
+  Material material;
+  Lighting lighting;
+};
+
+TEST(Shading, EveryKernelColorsARunAsItsPixelsOneByOne) {
+  for (const std::size_t target : testable_targets(run_shaders())) {
+    SCOPED_TRACE(kTargets[target]);
+    std::mt19937_64 rng(1);
+    for (int i = 0; i < 400; ++i) {
+      const RandomRun run(rng);
+      const bool is_lit = i % 2 == 0;
+      const int first = i % 5, count = 1 + i % (kColumns - first);
+      const Color untouched(1, 2, 3);
+      std::vector<Color> colors(kColumns + kMaxLanesShaded, untouched);
+      run_shaders()[target](
+          {run.weights, run.corners, is_lit ? &run.material : nullptr, run.grid, kRow, first, count},
+          run.lighting, &colors[0]);
+      const auto end = static_cast<std::size_t>(count);
+      for (std::size_t k = 0; k < end; ++k)
+        EXPECT_EQ(colors[k], run.color(first + static_cast<int>(k), is_lit)) << i << " at " << k;
+      for (std::size_t k = end + kMaxLanesShaded - 1; k < colors.size(); ++k) EXPECT_EQ(colors[k], untouched);
+    }
+  }
 }
 
 }  // namespace

@@ -112,8 +112,7 @@ TEST(SurfaceShader, ColorsOfTrianglesThatAreNotKeptAreTheSame) {
   for (int row = 0; row < screen.rows; ++row) {
     const auto colors = shader.shade(row, ids);
     for (int column = 0; column < screen.columns; ++column)
-      EXPECT_EQ(shader.color_at(surface, shader.grid().center(row, column)),
-                colors[static_cast<std::size_t>(column)]);
+      EXPECT_EQ(shader.color_at(surface, row, column), colors[static_cast<std::size_t>(column)]);
   }
 }
 

@@ -30,7 +30,7 @@ const SurfaceColors::CachedSurface& SurfaceColors::surface(Id id) {
 Color SurfaceColors::color(int row, int column, const RayCaster::Seen& seen) {
   const CachedSurface& shown = surface(seen.id);
   if (shader_ == nullptr) return shown.own_color;
-  const Color color = shader_->color_at(shown.surface, shader_->grid().center(row, column));
+  const Color color = shader_->color_at(shown.surface, row, column);
   shown_.add_pixel(color, shader_->setup().background);
   return color;
 }
