@@ -20,6 +20,7 @@
 #include "tools/rim/empty_picture_note.h"
 #include "tools/rim/progress.h"
 #include "tools/zbuf/all_edges.h"
+#include "tools/zbuf/colored_rows.h"
 #include "tools/zbuf/drawing_report.h"
 #include "tools/zbuf/fragment_report.h"
 #include "tools/zbuf/picture_outputs.h"
@@ -174,16 +175,8 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
                AllEdges* edges) {
   const Viewport& screen = visible.center_screen;
   PictureOutputs outputs(tool, chosen, screen, chosen.sample_count, store.background_color());
-  int row_number = chosen.sample_count * screen.drawn_rows().first;  // of the samples
-  std::vector<Color> plain_colors;
-  const auto write_colors = [&](std::span<const PixelTag> tags) {
-    if (!outputs.wants_colors()) return;
-    if (edges != nullptr) tags = edges->row(row_number, *shader->setup().wireframe);
-    if (shader) return outputs.write_colors(shader->shade(row_number++, tags));
-    plain_colors.resize(tags.size());
-    store.color(tags, plain_colors);
-    outputs.write_colors(plain_colors);
-  };
+  ColoredRows colors(store, shader, edges, chosen.sample_count * screen.drawn_rows().first,
+                     chosen.thread_count, outputs);
   std::vector<std::int64_t> numbers;
   KeptIds seen(store.id_count());
   const auto mark = [&](std::span<const PixelTag> tags) {
@@ -197,14 +190,15 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
-    if (!visible.samples) write_colors(row.tags);
+    if (!visible.samples && outputs.wants_colors()) colors.add(row.tags);
   });
   if (visible.samples) {
     visible.samples->for_each_row([&](const VisibleRow& row) {
       mark(row.tags);
-      write_colors(row.tags);
+      if (outputs.wants_colors()) colors.add(row.tags);
     });
   }
+  colors.finish();
   if (outputs.seen() != nullptr) store.write_seen(*outputs.seen(), reader, seen);
   outputs.finish(covered_count);
 }

@@ -148,7 +148,7 @@ inline void ZbufOptions::add_to(CommandLine& options) {
       "Draw a triangle only where it is nearer than the visible one by more than E; the result then depends "
       "on the order of the triangles");
   add_samples(options);
-  options.add_whole("--threads", thread_count, 1, 256, "How many threads draw with the z-buffer");
+  options.add_whole("--threads", thread_count, 1, 256, "How many threads draw with the z-buffer and shade");
   options.begin_group("Color and light");
   add_shading(options);
   options.add_flag_with_word("--wireframe", "all", wireframe, has_all_edges,

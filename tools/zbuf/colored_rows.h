@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "libpipeline/picture/surface_shader.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/stream/thread_pool.h"
+#include "tools/zbuf/all_edges.h"
+#include "tools/zbuf/picture_outputs.h"
+#include "tools/zbuf/triangle_store.h"
+
+namespace pipeline {
+
+/// Colors the rows of an image, of pixels or of samples, by their tags; where surfaces are shaded, some rows
+/// at a time on threads.
+class ColoredRows {
+ public:
+  /// Without a shader, the store knows the colors; `edges` may be null.
+  ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, AllEdges* edges, int first_row,
+              int thread_count, PictureOutputs& outputs);
+
+  /// Takes the next row.
+  void add(std::span<const PixelTag> tags);
+  /// Writes the rows that wait.
+  void finish();
+
+ private:
+  struct Row {
+    std::vector<PixelTag> tags;
+    std::vector<Color> colors;
+  };
+
+  TriangleStore& store_;
+  std::optional<SurfaceShader>& shader_;
+  AllEdges* edges_;
+  PictureOutputs& outputs_;
+  std::vector<Color> colors_;  // without a shader
+  int row_;                    // the first that is not written
+  std::vector<Row> waiting_;
+  std::size_t count_ = 0;  // of the rows that wait
+  ThreadPool pool_;
+};
+
+}  // namespace pipeline
