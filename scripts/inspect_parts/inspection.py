@@ -120,9 +120,11 @@ class Inspection:
     def thinned(self, read):
         """Of a long text the header, the drawn triangles and all spheres, each behind a line with its number;
         (number, line) of each line, 0 for one that was added."""
-        pieces = [(line, 3, name) for name, line in zip(read.names, read.first_lines) if name % self.step == 0]
+        triangles = zip(read.first_lines, read.names)
+        pieces = [(line, 3, name) for line, name in triangles if name % self.step == 0]
         found = [*enumerate(itertools.takewhile(lambda line: not line.startswith(BEGINS), read.lines), 1)]
-        for first, count, name in sorted([*pieces, *((line - 1, 5, name) for name, line in read.spheres)]):
+        pieces += [(line - 1, 5, name) for name, line in read.spheres]
+        for first, count, name in sorted(pieces):
             found.append((0, f"triangle {name}"))
             found += enumerate(read.lines[first - 1:first - 1 + count], first)
         return found

@@ -551,12 +551,12 @@ class TheFolder(PageTest):
     @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without assimp")
     def test_a_model_is_dropped_with_its_colors(self):
         drop = """const dataTransfer = new DataTransfer();
-          for (const [name, text] of Object.entries(arguments[0])) dataTransfer.items.add(new File([text], name));
+          for (const file of arguments[0]) dataTransfer.items.add(new File([file[1]], file[0]));
           document.dispatchEvent(new DragEvent("drop", {dataTransfer}));"""
         told = "return document.querySelector('#told').innerText"
         self.assertEqual([line for line in self.asked if "mesh2scene" in line], [])
         size = "x".join(map(str, self.browser.run(IMAGE)[:2]))
-        self.browser.run(drop, {name: data.decode() for name, data in MODEL.items()})
+        self.browser.run(drop, [[name, data.decode()] for name, data in MODEL.items()])
         self.browser.wait_for(lambda: "is taken for up" in self.browser.run(told))
         with tempfile.TemporaryDirectory() as folder:
             for name, data in MODEL.items():
@@ -564,7 +564,7 @@ class TheFolder(PageTest):
             done = subprocess.run([BIN / "mesh2scene", "--size", size, "a.obj"], cwd=folder, check=True,
                                   capture_output=True, text=True)
         self.assertEqual(self.browser.run("return document.body.playground.state.scene"), done.stdout)
-        self.browser.run(drop, {"a.stl": "solid"})
+        self.browser.run(drop, [["a.stl", "solid"]])
         self.browser.wait_for(lambda: "a.stl" in self.browser.run(told))
 
     def told_by_python(self, panel, label):
