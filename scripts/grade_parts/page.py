@@ -24,9 +24,10 @@ td:nth-child(2) { min-width: 6rem }
 .matrix td { min-width: 0; padding: .1rem .3rem; text-align: right } caption { text-align: left }
 figure { display: inline-block; vertical-align: top; margin: .4rem .8rem 0 0 }
 img { width: 100%; image-rendering: pixelated; border: 1px solid #999 } figcaption { font-size: .8rem }
-@media (max-width: 40rem) { tr, tr td:nth-child(n) { display: block; white-space: normal; padding: 0 }
+@media (max-width: 40rem) { tr { display: block; border-bottom: 1px solid #ccc }
+tr td:nth-child(n) { display: inline; white-space: normal; border: 0; padding: 0 .4rem 0 0 }
 tr:first-child:has(th) { display: none } .matrix tr { display: table-row }
-.matrix tr td:nth-child(n) { display: table-cell } }
+.matrix tr td:nth-child(n) { display: table-cell; padding: .1rem .3rem } }
 .matrix tr td:nth-child(n) { white-space: nowrap }
 @media print { body { margin: 0; max-width: none } h2 { break-after: avoid }
 figure, table { break-inside: avoid } }
@@ -97,7 +98,7 @@ def matrices(comparison):
                 for i, row in enumerate(m))
         tables.append(f'<table class="matrix"><caption>{caption}</caption>' +
                       "".join(f"<tr>{row}</tr>" for row in rows) + "</table>")
-    return "".join(tables)
+    return f"<div>{''.join(tables)}</div>"
 
 
 def counted(file):

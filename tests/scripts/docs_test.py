@@ -17,6 +17,9 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from hashlib import sha256
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 
 BIN_DIR, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 del sys.argv[1:3]
@@ -133,6 +136,16 @@ class Pages(unittest.TestCase):
         shown = {(page.parent / link).resolve() for page in PAGES for link in links(page.read_text())}
         pictures = {*(SOURCE / "docs/pictures").iterdir(), *(SOURCE / "samples").glob("*/*.png")}
         self.assertEqual(sorted(map(name_of, pictures - shown)), [])
+
+    def test_a_picture_shows_what_its_source_says_today(self):
+        """make-pictures keeps a hash of it in the file."""
+        script = str(SOURCE / "scripts/maintain/make-pictures")
+        spec = spec_from_loader("make_pictures", SourceFileLoader("make_pictures", script))
+        maker = module_from_spec(spec)
+        spec.loader.exec_module(maker)
+        for name, text in maker.sources().items():
+            kept = (SOURCE / "docs/pictures" / name).read_bytes().partition(b"tEXtSource\0")[2][:64].decode()
+            self.assertEqual(kept, sha256(text.encode()).hexdigest(), f"{name}: run make-pictures again")
 
     def test_the_index_names_every_page_of_docs(self):
         named = {(INDEX.parent / link.partition("#")[0]).resolve() for link in links(INDEX.read_text())}
