@@ -59,10 +59,12 @@ def cause_of_one_element(comparison):
                       f"{comparison.theirs[i][j]:.5g}, not {comparison.ours[i][j]:.5g}")]
 
 
-def known_rows(comparison, directions):
-    """Remarks on the wrong rows of a Comparison that begin with a known direction: (name, vector)."""
-    directions = list(directions)
-    for i in sorted({i for i, j in getattr(comparison, "differing", ()) if j < 3}):
+def known_rows(verdict, directions):
+    """Remarks on the wrong rows of a FileVerdict's Comparison that begin with a known direction, (name,
+    vector), if it has no cause."""
+    comparison, directions = verdict.matrices, list(directions)
+    differing = () if verdict.causes else getattr(comparison, "differing", ())
+    for i in sorted({i for i, j in differing if j < 3}):
         row = comparison.theirs[i]
         names = [
             name for name, v in directions

@@ -246,8 +246,7 @@ class StageJudge:
         verdict.remarks += some_vertices.few_triangles(result, len(theirs) // 3) if not verdict.causes else []
         verdict.matrices = fit.compare(readings[0].points, theirs.points, theirs.units, ours, divides)
         verdict.causes = verdict.causes or fit.cause_of_one_element(verdict.matrices)
-        if stage == "view" and not verdict.causes:
-            verdict.remarks += fit.known_rows(verdict.matrices, self.scene.directions())
+        verdict.remarks += fit.known_rows(verdict, self.scene.directions() if stage == "view" else ())
         return Outcome(verdict, exact_images(*found[0][1:], memory) if found else None)
 
     def causes_of_matrices(self, stage, right, is_by):
