@@ -59,6 +59,7 @@ class Writing(ToolTest):
         r"""|open\([^()]*(\([^()]*\))?[^()]*["'][wax]b?\+?["']"""
     )
     REASONS = {
+        "check-stage": "removes the file of a long stderr that it kept in the round before",
         "lib/output_file.py": "owns an output file",
         "lib/work_folder.py": "owns a folder to work in",
         "lib/command.py": "owns the temporary folder of a command",
