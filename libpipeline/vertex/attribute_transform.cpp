@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "libpipeline/numbers/vec_math.h"
@@ -18,8 +20,14 @@ BallVec3 linear_row(const std::array<Ball, 4>& row) {
   return {row[0], row[1], row[2]};
 }
 
-BallVec3 over_largest(const BallVec3& row, double largest) {
-  return {row.x / Ball(largest), row.y / Ball(largest), row.z / Ball(largest)};
+/// The exponent of two of a number that is not 0.
+std::int64_t exponent_of(const Ball& x) {
+  return std::ilogb(x.value().hi) + x.exponent();
+}
+
+/// x * 2^exponent, exactly.
+Ball shifted(const Ball& x, std::int64_t exponent) {
+  return Ball::with_error(x.value(), x.error(), x.exponent() + exponent);
 }
 
 Located<Light> moved_to(const Located<Light>& light, const BallVec3& position, UncertainDigits& uncertain) {
@@ -49,17 +57,23 @@ NormalTransform::NormalTransform(const ViewTransform& view_from_world)
 
 /// Row i of the cofactors is the cross product of the other two rows of M, in cyclic order.
 void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallVec3& z) {
-  const std::array<BallVec3, 3> cofactors = {cross(y, z), cross(z, x), cross(x, y)};
+  std::array<BallVec3, 3> cofactors = {cross(y, z), cross(z, x), cross(x, y)};
   const double side = dot(x, cofactors[0]).sign() < 0 ? -1 : 1;
-  double largest = 0;
+  std::optional<std::int64_t> exponent;
   for (const BallVec3& row : cofactors)
     for (const Ball& entry : {row.x, row.y, row.z})
-      if (entry.sign() != 0) largest = std::max(largest, entry.magnitude());
-  if (largest == 0) return;  // M flattens space to a line, in which no normal has a direction: all rows are 0
+      if (entry.sign() != 0) exponent = std::max(exponent.value_or(exponent_of(entry)), exponent_of(entry));
+  if (!exponent) return;  // M flattens space to a line, in which no normal has a direction: all rows are 0
   // Only directions matter: divided by the largest entry, the cofactors stay within a double's range.
-  if (!std::isfinite(largest)) largest = 1;
+  double largest = 0;
+  for (BallVec3& row : cofactors)
+    for (Ball* entry : {&row.x, &row.y, &row.z}) {
+      *entry = shifted(*entry, -*exponent);
+      if (entry->sign() != 0) largest = std::max(largest, entry->magnitude());
+    }
+  const Ball divisor(side * largest);
   for (std::size_t i = 0; i < 3; ++i) {
-    ball_rows_[i] = over_largest(cofactors[i], side * largest);
+    ball_rows_[i] = {cofactors[i].x / divisor, cofactors[i].y / divisor, cofactors[i].z / divisor};
     rows_[i] = nearest(ball_rows_[i]);
   }
 }

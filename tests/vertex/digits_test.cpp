@@ -538,6 +538,18 @@ TEST(Normals, AreZeroWhereAFlatteningScaleLeavesNone) {
   }
 }
 
+TEST(Normals, AreTheSameUnderEveryUniformScaling) {
+  RandomNumbers random(10);
+  for (int i = 0; i < 1'000; ++i) {
+    const TrackedModel model = random_ordinary_model(random);
+    const Vec3 normal = random_point(random, 10), image = NormalTransform(model.computed)(normal);
+    const double factor = std::exp2(random.whole(-1'000, 1'000));
+    const Vec3 factors = {factor, factor, factor};
+    // Twice, since a matrix holds more than doubles do.
+    EXPECT_EQ(NormalTransform(scaled(scaled(model.computed, factors), factors))(normal), image) << factor;
+  }
+}
+
 TEST(Normals, KeepTheirDigitsUnderExtremeScalings) {
   RandomNumbers random(9);
   double worst = 0;
