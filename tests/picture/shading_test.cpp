@@ -193,7 +193,7 @@ struct RandomRun {
     }
     if (rng() % 4 == 0) triangle[2].position = sum(triangle[1].position, scaled(vec(), 1e-14));
     weights = CornerWeights(grid, triangle, rng() % 2 == 0);
-    material = {0.5, 1, rng() % 3 * 0.5, rng() % 200};
+    material = {0.5, 1, static_cast<int>(rng() % 3) * 0.5, rng() % 200};
     for (std::size_t i = rng() % 3; i > 0; --i)
       lighting.lights.push_back({scaled(vec(), 5), {0.5, 0.7, 0.9}});
     lighting.ambient = {0.1, 0.2, 0.3};

@@ -89,8 +89,9 @@ TEST(EmptyPicture, MeasuresUpToTheFirstTriangleThatShows) {
 }
 
 TEST(EmptyPicture, WithoutTrianglesThePictureIsEmpty) {
-  EXPECT_TRUE(watched({}).is_empty());
-  for (const auto& group : watched({}).triangles().groups) EXPECT_EQ(group.count, 0u);
+  const auto picture = watched({});
+  EXPECT_TRUE(picture.is_empty());
+  for (const auto& group : picture.triangles().groups) EXPECT_EQ(group.count, 0u);
 }
 
 /// Compares with the pictures of the z-buffer, on random triangles at the borders of what is visible.
