@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/number_parser.h"
@@ -205,7 +206,10 @@ void CommandLine::set_usage(const std::string& usage) {
 }
 
 bool CommandLine::is_given(const std::string& name) const {
-  return app_->count(name) > 0;
+  // CLI11's own search for a name ends the program where there is no memory.
+  for (const CLI::Option* option : std::as_const(*app_).get_options())
+    if (option->check_name(name)) return option->count() > 0;
+  return false;
 }
 
 void CommandLine::add_flag(const std::string& name, bool& chosen, const std::string& help) {
