@@ -4,7 +4,7 @@ heading.
 
 usage: conform_student_test.py STUDENT SOURCE_DIR [EVERY]
 
-Plants one of EVERY mistakes, by default of 4.
+Plants one of EVERY mistakes, by default of 8.
 """
 import json
 import pathlib
@@ -14,7 +14,7 @@ import sys
 import tempfile
 import unittest
 
-EVERY = int(sys.argv.pop()) if len(sys.argv) > 3 else 4
+EVERY = int(sys.argv.pop()) if len(sys.argv) > 3 else 8
 SOURCE = pathlib.Path(sys.argv.pop()).resolve()
 STUDENT = pathlib.Path(sys.argv.pop()).resolve()
 PACK = SOURCE / "tests/conformance"
