@@ -4,6 +4,8 @@
 #include <array>
 #include <cstring>
 
+#include "libpipeline/numbers/vec_math.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/picture/shading.cpp"
 #include "libpipeline/picture/light_lanes.h"
@@ -113,9 +115,7 @@ Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Materi
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material,
                const Vec3& to_eye, const LightPart& part) {
   return lit_color_of(point, lighting, material, N_SCALAR::all(to_eye), [&](const Light& light) {
-    const Vec3 arriving = part(static_cast<std::size_t>(&light - lighting.lights.data()));
-    return Vec3{light.intensity.x * arriving.x, light.intensity.y * arriving.y,
-                light.intensity.z * arriving.z};
+    return product(light.intensity, part(static_cast<std::size_t>(&light - lighting.lights.data())));
   });
 }
 
