@@ -45,9 +45,8 @@ def image(m, p, is_divided=True):
         return x, y, z
     if abs(w) <= 1e-12:
         return UNDEFINED
-    z = {DIVIDES_X_AND_Y: z * w, Z_TWICE: z / w}.get(is_divided, z)
     w *= w if is_divided == TWICE else 1
-    return x / w, y / w, z / w
+    return x / w, y / w, {DIVIDES_X_AND_Y: z, Z_TWICE: z / w / w}.get(is_divided, z / w)
 
 
 def slack(m, p, units, is_divided=True):
