@@ -96,7 +96,7 @@ Plane plane_of(const Vec3& lowest, const Vec3& middle, const Vec3& highest) {
   return std::isfinite(slope) ? std::optional(slope) : std::nullopt;
 }
 
-// Z2a
+// Z2b
 double interpolate(double from, double to, double t) {
   const double difference = to - from;
   // The first form is exact where both are equal, the second cannot overflow.

@@ -67,7 +67,7 @@ HWY_INLINE Vectors mean(const Vec3& a, const Vec3& b, const Vec3& c, const Vecto
   return all(a) * weights.x + all(b) * weights.y + all(c) * weights.z;
 }
 
-// L4
+// L4a
 void shade(const PixelRun& run, const Lighting& lighting, Color* colors) {
   const auto& [a, b, c] = run.corners;
   for (int i = 0; i < run.count; i += static_cast<int>(kLanes)) {

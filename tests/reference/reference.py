@@ -23,7 +23,7 @@ Triangle = namedtuple("Triangle", "number corners whole", defaults=(None,))  # w
 # scene.md: lines, words and numbers
 class Refused(Exception): pass  # S5, O3: its arguments are the line (0 is the command line), and what breaks a rule there
 
-class Line:  # S2: the words of a line, which are taken one after the other
+class Line:  # S1b, S2: the words of a line, which are taken one after the other
     def __init__(self, number, text):
         text, self.comment, _ = text.partition("#")
         self.number, self.words = number, [word for word in re.split("[ \t]+", text.rstrip(" \t\r")) if word]
@@ -63,7 +63,7 @@ class Text:  # S1: a text, read line by line
         self.is_ended = self.lines[-1] == ""
         self.lines = self.lines[:-1] if self.is_ended else self.lines
 
-    def line(self, missing):  # S1, S5 to S5b: the next line, blank or not
+    def line(self, missing):  # S1, S1a, S5 to S5b: the next line, blank or not
         if self.at == len(self.lines):
             raise Refused(self.at + 1, f"expected {missing}, found the end of the text")
         self.at += 1
@@ -71,7 +71,7 @@ class Text:  # S1: a text, read line by line
             raise Refused(self.at, "a line of more than 2^20 bytes")
         return Line(self.at, self.lines[self.at - 1])
 
-    def filled_line(self, missing=None):  # S1, S5: the next line with a word; at the end None, if nothing is missing
+    def filled_line(self, missing=None):  # S1c, S5: the next line with a word; at the end None, if nothing is missing
         while missing or self.at < len(self.lines):
             if (line := self.line(missing)).words:
                 return line
@@ -351,7 +351,7 @@ class Writer:  # T17 to T20: the lines of a stage text
             if part.kind == "material" and part.rule and any(part.rule.numbers):
                 yield " ".join(["absorption", *map(shortest, part.rule.numbers)])
 
-    def add(self, triangle):  # T8 to T11, T18, T26
+    def add(self, triangle):  # T8 to T10, T11a, T18, T26
         if triangle.number != self.next and not self.is_bare:
             self.lines.append(f"triangle {triangle.number}")
         self.next = triangle.number + 1
@@ -366,7 +366,7 @@ class Writer:  # T17 to T20: the lines of a stage text
         words += [text_of(x) for name in ("color", "normal") if name in columns for x in getattr(corner, name)]
         return " ".join([*words, *(str(corner.material) for _ in "m" if "material" in columns)])
 
-    def text(self): return "".join(line + "\n" for line in self.lines + self.end).encode()  # T13, T18
+    def text(self): return "".join(line + "\n" for line in self.lines + self.end).encode()  # T13a, T18
 
 def depth_text(depths, rear): return "".join("".join(fixed(z, 6) + "\t" for z in row if z < rear) + "\n" for row in depths).encode()  # T23
 
@@ -379,7 +379,7 @@ def bmp(rows):  # T24: the file; a row is a list of (red, green, blue)
 def minus(a, b): return tuple(p - q for p, q in zip(a, b))  # N2
 def plus(*vectors): return tuple(map(sum, zip(*vectors)))  # N2
 def times(factor, a): return tuple(factor * p for p in a)  # N2
-def mean(weights, vectors): return plus(*map(times, weights, vectors))  # N2, P9, L4: the sum of vectors times numbers
+def mean(weights, vectors): return plus(*map(times, weights, vectors))  # N2, P9, L4a: the sum of vectors times numbers
 def dot(a, b): return sum(p * q for p, q in zip(a, b))  # N2
 def cross(a, b): return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])  # N2
 
@@ -554,7 +554,7 @@ def divided(p, corners, has_columns):  # P4, P9, N4: the vertex in NDC of a poin
     color, normal = (values[0] and mean(p.weights, values) for values in ([c.color for c in corners], [c.normal for c in corners]))
     return Vertex(line, expect_finite(times(1 / p.w, p[:3]), line), p.w if has_columns else None, color, normal, material=corners[0].material)
 
-def project(data, options):  # P1 to P11, T4, T5, T11: the text of stage 3
+def project(data, options):  # P1 to P11, T4, T5, T11a: the text of stage 3
     stage = Stage(data, "project")
     part = camera_of(stage, options, PROJECTIONS).get("projection")
     if not part:
@@ -578,8 +578,8 @@ def project(data, options):  # P1 to P11, T4, T5, T11: the text of stage 3
     return writer.text()
 
 # stages.md: zbuf, coverage and depth
-def between(p, q, t): return p + t * (q - p) if abs(q - p) < math.inf else (1 - t) * p + t * q  # Z2a
-def crossings(corners, y):  # Z2, Z2a: where edges meet the horizontal line at y: (x, z) from the left. In doubles for `nearest`, or exactly
+def between(p, q, t): return p + t * (q - p) if abs(q - p) < math.inf else (1 - t) * p + t * q  # Z2b
+def crossings(corners, y):  # Z2a, Z2b: where edges meet the horizontal line at y: (x, z) from the left. In doubles for `nearest`, or exactly
     found = []
     for p, q in ((0, 1), (1, 2), (2, 0)):
         low, high = sorted((corners[p], corners[q]), key=lambda corner: corner[1])
@@ -704,14 +704,14 @@ def lit(p, normal, color, lighting):  # L5
             result = tuple(sum_ + i * (diffuse * dot(n, l) * channel + highlight) for sum_, i, channel in zip(result, at_p, color))
     return result
 
-def shaded(surface, model_name, lighting, weights):  # L4: the color at a point of a surface
+def shaded(surface, model_name, lighting, weights):  # L4a: the color at a point of a surface
     weights = [Decimal(1) / 3] * 3 if model_name == "flat" else weights
     if model_name == "gouraud":
         return mean(weights, [tuple(map(clamped, lit(*corner, lighting))) for corner in zip(*surface[1:4])])
     point = [mean(weights, values) for values in surface[1:4]]
     return point[2] if model_name == "none" else lit(*point, lighting)
 
-def clamped(channel): return max(Decimal(0), min(Decimal(255), channel))  # L4, L6
+def clamped(channel): return max(Decimal(0), min(Decimal(255), channel))  # L4a, L6
 def rounded(color): return tuple(math.floor(clamped(channel) + Decimal("0.5") + Decimal(2) ** -20) for channel in color)  # L6
 
 def shade(seen, header, config, model_name):  # L1 to L5, Z10: the picture, in colors that are not yet rounded; `seen` is that of draw

@@ -45,7 +45,7 @@ def lights():
         ("corners-that-are-clamped", "--shading gouraud clamps the colors of corners before it mixes them.",
          "L4",
          lit_text("normal", ("0 0 1", "1 0 0.125", "0 1 0.125"), "light 0 0 9 9 6 3"), "--shading gouraud"),
-        ("normals-of-unequal-lengths", "Normals are mixed as they are, not as unit vectors.", "L4 T9",
+        ("normals-of-unequal-lengths", "Normals are mixed as they are, not as unit vectors.", "L4a T9",
          lit_text("normal", ("0 0 5", "3 0 1", "0 0.25 0.125")), "--shading phong"),
         ("flat-by-three-normals", "--shading flat uses the plane's normal, and no other.", "L4",
          lit_text("color normal", [f"{c} {n}" for c, n in zip(colored, slanted)]), "--shading flat"),
@@ -185,7 +185,7 @@ def numbers_in_words():
                    "\xef\xbb\xbf" + header + VERTICES, CONFIG, needs="syntax")
         yield Case(stage, "lines-comment-in-a-triangle", "A line of comment alone does not part a triangle.",
                    "T8", header + VERTICES.replace("1 0 -2", "# c\n1 0 -2\n  # c\n#"), CONFIG, needs="syntax")
-        yield Case(stage, "lines-carriage-return-before-a-comment", "It is at the end of the line.", "S1",
+        yield Case(stage, "lines-carriage-return-before-a-comment", "It is at the end of the line.", "S1b",
                    header + VERTICES.replace("0 -2", "0 -2\r# c"), CONFIG, needs="syntax")
         yield Case(stage, "lines-indented", "Blanks and tabs may stand in front of words.", "S2 T8",
                    " " * bool(header) + header + VERTICES.replace("1", "\t 1"), CONFIG, needs="syntax")
@@ -202,9 +202,9 @@ def numbers_in_words():
     why, long = "A line has at most 2^20 bytes.", "#" + " " * (2**20 - 1)
     for stage, before in {"model": CAMERA, **HEADERS}.items():
         behind = "end\n" if stage == "model" else VERTICES
-        yield Case(stage, "lines-of-2-to-the-20-bytes", why, "S1", f"{before}{long}\n{behind}", CONFIG,
+        yield Case(stage, "lines-of-2-to-the-20-bytes", why, "S1a", f"{before}{long}\n{behind}", CONFIG,
                    needs="syntax")
-        yield refused(stage, "line-of-more-than-2-to-the-20-bytes", why, "S1", before.count("\n") + 1,
+        yield refused(stage, "line-of-more-than-2-to-the-20-bytes", why, "S1a", before.count("\n") + 1,
                       f"{before}{long} \n{behind}")
     yield Case("model", "lines-byte-order-mark-before-a-comment",
                "A byte order mark in front does not count.", "S1",

@@ -185,17 +185,17 @@ def numbers_and_lines():
                "triangle\n1e-400 1 2\n1 0 1e-9999\n0 1 0\n", needs="syntax")
     text, moved = scene("push\n" + TRIANGLE + "pop\n"), scene("translate\n1 2 3\n" + TRIANGLE)
     for name, why, paragraphs, changed in (
-        ("carriage-returns", "Scenes come from other systems: lines end in CR LF.", "S1",
+        ("carriage-returns", "Scenes come from other systems: lines end in CR LF.", "S1b",
          moved.replace("\n", "\r\n")), ("tabs", "Tabs separate words, too.", "S2", moved.replace(" ", "\t")),
         ("several-blanks", "Words may be separated by more than one blank, and lines begin with some.", "S2",
          moved.replace(" ", "   ").replace(
              "\n", "\n  ").rstrip(" ")), ("blanks-at-the-end",
-                                          "Blanks and tabs at the end of a line do not count.", "S1",
+                                          "Blanks and tabs at the end of a line do not count.", "S1b",
                                           moved.replace("\n", " \t\n")),
-        ("blank-lines", "Blank lines do not count, not even between a command and its arguments.", "S1 S10",
+        ("blank-lines", "Blank lines do not count, not even between a command and its arguments.", "S1c S10",
          moved.replace("\n", "\n\n")), ("comments",
                                         "A comment ends with its line, and a line of nothing else is blank.",
-                                        "S1", "# a scene\n" + moved.replace("\n", " # c\n# 9 9 9\n")),
+                                        "S1b S1c", "# a scene\n" + moved.replace("\n", " # c\n# 9 9 9\n")),
         ("byte-order-mark", "A byte order mark in front is not a word.", "S1",
          "\xef\xbb\xbf" + moved), ("no-line-feed-at-the-end", "The last line may lack its line feed.", "S1",
                                    text.rstrip("\n")),

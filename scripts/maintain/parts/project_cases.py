@@ -89,13 +89,13 @@ def texts():
                    points=f"{numbers}\n1 0 -2\n0 1 -3\n\n")
     usual = f"perspective {PERSPECTIVE}\n{POINTS}"
     for name, why, paragraphs, changed in (
-        ("carriage-returns", "Lines may end in CR LF.", "S1", usual.replace(
+        ("carriage-returns", "Lines may end in CR LF.", "S1b", usual.replace(
             "\n",
             "\r\n")), ("comments", "Comments do not count, and lines of nothing else do not part a triangle.",
-                       "S1 T8", "# c\n" + usual.replace("\n", " # c\n", 3)),
+                       "S1b S1c T8", "# c\n" + usual.replace("\n", " # c\n", 3)),
         ("no-blank-lines", "No blank line need stand between triangles.", "T8",
          usual + POINTS.strip() + "\n" + POINTS.strip() + "\n"), ("several-blank-lines", "More than one may.",
-                                                                  "S1 T8", usual + "\n\n" + POINTS + "\n"),
+                                                                  "S1c T8", usual + "\n\n" + POINTS + "\n"),
         ("tabs-and-plus-signs", "Other programs print numbers otherwise.", "S2 S3", usual.replace(
             " ", "\t").replace("0.5",
                                "+.5")), ("no-line-feed-at-the-end", "The last line may lack its line feed.",
@@ -275,13 +275,13 @@ def extensions():
     yield case("light", "In a text with lights project writes what it projected by.", "P11 T4", "60 1.5 1 10",
                POINTS, light, needs="lights")
     yield case("light-and-cut", "In a text with lights the whole triangle stands before its pieces.",
-               "P11 T11", "90 1 1 10", "0 0 2\n1 0 -3\n0 1 -4\n\n" + POINTS, light,
+               "P11 T11a", "90 1 1 10", "0 0 2\n1 0 -3\n0 1 -4\n\n" + POINTS, light,
                needs="lights clipping numbering")
     yield case(
         "light-and-cuts-in-a-row", "Each cut triangle has its whole one before its own pieces.",
-        "P11 T10 T11", "90 1 1 10", POINTS + "0 0 2\n1 0 -3\n0 1 -4\n\n" + "0 0 2\n-1 0 -3\n0 -1 2\n\n" +
+        "P11 T10 T11a", "90 1 1 10", POINTS + "0 0 2\n1 0 -3\n0 1 -4\n\n" + "0 0 2\n-1 0 -3\n0 -1 2\n\n" +
         POINTS + "1 0 -3\n0 1 2\n0 -1 -4\n\n", light, needs="lights clipping numbering")
-    yield case("light-and-colored-cut", "The whole triangle has its columns, too.", "P11 T11", "90 1 1 10",
+    yield case("light-and-colored-cut", "The whole triangle has its columns, too.", "P11 T11a", "90 1 1 10",
                cut, "attributes color\n" + light, needs="lights colors clipping numbering")
     materials = "attributes material\nmaterial 1 1 0 1\nmaterial 0.5 0.25 1 16\n"
     yield case("materials", "Each triangle keeps its material.", "T5 T9", "60 1 1 10",
@@ -291,11 +291,11 @@ def extensions():
                "0 0 -2\n1 0 -3\n0 1 -4\n\n", "material 1 0.5 0.25 16 0.125 1.5 0.25\nabsorption 0.5 0 2\n",
                needs="optics")
     yield case("light-and-cut-with-a-material", "The whole triangle and all its pieces have its material.",
-               "P9 P11 T11", "90 1 1 10", "0 0 2 1\n1 0 -3 1\n0 1 -4 1\n\n", materials + light,
+               "P9 P11 T11a", "90 1 1 10", "0 0 2 1\n1 0 -3 1\n0 1 -4 1\n\n", materials + light,
                needs="lights materials clipping numbering")
     yield Case("project", "light-under-ortho", "The projection is passed on as what it was.", "P11 T4",
                f"ortho -2 3 -1 2 1 9\n{light}{POINTS}", needs="lights projections")
-    yield case("framed", "framed and end are passed on.", "T13", "60 1 1 10", POINTS + "end\n", "framed\n",
+    yield case("framed", "framed and end are passed on.", "T13a", "60 1 1 10", POINTS + "end\n", "framed\n",
                needs="frames")
 
 

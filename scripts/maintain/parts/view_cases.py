@@ -110,13 +110,13 @@ def points():
 def lines():
     usual = text((1, 2, 3), (0, 0, 0), (0, 1, 0))
     for name, why, paragraphs, changed in (
-        ("carriage-returns", "Lines may end in CR LF.", "S1", usual.replace("\n", "\r\n")),
+        ("carriage-returns", "Lines may end in CR LF.", "S1b", usual.replace("\n", "\r\n")),
         ("comments",
-         "Comments and the lines that hold nothing else do not count, nor do they part a triangle.", "S1 T8",
+         "Comments and the lines that hold nothing else do not count, nor do they part a triangle.", "S1b S1c T8",
          "# c\n" + usual.replace("\n", " # c\n")),
         ("no-blank-lines", "No blank line need stand between triangles.", "T8",
          text((1, 2, 3), (0, 0, 0), (0, 1, 0),
-              (POINTS * 2).replace("\n\n", "\n"))), ("several-blank-lines", "More than one may.", "S1 T8",
+              (POINTS * 2).replace("\n\n", "\n"))), ("several-blank-lines", "More than one may.", "S1c T8",
                                                      text((1, 2, 3), (0, 0, 0), (0, 1, 0),
                                                           "\n\n" + POINTS + "\n \n" + POINTS + "\n")),
         ("tabs-and-exponents", "Other programs print numbers otherwise.", "S2 S3",
@@ -186,7 +186,7 @@ def extensions():
     yield case("sphere-with-columns", "A sphere has all columns but the normal.", eye, look, up,
         "sphere\n" + "".join(f"{p} 9 8 7\n" for p in ("0 0 0", "1 0 0", "0 1 0", "0 0 1")) + "\n", "T26",
         "attributes color normal\n", needs="spheres colors")
-    yield Case("view", "framed", "framed and end are passed on.", "T13", "framed\n" + usual + "end\n",
+    yield Case("view", "framed", "framed and end are passed on.", "T13a", "framed\n" + usual + "end\n",
                needs="frames")
     colored = "0 0 0 255 0 0\n1 0 0 0 128.5 0\n0 1 0 0 0 0.25\n"
     normals = "0 0 0 0 0 1\n1 0 0 0 1 0\n0 1 0 0.6 0 0.8\n"

@@ -106,9 +106,9 @@ def extensions():
     yield case("rows", "Some rows alone are drawn.", "Z13", usual + two, options="--rows 2:5")
     colored = "attributes color\n-0.83 -0.77 0.1 255 0 0\n0.87 -0.31 0.5 0 255 0\n-0.13 0.91 0.9 0 0 255\n"
     for name, why, paragraphs, text in (
-        ("one-color", "A triangle has the color of its corners.", "L4",
+        ("one-color", "A triangle has the color of its corners.", "L4a",
          "attributes color\n" + usual.replace("\n", " 200 100 50\n", 3)),
-        ("three-colors", "Between corners of different colors the color is their mean.", "L3 L4",
+        ("three-colors", "Between corners of different colors the color is their mean.", "L3 L4a",
          colored), ("colors-with-w", "With w the mean is taken in space, not on the screen.", "L2 L3",
                     colored.replace("attributes", "attributes w").replace("0.1 255", "0.1 1 255").replace(
                         "0.5 0", "0.5 4 0").replace("0.9 0", "0.9 9 0")),
@@ -120,7 +120,7 @@ def extensions():
                                             "Z11 S18", "background 10 20 30 255\n" + usual),
         ("fractions-of-colors", "Colors are rounded to whole numbers, halves up.", "L6",
          "background 0.5 1.5 2.49\nattributes color\n" + usual.replace("\n", " 200.6 100.49 0.51\n", 3)),
-        ("colors-and-depth", "The nearer color is seen.", "Z8 L4",
+        ("colors-and-depth", "The nearer color is seen.", "Z8 L4a",
          "attributes color\n" + (usual + two.replace("\n", " 9 8 7\n", 3)).replace("\n", " 1 2 3\n", 3))):
         yield case(f"colored-{name}", why, paragraphs, text,
                    needs="colors alpha" if "opaque" in name else "colors")
@@ -130,14 +130,14 @@ def extensions():
         text = lit[0].format("attributes w color normal\n") + "".join(f"{p} {rest}\n" for p,
             rest in zip(lit[1:], ("2 250 40 30 0 0 1", "3 40 200 60 0.6 0 0.8", "5 30 60 220 0 0.6 0.8")))
         yield case(f"lit-{shading}", f"--shading {shading} on a triangle of three colors and normals.",
-                   "L1 L4 L5", text, needs="lights colors", options=f"--shading {shading}")
+                   "L1 L4a L5", text, needs="lights colors", options=f"--shading {shading}")
         two = lit[0].format("attributes w normal material\n").replace(
             "material 1 0.8", "material 1 1 0 1\nmaterial 1 0.8") +"".join(
                 f"{p} {rest} {k}\n" for k, xs in ((1, lit[1:]),
                                                   (0, ("-0.9 0.9 0.2", "-0.9 -0.1 0.2", "0.1 0.9 0.2")))
                 for p, rest in zip(xs, ("2 0 0 1", "3 0.6 0 0.8", "5 0 0.6 0.8")))
         yield case(f"lit-materials-{shading}", f"--shading {shading} on triangles of two materials.",
-                   "L4 L5 T9", two, needs="lights materials", options=f"--shading {shading}")
+                   "L4a L5 T9", two, needs="lights materials", options=f"--shading {shading}")
     plain_lit = lit[0].format("") + "\n".join(lit[1:]) + "\n"
     yield case(
         "lit-glass", "Glass is drawn as if it were none.", "S19d L5",
@@ -145,7 +145,7 @@ def extensions():
         needs="lights optics")
     odd = lit[0].format("attributes color\n").replace("light 2 3 1 1 0.9 0.8", "light 2 3 1 0 0 0")
     yield case(
-        "lit-halves", "Halves go up, and a flat triangle has one color.", "L1 L4 L6 L7",
+        "lit-halves", "Halves go up, and a flat triangle has one color.", "L1 L4a L6 L7",
         odd.replace("0.12 0.13 0.14", "0.5 0.5 0.5") + "".join(
             f"-0.9 {y} 0 {color}\n0.9 {y} 0 {color}\n0.1 {y + 0.6} 0.25 {color}\n"
             for y, color in ((-0.9, "101 33 77"), (-0.6, "7 99 251"), (0.5, "1 3 5"), (0.75, "55 155 253"))),
