@@ -1,6 +1,7 @@
 // zbuf's image and every fragment of its pixels, counted row by row from the top left.
 
-import {bytesOf, intsOf, realsOf} from "./pack.js";
+import {fragmentsOf} from "./fragments.js";
+import {bytesOf} from "./pack.js";
 
 const FATES = ["kept", "lost, behind", "lost, equal and later than", "lost, before the front limit", "lost, beyond the rear limit", "lost, nearer by too little than"];
 const LOST_TO = new Set([1, 2, 5]);  // the fates that name the triangle that is shown
@@ -10,10 +11,8 @@ export class FragmentData {
   constructor(data, spheres) {
     Object.assign(this, {columns: data.columns, rows: data.rows, rgb: bytesOf(data.pixels), leftOut: data.leftOut});
     this.spheres = new Set(spheres);
-    this.begins = intsOf(data.fragments.begins);
-    this.triangles = intsOf(data.fragments.triangles);
-    this.depths = realsOf(data.fragments.depths);
-    this.fates = bytesOf(data.fragments.fates);
+    const {fragments} = data;
+    Object.assign(this, typeof fragments === "string" ? fragmentsOf(fragments, this.columns, this.columns * this.rows) : fragments);
     this.seen = new Int32Array(this.columns * this.rows).fill(-1);    // the last fragment that was kept,
     this.owners = new Int32Array(this.columns * this.rows).fill(-1);  // and its triangle
     this.shownPixels = new Int32Array(data.triangles);                // of each triangle

@@ -22,10 +22,9 @@ MAX_FRAGMENTS = 3000000
 MAX_FACETS = 20000  # of all spheres
 BELTS = 2, 16       # the fewest and the most of a sphere
 # Of the time for a large page how many per cent have passed at the end of each step.
-SHARES = {"model": 7, "view": 13, "project": 20, "zbuf": 28, "fragments": 70}
+SHARES = {"model": 11, "view": 21, "project": 32, "zbuf": 48}
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
 BEGINS = (*NUMBER_BEGINS, "triangle ", "clipped", "sphere")  # of the lines behind a header
-FATES = ("kept", "behind", "equal", "before", "beyond")
 
 
 def time_told(stderr):
@@ -138,7 +137,6 @@ class Inspection:
         self.tools.run("zbuf", *zbuf_words, "--z-buffer", "/dev/null", "--image", folder / "again.ppm",
                        "--fragments", log, "--stats", folder / "zbuf", stdin=stage3)
         self.notes += notes_told(timed)
-        self.progress.reach(SHARES["zbuf"])
         self.columns, self.rows, pixels = read_picture(image)
         text = z_buffer.read_text()
         self.stages.append({
@@ -147,32 +145,16 @@ class Inspection:
             "statistics": statistics(folder / "zbuf"), "text": text})
         self.pixels = base64.b64encode(b"".join(pixels)).decode()
         self.fragments = self.fragments_of(log)
-        self.progress.reach(SHARES["fragments"])
+        self.progress.reach(SHARES["zbuf"])
 
     def fragments_of(self, log):
-        """All fragments, pixel by pixel from the top left, in the order they arrived: the start of each
-        pixel's fragments, then triangles, depths and fates. If there are very many, losing fragments are left
-        out."""
-        found = []
-        with open(log, encoding="ascii") as lines:
-            for line in lines:
-                words = line.split()
-                column, row = words[0][:-1].split(",")
-                fate = 0 if words[5] == "kept" else FATES.index(words[6])
-                found.append(
-                    (int(row) * self.columns + int(column), int(words[2][:-1]), float(words[4][:-1]), fate))
-        self.fragment_count = len(found)
-        if len(found) > MAX_FRAGMENTS:
-            found = [fragment for fragment in found if fragment[3] == 0]
-        self.left_out_count = self.fragment_count - len(found)
-        found.sort(key=lambda fragment: fragment[0])
-        begins, at = [], 0
-        for pixel in range(self.columns * self.rows + 1):
-            while at < len(found) and found[at][0] < pixel:
-                at += 1
-            begins.append(at)
-        return {"begins": packed("i", begins), "triangles": packed("i", [f[1] for f in found]),
-                "depths": packed("d", [f[2] for f in found]), "fates": packed("B", [f[3] for f in found])}
+        """What zbuf says of all fragments; if they are very many, without those that lost."""
+        text = log.read_text(encoding="ascii")
+        count = text.count("\n")
+        if count > MAX_FRAGMENTS:
+            text = "".join(line for line in text.splitlines(keepends=True) if line.endswith(": kept\n"))
+        self.left_out_count = count - text.count("\n")
+        return text
 
     def limits(self):
         """The words of the config's limits in x and y."""
@@ -193,7 +175,6 @@ class Inspection:
             "stages": self.stages,
             "pixels": self.pixels,
             "fragments": self.fragments,
-            "fragmentCount": self.fragment_count,
             "leftOut": self.left_out_count,
             "notes": self.notes + self.square_notes,
             "limits": self.limits(),

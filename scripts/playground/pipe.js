@@ -8,7 +8,6 @@ export const STAGES = ["model", "view", "project", "zbuf"];
 const BELTS = "8";  // of the facets that project and zbuf get in place of a sphere
 const TITLES = {model: "world space", view: "view space", project: "normalized device coordinates"};
 const MOST_TRIANGLES = 2000000;  // and numbers of them, which the panels count up to
-const FATES = ["kept", "behind", "equal", "before", "beyond", "nearer"];
 const FILES = {model: "stage1.txt", view: "stage2.txt", project: "stage3.txt", zbuf: "z_buffer.txt"}, SAVED_IMAGE = "out.bmp";
 const EXACT = ["--digits", "exact"];
 const IMAGE = "out.ppm", COUNTS = "counts.txt", FRAGMENTS = "fragments.txt", TRIANGLES = "triangles.npy", DEPTHS = "depths.npy";
@@ -128,10 +127,10 @@ export class Pipe {
     const {columns, rows} = imageOf(zbuf.read(IMAGE));
     const depths = textOf(zbuf.output), stages = texts.map((text, i) => this.stageData(results[i], text, counts[i], model.count));
     stages.push({tool: "zbuf", title: "pixels", seconds: zbuf.seconds, triangles: texts[2].names.length, bytes: zbuf.output.length, statistics: counts[3], text: depths});
-    const log = zbuf.read(FRAGMENTS), fragments = log ? fragmentsOf(textOf(log), columns, columns * rows) : seenOf(zbuf.read(TRIANGLES), zbuf.read(DEPTHS));
+    const log = zbuf.read(FRAGMENTS), fragments = log ? textOf(log) : seenOf(zbuf.read(TRIANGLES), zbuf.read(DEPTHS));
     return {
       scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres.names.length, step: 1, stages, notes: [], limits: limitsOf(config),
-      explanations: [], ...fragments,
+      explanations: [], fragments, leftOut: 0,
     };
   }
 
@@ -172,29 +171,5 @@ function seenOf(triangles, depths) {
   const names = Int32Array.from(numbersOf(triangles, BigInt64Array), Number), begins = new Int32Array(names.length + 1);
   names.forEach((name, p) => { begins[p + 1] = begins[p] + (name >= 0); });
   const shown = names.filter(name => name >= 0);
-  return {fragments: {begins, triangles: shown, depths: numbersOf(depths, Float64Array).filter(depth => !Number.isNaN(depth)), fates: new Uint8Array(shown.length)}, fragmentCount: shown.length, leftOut: 0};
-}
-
-// The fragments of `--fragments`, pixel by pixel from the top left, in the order in which they arrived.
-function fragmentsOf(text, columns, pixelCount) {
-  const lines = text.split("\n");
-  lines.pop();
-  const count = lines.length, pixels = new Int32Array(count), begins = new Int32Array(pixelCount + 1);
-  const found = {triangles: new Int32Array(count), depths: new Float64Array(count), fates: new Uint8Array(count)};
-  const sorted = {triangles: new Int32Array(count), depths: new Float64Array(count), fates: new Uint8Array(count)};
-  lines.forEach((line, i) => {  // COLUMN,ROW: triangle N, depth D: kept | COLUMN,ROW: triangle N, depth D: lost, behind triangle M
-    const [place, , name, , depth, fate, why] = line.split(" "), [column, row] = place.split(",");
-    pixels[i] = parseInt(row, 10) * columns + Number(column);
-    ++begins[pixels[i] + 1];
-    found.triangles[i] = parseInt(name, 10);
-    found.depths[i] = parseFloat(depth);
-    found.fates[i] = fate === "kept" ? 0 : FATES.indexOf(why);
-  });
-  for (let p = 0; p < pixelCount; ++p) begins[p + 1] += begins[p];
-  const next = begins.slice();
-  for (let i = 0; i < count; ++i) {
-    const at = next[pixels[i]]++;
-    for (const key in sorted) sorted[key][at] = found[key][i];
-  }
-  return {fragments: {begins, ...sorted}, fragmentCount: count, leftOut: 0};
+  return {begins, triangles: shown, depths: numbersOf(depths, Float64Array).filter(depth => !Number.isNaN(depth)), fates: new Uint8Array(shown.length)};
 }

@@ -53,7 +53,7 @@ class Messages(ToolTest):
         shown = os.read(ours, 10000)
         os.close(ours)
         self.assertRegex(shown, rb"\A\r\[\.{30}\] 0%")
-        self.assertRegex(shown, rb"\r\[#{21}\.{9}\] 70%, \d+ s left")
+        self.assertRegex(shown, rb"\r\[#{14}\.{16}\] 48%, \d+ s left")
         self.assertTrue(shown.endswith(b"\r\x1b[K"))
 
     def test_a_sphere_needs_trace(self):
