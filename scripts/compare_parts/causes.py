@@ -6,7 +6,7 @@ from compare_parts.differences import exceeds
 from judge_parts.points import read_points
 from judge_parts.reference import Reference
 from judge_parts.stage_judge import Reading, StageJudge, exact_images
-from lib.pipe_tools import Tools
+from lib.running.pipe_tools import Tools
 
 UNIT = 1e-7   # in the last of 7 decimals
 CLOSE = 2e-6  # for numbers calculated from numbers that were printed with 7 decimals

@@ -1,8 +1,8 @@
 """A z-buffer text as rows of numbers."""
-from lib.command import shown
-from lib.input_file import name_of
-from lib.plain_stage_text import real
-from lib.stage_text import StageTextError
+from lib.rim.command import shown
+from lib.rim.input_file import name_of
+from lib.text.plain_stage_text import real
+from lib.text.stage_text import StageTextError
 
 
 def parse_z_buffer(text, path):

@@ -6,10 +6,10 @@ import shlex
 import subprocess
 
 from film_parts.scene import number
-from lib.command import CommandFailure, shown
-from lib.output_file import OutputFile
-from lib.parallel import Job, run_parallel
-from lib.work_folder import WorkFolder
+from lib.rim.command import CommandFailure, shown
+from lib.rim.output_file import OutputFile
+from lib.rim.parallel import Job, run_parallel
+from lib.rim.work_folder import WorkFolder
 
 FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999

@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from lib.vectors import axes, dot, moved, normalized, turned_about
+from lib.maths.vectors import axes, dot, moved, normalized, turned_about
 
 STEP = 0.05  # of the distance between eye and look
 TURN = math.radians(3)

@@ -2,9 +2,9 @@
 import dataclasses
 import math
 
-from lib.projection import window_of
-from lib.stage_text import triangle_lines
-from lib.vectors import dot
+from lib.maths.vectors import dot
+from lib.text.projection import window_of
+from lib.text.stage_text import triangle_lines
 
 ROOM = 1.05  # left around the scene
 

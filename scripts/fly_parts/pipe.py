@@ -8,9 +8,9 @@ import tempfile
 import threading
 
 from fly_parts.framing import Ball
-from lib.child import cpu_seconds, finished
-from lib.pipe_tools import ToolFailure, opaque_background
-from lib.projection import line_of
+from lib.rim.child import cpu_seconds, finished
+from lib.running.pipe_tools import ToolFailure, opaque_background
+from lib.text.projection import line_of
 
 RASTERIZING = ("model", "view", "project", "zbuf")
 TRACING = ("model", "view", "trace")

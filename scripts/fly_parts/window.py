@@ -11,12 +11,12 @@ from fly_parts.camera import STEP, Camera
 from fly_parts.framing import direction, framing_distance
 from fly_parts.pipe import FramePipe
 from fly_parts.scene import rewritten
-from lib.command import CommandFailure, shown
-from lib.input_file import read_input
-from lib.output_file import write_file
-from lib.pictures import png, read_picture
-from lib.pipe_tools import ToolFailure
-from lib.projection import window_of
+from lib.rim.command import CommandFailure, shown
+from lib.rim.input_file import read_input
+from lib.rim.output_file import write_file
+from lib.running.pipe_tools import ToolFailure
+from lib.showing.pictures import png, read_picture
+from lib.text.projection import window_of
 
 KEYS = """drag           orbit around the point looked at
 wheel          nearer, farther

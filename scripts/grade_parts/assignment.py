@@ -10,9 +10,9 @@ from grade_parts.hints import LEVELS
 from judge_parts.hand_in import KINDS, STAGE_OF
 from judge_parts.program import STAGES, input_of, without_comments
 from judge_parts.reference import JudgeError, Reference, kinds_of
-from lib.command import CommandFailure, shown
-from lib.input_file import InputError, read_input
-from lib.pipe_tools import ToolFailure, Tools
+from lib.rim.command import CommandFailure, shown
+from lib.rim.input_file import InputError, read_input
+from lib.running.pipe_tools import ToolFailure, Tools
 
 SETTINGS = "assignment.txt"
 KIND_OF = {name: kind for kind, (name, _) in KINDS.items()}

@@ -7,7 +7,7 @@ import stat
 import tarfile
 import zipfile
 
-from lib.command import shown
+from lib.rim.command import shown
 
 MOST_FILES = 20_000
 LONGEST_NAME = 200          # as a remark has it

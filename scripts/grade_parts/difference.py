@@ -2,7 +2,7 @@
 import base64
 
 from judge_parts.verdict import UNREADABLE
-from lib.pictures import PictureError, picture_of, png
+from lib.showing.pictures import PictureError, picture_of, png
 
 MOST_COLUMNS = 480
 RED, ORANGE = bytes((220, 0, 0)), bytes((245, 140, 0))

@@ -6,8 +6,8 @@ import re
 
 from grade_parts.contents import SUFFIXES, UNREAD, ContentsError, without_suffix
 from judge_parts.hand_in import KINDS, File, fitting_names, plain
-from lib.command import shown
-from lib.input_file import InputError
+from lib.rim.command import shown
+from lib.rim.input_file import InputError
 
 LONGEST_LABEL = 60
 

@@ -10,14 +10,14 @@ from grade_parts.assignment import SETTINGS, optional, read_tests
 from grade_parts.graders import Limits, grade_all
 from grade_parts.hand_ins import HandIn
 from grade_parts.programs import expect_protection
-from judge_parts.places import HERE, place
-from lib.input_file import read_input
-from lib.output_file import write_file
-from lib.pipe_tools import SOURCE, Tools
-from lib.work_folder import WorkFolder
+from lib.rim.places import HERE, place
+from lib.rim.input_file import read_input
+from lib.rim.output_file import write_file
+from lib.running.pipe_tools import SOURCE, Tools
+from lib.rim.work_folder import WorkFolder
 
 TOP = "pipeline"      # the folder of a kit with what all kinds share, in the order of the source tree
-ROOMS = ("explain_parts", "grade_parts", "judge_parts", "lib")
+ROOMS = ("grade_parts", "judge_parts", "lib")
 TOOLS = ("model", "view", "project", "zbuf")
 OF_A_TEST = ("scene.txt", "config.txt", "weight.txt")
 DATE = (1980, 1, 1, 0, 0, 0)  # of every file, so that the same kit has the same bytes
@@ -31,7 +31,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, {place})
 
 from grade_parts.kit_{kind} import main
-from lib.command import run_command
+from lib.rim.command import run_command
 
 run_command(main, "{name}", failure_status=2)
 '''
@@ -41,8 +41,8 @@ BESIDE = 'os.path.join(os.path.dirname(os.path.realpath(__file__)), "pipeline/sc
 def files_of_judge():
     """(name in TOP, bytes) of what judges."""
     for room in ROOMS:
-        for path in sorted((HERE.parents[1] / room).glob("*.py")):
-            yield f"scripts/{room}/{path.name}", path.read_bytes()
+        for path in sorted((HERE.parents[2] / room).rglob("*.py")):
+            yield f"scripts/{path.relative_to(HERE.parents[2])}", path.read_bytes()
     conformance = place("tests/conformance", "share/pipeline/conformance")
     for path in (*sorted(conformance.glob("conform_parts/*.py")), conformance / "fixes.txt",
                  conformance / "mistakes.txt"):

@@ -9,7 +9,7 @@ import subprocess
 
 from grade_parts.kit import BESIDE, ENTRY, judged, put
 from grade_parts.results import words_of
-from lib.command import CommandFailure, shown
+from lib.rim.command import CommandFailure, shown
 
 WORDS = "Judges the student's checkout, the current folder, and writes result.json and release-body.md there."
 FROM_ENVIRONMENT = {"classroom": "CLASSROOM", "assignment": "ASSIGNMENT", "submission": "SUBMISSION_TAG",

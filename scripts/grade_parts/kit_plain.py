@@ -5,8 +5,8 @@ import sys
 from grade_parts.kit import BESIDE, ENTRY, judged, put
 from grade_parts.page import page
 from grade_parts.results import gradescope
-from lib.command import CommandFailure
-from lib.output_file import make_folders
+from lib.rim.command import CommandFailure
+from lib.rim.output_file import make_folders
 
 CONTRACT = """# A judge for one assignment
 

@@ -7,8 +7,8 @@ from grade_parts.assignment import amount
 from grade_parts.contents import without_suffix
 from grade_parts.graders import GradedTest
 from judge_parts.verdict import Verdict
-from lib.command import CommandFailure, shown
-from lib.input_file import read_input
+from lib.rim.command import CommandFailure, shown
+from lib.rim.input_file import read_input
 
 COLUMNS = ["hand-in", "test", "points", "comment"]
 

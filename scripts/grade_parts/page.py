@@ -5,7 +5,7 @@ import html
 from grade_parts.hints import gives, told
 from judge_parts.fit import shown
 from judge_parts.report import remarks_of
-from lib.page_policy import policy
+from lib.showing.page_policy import policy
 
 STYLE = """
 body { font: 11pt/1.4 sans-serif; max-width: 56rem; margin: 2rem auto; padding: 0 1rem; color: #1a1a1a }

@@ -13,9 +13,9 @@ from judge_parts.program import ProgramError, confined, hand_in, outcome, run_pr
 from judge_parts.reference import kinds_of
 from judge_parts.verdict import WRONG, Cause, FileVerdict, Verdict
 from grade_parts.assignment import SECONDS_OF_BUILD, SECONDS_OF_RUN
-from judge_parts.places import place
-from lib.command import CommandFailure, shown
-from lib.pipe_tools import Tools
+from lib.rim.places import place
+from lib.rim.command import CommandFailure, shown
+from lib.running.pipe_tools import Tools
 
 NOBODY = 65534
 AS_NOBODY = ("setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups", "--no-new-privs",

@@ -2,8 +2,8 @@
 import collections
 
 from judge_parts.verdict import FAILED, OPEN, WRONG
-from lib.command import shown
-from lib.table import table
+from lib.rim.command import shown
+from lib.showing.table import table
 
 
 def equal_files(graded):

@@ -1,15 +1,15 @@
 """What explain reports on each triangle."""
-from explain_parts.report import triangle_report
-from explain_parts.scene import find_triangles
-from explain_parts.stages import Settings, words_of
-from explain_parts.window import Window
 from inspect_parts.stage_lines import StageLines
+from lib.explaining.report import triangle_report
+from lib.explaining.stages import Settings, words_of
+from lib.maths.window import Window
+from lib.text.scene import find_triangles
 
 MAX_EXPLAINED_TRIANGLES = 1000  # some milliseconds each
 
 
 class StagesOfPage:
-    """Takes the place of explain_parts.stages.Stages, for triangle `number` of an Inspection; `lossless` has
+    """Takes the place of lib.explaining.stages.Stages, for triangle `number` of an Inspection; `lossless` has
     the StageLines of model and view with all digits."""
 
     def __init__(self, inspection, lossless, number):

@@ -9,12 +9,12 @@ import tempfile
 from inspect_parts.explanations import explanations
 from inspect_parts.packing import packed
 from inspect_parts.stage_lines import NUMBER_BEGINS, StageLines
-from lib.input_file import read_input
-from lib.pictures import read_picture
-from lib.pipe_tools import ToolFailure, opaque_background
-from lib.projection import line_of
-from lib.square import note_on_squares
-from lib.stage_text import text_of
+from lib.rim.input_file import read_input
+from lib.running.pipe_tools import ToolFailure, opaque_background
+from lib.showing.pictures import read_picture
+from lib.text.projection import line_of
+from lib.text.square import note_on_squares
+from lib.text.stage_text import text_of
 
 # A page opens in a few seconds up to this number; beyond it only every n-th triangle is drawn.
 MAX_DRAWN_TRIANGLES = 200000

@@ -1,4 +1,4 @@
-// What explain reports on a pixel and a triangle, exactly: scripts/explain_parts/window.py and pixel_section.py.
+// What explain reports on a pixel and a triangle, exactly: scripts/lib/maths/window.py and lib/explaining/pixel_section.py.
 
 import {Double, Fraction} from "./exact.js";
 

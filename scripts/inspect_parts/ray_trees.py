@@ -5,9 +5,9 @@ import pathlib
 import re
 import tempfile
 
-from lib.pictures import read_picture
-from lib.pipe_tools import opaque_background
-from lib.vectors import axes
+from lib.maths.vectors import axes
+from lib.running.pipe_tools import opaque_background
+from lib.showing.pictures import read_picture
 
 MOST_TREES = 4000  # a few megabytes of text
 

@@ -11,7 +11,7 @@ from judge_parts.reference import reference
 from judge_parts.report import remarks_of, sentence
 from judge_parts.shown import read_colors
 from judge_parts.verdict import FAILED
-from lib.command import CommandFailure, shown
+from lib.rim.command import CommandFailure, shown
 
 KINDS = {"model": "stage1", "view": "stage2", "project": "stage3"}
 

@@ -3,8 +3,8 @@ import dataclasses
 import os
 import re
 
-from lib.command import shown
-from lib.input_file import InputError, read_input
+from lib.rim.command import shown
+from lib.rim.input_file import InputError, read_input
 
 # The kinds of files, their first name in the assignment, and what other names look like, in lower case
 # without - _ and blanks.

@@ -16,9 +16,9 @@ from judge_parts.reference import kinds_of, reference
 from judge_parts.shown import read_colors, read_depths
 from judge_parts.stage_judge import Outcome, Reading, StageJudge, undecided_outcome
 from judge_parts.verdict import GOOD, MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
-from lib.input_file import InputError
-from lib.pictures import PictureError
-from lib.stage_text import StageTextError
+from lib.rim.input_file import InputError
+from lib.showing.pictures import PictureError
+from lib.text.stage_text import StageTextError
 
 FAR = 1e15
 MORE = "only x, y and z are judged, not the numbers behind them"

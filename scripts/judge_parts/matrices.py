@@ -2,7 +2,7 @@
 mistake."""
 import math
 
-from lib.vectors import cross
+from lib.maths.vectors import cross
 
 IDENTITY = tuple(tuple(float(i == j) for j in range(4)) for i in range(4))
 UNDEFINED = (math.nan,) * 3

@@ -3,7 +3,7 @@ share."""
 import functools
 import re
 
-from judge_parts.places import place
+from lib.rim.places import place
 
 ENTRY = re.compile(r"(?:judge )?(model|view|project|zbuf)/([a-z0-9-]+): (.+)")
 

@@ -5,7 +5,7 @@ import statistics
 
 from judge_parts.digits import EXACT, Digits, digits_of
 from judge_parts.strays import of_a_text
-from lib.stage_text import StageTextError, begins_with_a_camera, is_scene, parse_stage_text, text_of
+from lib.text.stage_text import StageTextError, begins_with_a_camera, is_scene, parse_stage_text, text_of
 
 # numbers of 7 decimals that were calculated from numbers of 7 decimals; times their size beyond 1
 BASE = 1e-6

@@ -6,10 +6,10 @@ import sys
 import tempfile
 
 from judge_parts.hand_in import KINDS, File, fitting_names
-from judge_parts.places import place
-from lib.command import shown
-from lib.input_file import InputError
-from lib.pipe_tools import OPAQUE_NOTE, opaque_background, with_opaque_background
+from lib.rim.places import place
+from lib.rim.command import shown
+from lib.rim.input_file import InputError
+from lib.running.pipe_tools import OPAQUE_NOTE, opaque_background, with_opaque_background
 
 sys.path.append(str(place("tests/conformance", "share/pipeline/conformance")))
 from conform_parts import confined  # noqa: E402

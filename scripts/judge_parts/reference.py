@@ -4,14 +4,14 @@ import math
 import os
 import re
 
-from explain_parts.window import Window
+from lib.maths.window import Window
 from judge_parts.hand_in import KINDS
 from judge_parts.old_format import without_old_lines
 from judge_parts.scene import Scene
-from lib.command import CommandFailure
-from lib.pictures import read_picture
-from lib.pipe_tools import ToolFailure, Tools, opaque_background
-from lib.stage_text import parse_stage_text, text_of
+from lib.rim.command import CommandFailure
+from lib.showing.pictures import read_picture
+from lib.running.pipe_tools import ToolFailure, Tools, opaque_background
+from lib.text.stage_text import parse_stage_text, text_of
 
 EXACT = ("--digits", "exact")
 OWN_COLORS = ("light", "attributes")  # header lines of scenes whose triangles are not each of one color

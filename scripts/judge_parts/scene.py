@@ -5,13 +5,13 @@ import dataclasses
 import itertools
 import math
 
-from explain_parts.matrices import Projection
-from explain_parts.scene import commands
+from lib.maths.matrices import Projection
+from lib.text.scene import commands
 from judge_parts.mistakes import sentences
 from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, TWICE, VIEW_SPELLINGS, Z_TWICE, affine,
                                   image, negative, perspective_matrix, product, projection_matrix, rotation,
                                   scaling, slack, transposed, translation, unit, view_matrix)
-from lib.vectors import cross
+from lib.maths.vectors import cross
 
 NO_UNITS = (0.0, 0.0, 0.0)
 DIVISIONS = {"no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,

@@ -4,10 +4,10 @@ import copy
 import dataclasses
 
 from judge_parts.digits import EXACT, Digits, digits_of
-from lib.command import shown as printable
-from lib.pictures import PictureError, picture_of
-from lib.plain_stage_text import real
-from lib.stage_text import StageTextError, text_of
+from lib.rim.command import shown as printable
+from lib.showing.pictures import PictureError, picture_of
+from lib.text.plain_stage_text import real
+from lib.text.stage_text import StageTextError, text_of
 
 LEAST_EMPTY = 0.01  # of the pixels, that have the depth 0 before it is taken for none
 DEPTH_BASE = 2e-6  # for depths of 6 decimals, calculated from numbers of 7; times their size beyond 1

@@ -2,7 +2,9 @@
 import dataclasses
 import math
 
-from judge_parts import fit, matching, some_vertices
+from judge_parts import fit
+from judge_parts import matching
+from judge_parts import some_vertices
 from judge_parts.digits import EXACT
 from judge_parts.matrices import ROUNDING, image, slack
 from judge_parts.matrix_causes import MOST_PAIRS, MatrixCauses
@@ -11,7 +13,7 @@ from judge_parts.scene import NO_UNITS, ROUGH_PIS, Habit, turned_with
 from judge_parts.some_vertices import ALL_VERTICES
 from judge_parts.verdict import (
     ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict, cause_of, cause_of_all)
-from lib.vectors import cross
+from lib.maths.vectors import cross
 
 
 @dataclasses.dataclass

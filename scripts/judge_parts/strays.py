@@ -1,7 +1,7 @@
 """Lines of a stage text that do not belong into one: they are counted, by triangle, and the first one is
 named."""
-from lib.command import shown
-from lib.plain_stage_text import KEYWORD, NO_KEYWORDS, real
+from lib.rim.command import shown
+from lib.text.plain_stage_text import KEYWORD, NO_KEYWORDS, real
 
 WORDS = {
     "eye", "look", "up", "perspective", "ortho", "frustum", "projected", "attributes", "background", "light",

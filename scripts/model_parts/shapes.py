@@ -3,8 +3,8 @@ and cos do not show."""
 import math
 from dataclasses import dataclass, field
 
-from lib.vectors import cross, normalized
-from model_parts.profiles import BISHOP, curve, joined
+from lib.maths.profiles import BISHOP, curve, joined
+from lib.maths.vectors import cross, normalized
 
 
 @dataclass

@@ -1,7 +1,7 @@
 """The settings that are worth comparing: one lever at a time."""
 import dataclasses
 
-from trade_parts.pipe import DEFAULT, exact
+from lib.running.pipe import DEFAULT, exact
 
 DIGITS = ("5", "7", "9", "12", "exact")
 LEVERS = (

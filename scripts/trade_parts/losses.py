@@ -6,12 +6,12 @@ import math
 import operator
 import sys
 
-from lib.command import CommandFailure
-from lib.owners import NOBODY
-from lib.pipe_tools import ToolFailure, without_inner_location
-from lib.projection import KEYWORDS, window_of
-from lib.stage_text import triangle_lines
-from trade_parts.pipe import DEFAULT, exact
+from lib.rim.command import CommandFailure
+from lib.running.owners import NOBODY
+from lib.running.pipe_tools import ToolFailure, without_inner_location
+from lib.text.projection import KEYWORDS, window_of
+from lib.text.stage_text import triangle_lines
+from lib.running.pipe import DEFAULT, exact
 
 SAMPLES_OF_TRUTH = "8"
 

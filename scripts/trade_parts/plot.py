@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from lib.svg import STYLE, line, text
+from lib.showing.svg import STYLE, line, text
 from trade_parts.report import asked
 
 TOP, ROW, BOTTOM = 96, 22, 60

@@ -1,8 +1,8 @@
 """The table and the sentences of trade."""
 import math
 
-from lib.figures import number
-from lib.table import table
+from lib.showing.figures import number
+from lib.showing.table import table
 
 HEADER = ("net", "CPU", "wrong pixels", "gap", "levels")
 

@@ -16,7 +16,7 @@ import student  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 from judge_parts.mistakes import sentences  # noqa: E402
-from lib.pictures import png, read_picture  # noqa: E402
+from lib.showing.pictures import png, read_picture  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"
 SCENE = (SAMPLE / "scene.txt").read_text()

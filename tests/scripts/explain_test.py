@@ -21,11 +21,11 @@ sys.path.insert(0, str(SOURCE / "tests/reference"))
 import reference  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
-from explain_parts.calculation import Calculation, agrees  # noqa: E402
-from explain_parts.scene import find_triangle  # noqa: E402
-from explain_parts.stages import Settings, Stages, vertex_lines, words_of  # noqa: E402
-from explain_parts.window import PixelOfTriangle, Window  # noqa: E402
-from lib.pipe_tools import Tools  # noqa: E402
+from lib.explaining.calculation import Calculation, agrees  # noqa: E402
+from lib.text.scene import find_triangle  # noqa: E402
+from lib.explaining.stages import Settings, Stages, vertex_lines, words_of  # noqa: E402
+from lib.maths.window import PixelOfTriangle, Window  # noqa: E402
+from lib.running.pipe_tools import Tools  # noqa: E402
 
 SAMPLES = sorted(scene.parent for scene in SOURCE.glob("samples/*/scene.txt"))
 MAX_LINES = 60

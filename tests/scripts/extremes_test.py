@@ -18,7 +18,7 @@ from fractions import Fraction
 BIN, SOURCE = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 MEASURE = SOURCE / "scripts/measure"
 sys.path[:0] = [str(MEASURE), str(SOURCE / "scripts")]
-from lib.pipe_tools import Tools  # noqa: E402
+from lib.running.pipe_tools import Tools  # noqa: E402
 from parts.extremes_measure import (  # noqa: E402
     ROUNDED, SETTINGS, digits_right, shortened, wrong_without_note)
 from parts.extremes_plot import name_of  # noqa: E402

@@ -20,7 +20,7 @@ import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "scripts"))
-from lib.pictures import png_chunks, read_picture, unfiltered  # noqa: E402
+from lib.showing.pictures import png_chunks, read_picture, unfiltered  # noqa: E402
 from random_scene import CAMERA, scene_of_parts as scene  # noqa: E402
 from ssh_server import SshServer  # noqa: E402
 from cut_scene_test import random_scene  # noqa: E402

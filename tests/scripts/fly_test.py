@@ -103,7 +103,7 @@ class WindowTest(ToolTest):
 @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
 class Traced(WindowTest):
     def test_frames_are_those_of_trace(self):
-        from lib.pipe_tools import Tools
+        from lib.running.pipe_tools import Tools
         pathlib.Path("scene.txt").write_text(SCENE)
         self.open(Tools(BIN), "scene.txt", CONFIG, words=["--no-shadows"], is_traced=True)
 
@@ -137,7 +137,7 @@ class Traced(WindowTest):
 class Flying(WindowTest):
     def setUp(self):
         super().setUp()
-        from lib.pipe_tools import Tools
+        from lib.running.pipe_tools import Tools
         pathlib.Path("scene.txt").write_text(SCENE)
         # Tools that log their runs.
         for tool in TOOLS:
@@ -278,7 +278,7 @@ class Flying(WindowTest):
         self.assertEqual(self.window.readout.cget("text"), "h: keys   eye 0.9 1.8 4.5   look 0 0 0   fovY 60")
 
     def test_it_opens_wide_enough_with_the_scenes_aspect(self):
-        from lib.pipe_tools import Tools
+        from lib.running.pipe_tools import Tools
         from fly_parts.window import FlyWindow
         # 1280 x 1024 is the screen: of a large config, what is left beside the window's other parts.
         for config, line, size in ((CONFIG, "60 1 1 100", (640, 427)), (None, "60 1.6 1 100 ratio", (640,
@@ -317,7 +317,7 @@ class Flying(WindowTest):
 
     def test_z_opens_a_gap_at_the_sides_alone(self):
         """Of a wall just before far, which fills the picture."""
-        from lib.pictures import read_picture
+        from lib.showing.pictures import read_picture
         wall = "0 0 0\n0 0 -1\n0 1 0\n90 1 1 100\ntriangle\n-999 -999 -99\n999 -999 -99\n0 999 -99\nend\n"
         pathlib.Path("wall.txt").write_text(wall)
         self.open(self.window.tools, "wall.txt", "61 41\n-1.5\n-1\n-1 1\n")
@@ -395,13 +395,13 @@ class Flying(WindowTest):
                          pipe(["model"], stdin=SCENE))
 
     def test_P_writes_the_picture(self):
-        from lib.pictures import read_picture
+        from lib.showing.pictures import read_picture
         self.press("d", "P")
         pathlib.Path("shown.ppm").write_bytes(self.shown())
         self.assertEqual(read_picture("fly.png"), read_picture("shown.ppm"))
 
     def test_what_a_tool_refuses_is_said_and_taken_back(self):
-        from lib.pipe_tools import Tools
+        from lib.running.pipe_tools import Tools
         pathlib.Path("dark.txt").write_text("\n".join(line for line in SCENE.split("\n")
                                                       if not line.startswith("light")))
         self.open(Tools(BIN), "dark.txt", CONFIG)
@@ -499,7 +499,7 @@ class TransparentBackground(ToolTest):
     def test_is_shown_in_full(self):
         sys.path.insert(0, str(SOURCE / "scripts"))
         from fly_parts.pipe import FramePipe
-        from lib.pipe_tools import Tools
+        from lib.running.pipe_tools import Tools
         images = []
         for alpha in ("", " 128"):
             pathlib.Path("scene.txt").write_text(

@@ -22,7 +22,7 @@ from toolbox import BIN, SOURCE, ToolTest, pipe, pseudo_terminal, run, stage_tex
 TAB, ESCAPE, LEFT, UP, RIGHT, DOWN, HOME, SHIFT = ("\ue004", "\ue00c", "\ue012", "\ue013", "\ue014", "\ue015",
                                                    "\ue011", "\ue008")
 sys.path.insert(0, str(SOURCE / "scripts"))
-from lib.pictures import read_picture  # noqa: E402
+from lib.showing.pictures import read_picture  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"
 # Triangle 1 reaches behind the eye and is cut into two pieces; the others are separate.
@@ -99,7 +99,7 @@ class WithoutABrowser(ToolTest):
 class Frustum(ToolTest):
     def test_is_the_one_that_project_uses(self):
         sys.path.insert(0, str(SOURCE / "scripts"))
-        from lib.projection import window_of
+        from lib.text.projection import window_of
         for projection in ("60 1.5 0.5 100", "60 1.5 0.5 100 ratio", "frustum -1 2 -3 4 5 6",
                            "ortho -1 2 -3 4 -5 6"):
             with self.subTest(projection):

@@ -670,7 +670,7 @@ class OwnFiles(ToolTest):
 
     def test_names_of_the_process_own_files(self):
         sys.path.insert(0, str(SCRIPTS))
-        from lib.output_file import own_descriptor, target_of
+        from lib.rim.output_file import own_descriptor, target_of
         for path, number in (("/dev/stdout", 1), ("/dev/stderr", 2), ("/dev/fd/12", 12),
                              ("/proc/self/fd/3", 3), ("/dev/stdin", None), ("/dev/null", None),
                              ("/dev/fd/x", None), ("dev/stdout", None), ("/dev/stdout/", None)):

@@ -15,7 +15,7 @@ from fractions import Fraction
 BIN, SOURCE = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 MEASURE = SOURCE / "scripts/measure"
 sys.path[:0] = [str(MEASURE), str(SOURCE / "scripts")]
-from lib.pictures import picture_of  # noqa: E402
+from lib.showing.pictures import picture_of  # noqa: E402
 from parts import scoreboard_geometry as geometry  # noqa: E402
 from parts import scoreboard_pictures  # noqa: E402
 from parts.scoreboard_cases import Case, read_cases  # noqa: E402

@@ -60,13 +60,13 @@ class Writing(ToolTest):
     )
     REASONS = {
         "check-stage": "removes the file of a long stderr that it kept in the round before",
-        "lib/output_file.py": "owns an output file",
-        "lib/work_folder.py": "owns a folder to work in",
-        "lib/command.py": "owns the temporary folder of a command",
-        "lib/input_file.py": "in the temporary folder: a copy of what is no file",
-        "lib/owners.py": "in the temporary folder of trade",
-        "lib/pipe_tools.py": "in the temporary folder of trade, and the null device",
-        "trade_parts/pipe.py": "in its temporary folder",
+        "lib/rim/output_file.py": "owns an output file",
+        "lib/rim/work_folder.py": "owns a folder to work in",
+        "lib/rim/command.py": "owns the temporary folder of a command",
+        "lib/rim/input_file.py": "in the temporary folder: a copy of what is no file",
+        "lib/running/owners.py": "in the temporary folder of trade",
+        "lib/running/pipe_tools.py": "in the temporary folder of trade, and the null device",
+        "lib/running/pipe.py": "in its temporary folder",
         "fly_parts/pipe.py": "in its temporary folder",
         "judge_parts/reference.py": "in the temporary folder",
         "judge_parts/program.py": "in the temporary folder of check-stage and grade",
@@ -146,7 +146,7 @@ class OldNames(ToolTest):
 
 
 class OldPython(ToolTest):
-    """The oldest Python is 3.9 for the commands, as lib/command.py says, and 3.10 for the tests."""
+    """The oldest Python is 3.9 for the commands, as lib/rim/command.py says, and 3.10 for the tests."""
 
     def test_no_command_uses_newer_syntax(self):
         modules = [path for path in (SOURCE / "scripts").rglob("*.py")]
@@ -162,7 +162,7 @@ class OldPython(ToolTest):
                                           "explain: Python 3.9 or newer is needed, found 3.8\n"), ((3, 9, 0),
                                                                                                    0, "")):
             line = (f"import sys; sys.version_info = {version}; sys.argv = ['some/explain']; "
-                    f"sys.path.insert(0, {str(SOURCE / 'scripts')!r}); import lib.command")
+                    f"sys.path.insert(0, {str(SOURCE / 'scripts')!r}); import lib.rim.command")
             done = subprocess.run([sys.executable, "-B", "-c", line], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (status, message))
 

@@ -7,6 +7,7 @@ import contextlib
 import os
 import pathlib
 import resource
+import shutil
 import stat
 import subprocess
 import sys
@@ -186,10 +187,10 @@ class Stages(ToolTest):
 
 
 class PlainFile(ToolTest):
-    """scripts/lib/plain_stage_text.py, which people copy."""
+    """scripts/lib/text/plain_stage_text.py, which people copy."""
 
     def test_it_reads_and_writes_what_the_tools_write(self):
-        pathlib.Path("stage_text.py").write_bytes((SOURCE / "scripts/lib/plain_stage_text.py").read_bytes())
+        shutil.copy(SOURCE / "scripts/lib/text/plain_stage_text.py", "stage_text.py")
         code = ("import sys; sys.path.insert(0, '.'); import stage_text; "
                 "sys.stdout.write(stage_text.write(stage_text.read(sys.stdin.read())))")
         for sample in ("worked-example", "wide-clipped", "colored-lights", "materials"):

@@ -17,13 +17,13 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools")
 from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
-from lib.figures import Quartiles  # noqa: E402
-from lib.owners import NOBODY, owners, write_marked  # noqa: E402
-from lib.pipe_tools import Tools, without_inner_location  # noqa: E402
+from lib.showing.figures import Quartiles  # noqa: E402
+from lib.running.owners import NOBODY, owners, write_marked  # noqa: E402
+from lib.running.pipe_tools import Tools, without_inner_location  # noqa: E402
 from trade_parts.choice import Choice, Limits, Row, cheapest, least_wrong, nearest  # noqa: E402
 from trade_parts.levers import settings  # noqa: E402
 from trade_parts.losses import Loss  # noqa: E402
-from trade_parts.pipe import DEFAULT, Pipe, Setting  # noqa: E402
+from lib.running.pipe import DEFAULT, Pipe, Setting  # noqa: E402
 from trade_parts.report import about_ties, about_times  # noqa: E402
 from trade_parts.timing import (AGAIN, CHEAPER, DEARER, EMPTY, TIE, UNTOLD, Times,  # noqa: E402
                                 median_interval)

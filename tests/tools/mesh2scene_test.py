@@ -17,7 +17,7 @@ import unittest
 from toolbox import SOURCE, ToolTest, command, expect_mesh2scene, heed_signals, pipe, run
 
 sys.path.insert(0, str(SOURCE / "scripts"))
-from lib.vectors import cross  # noqa: E402
+from lib.maths.vectors import cross  # noqa: E402
 from model_parts.formats import FORMATS  # noqa: E402
 from model_parts.shapes import SHAPES, Mesh, knot, terrain, vase  # noqa: E402
 

@@ -8,12 +8,12 @@ import tempfile
 import unittest
 from fractions import Fraction
 
-from lib.owners import NOBODY
-from lib.pipe_tools import Tools
-from lib.stage_text import triangle_lines
+from lib.running.owners import NOBODY
+from lib.running.pipe import Pipe, Setting
+from lib.running.pipe_tools import Tools
+from lib.text.stage_text import triangle_lines
 from parts.extremes_scenes import SIZE, scene_text
 from parts.extremes_truth import reference, true_owners, true_vertices
-from trade_parts.pipe import Pipe, Setting
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tests/reference"))
 import leeway  # noqa: E402

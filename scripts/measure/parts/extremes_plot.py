@@ -1,6 +1,6 @@
 """The plots of scripts/measure/extremes: for each axis the digits that are right, and where pixels are wrong
 and what is noted."""
-from lib.svg import STYLE, line, spread_out, text
+from lib.showing.svg import STYLE, line, spread_out, text
 from parts.extremes_report import Results, short
 from parts.extremes_scenes import AXES
 

@@ -52,8 +52,8 @@ def true_vertices(text):
 
 
 def true_owners(triangles, size):
-    """The mark (lib.owners) of the triangle at each pixel of a picture of `size` columns and rows, by the
-    rule `center`."""
+    """The mark (lib.running.owners) of the triangle at each pixel of a picture of `size` columns and rows, by
+    the rule `center`."""
     far = (1, 1)
     depths, marks = {}, [0] * size * size  # a depth is a numerator and a denominator, which is above 0
     for mark, triangle in enumerate(triangles, 1):

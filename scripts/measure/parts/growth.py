@@ -4,7 +4,7 @@ import math
 import random
 import shutil
 
-from lib.svg import STYLE, end_labels, line, text
+from lib.showing.svg import STYLE, end_labels, line, text
 from parts.measuring import machine, run_pipe
 
 SIZES = (100, 500, 2000, 8192)

@@ -6,7 +6,7 @@ import pathlib
 import subprocess
 import sys
 
-from lib.child import cpu_seconds, finished
+from lib.rim.child import cpu_seconds, finished
 
 
 def machine():

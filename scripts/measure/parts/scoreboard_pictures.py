@@ -1,5 +1,5 @@
 """Pictures of what a rasterizer does with a case: its pixels, large, and the triangles' edges over them."""
-from lib.pictures import png
+from lib.showing.pictures import png
 
 SIZE = 256  # of a picture, about
 WHITE, INK, DOT = (255, 255, 255), (40, 44, 52), (90, 98, 110)

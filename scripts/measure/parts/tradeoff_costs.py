@@ -9,7 +9,7 @@ import statistics
 import subprocess
 import tempfile
 
-from lib.figures import quartiles
+from lib.showing.figures import quartiles
 from parts.instructions import callgrind_count, no_count_at_all
 from parts.measuring import run_pipe
 from parts.tradeoff_setting import DEFAULT, FINEST, TOOLS, Setting, drawing_words

@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from lib.svg import STYLE, line, text
+from lib.showing.svg import STYLE, line, text
 
 WIDTH, TOP, ROW_HEIGHT, LABEL_WIDTH = 1180, 112, 24, 255
 ZERO_WIDTH = 36  # left of a logarithmic axis, for errors that are 0

@@ -1,5 +1,5 @@
 """The tables of scripts/measure/tradeoff."""
-from lib import figures
+from lib.showing import figures
 from parts.tradeoff_epsilon import DISTANCES
 from parts.tradeoff_epsilon import SETTINGS as EPSILONS
 

@@ -1,8 +1,8 @@
 """The pipeline's arithmetic on one triangle, exactly. Each stage begins, as the tools do, with the lossless
 text of the one before."""
-from explain_parts.clipping import clip
-from explain_parts.exact import coordinate, double
-from explain_parts.matrices import Projection, applied, view_matrix
+from lib.explaining.clipping import clip
+from lib.maths.exact import coordinate, double
+from lib.maths.matrices import Projection, applied, view_matrix
 
 PROJECTIONS = ("perspective", "frustum", "ortho")
 

@@ -4,11 +4,11 @@ import pathlib
 import shlex
 import subprocess
 
-from lib.child import cpu_seconds, finished
-from lib.command import CommandFailure
-from lib.owners import owners, write_marked
-from lib.pictures import read_picture
-from lib.pipe_tools import opaque_background
+from lib.rim.child import cpu_seconds, finished
+from lib.rim.command import CommandFailure
+from lib.running.owners import owners, write_marked
+from lib.running.pipe_tools import opaque_background
+from lib.showing.pictures import read_picture
 
 TOOLS = ("model", "view", "project", "zbuf")
 TRACING_TOOLS = ("model", "view", "trace")
@@ -110,7 +110,7 @@ class Pipe:
         return self.texts[key]
 
     def owners(self, setting):
-        """Which triangle each pixel shows (lib.owners)."""
+        """Which triangle each pixel shows (lib.running.owners)."""
         marked = self.marked(setting)
         if not marked.exists():
             write_marked(self.text(setting)[0], marked)

@@ -7,8 +7,8 @@ import re
 import sys
 import textwrap
 
-from lib.command import shown
-from lib.output_file import place_of
+from lib.rim.command import shown
+from lib.rim.output_file import place_of
 
 STANDARD_OUTPUT = ("", "/dev/stdout")
 OPERANDS = ("scene", "config", "path", "model")

@@ -4,8 +4,8 @@ import os
 import stat
 import tempfile
 
-from lib.command import CommandFailure, shown
-from lib.output_file import write_file
+from lib.rim.command import CommandFailure, shown
+from lib.rim.output_file import write_file
 
 MAX_BYTES = 1 << 29
 BLOCK = 1 << 20

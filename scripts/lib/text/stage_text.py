@@ -3,9 +3,9 @@ import codecs
 import itertools
 import re
 
-from lib import plain_stage_text
-from lib.command import CommandFailure, shown
-from lib.input_file import name_of
+from lib.rim.command import CommandFailure, shown
+from lib.rim.input_file import name_of
+from lib.text import plain_stage_text
 
 # Beginnings of lines of a scene, not of a stage text, in which the word triangle is followed by one number.
 SCENE_COMMAND = re.compile(

@@ -15,7 +15,7 @@ if sys.version_info < MINIMUM_PYTHON:
     sys.exit("{}: Python {}.{} or newer is needed, found {}.{}".format(os.path.basename(
         sys.argv[0]), *MINIMUM_PYTHON, *sys.version_info[:2]))
 
-from lib.child import end_children
+from lib.rim.child import end_children
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 leftovers = set()  # temporary files, and the folder of others, which go with the command, whenever it ends

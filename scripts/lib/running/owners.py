@@ -1,9 +1,9 @@
 """Which triangle each pixel shows: every triangle is drawn in a color of its own, its mark."""
 import array
 
-from lib.command import CommandFailure
-from lib.pictures import read_picture
-from lib.stage_text import triangle_lines
+from lib.rim.command import CommandFailure
+from lib.showing.pictures import read_picture
+from lib.text.stage_text import triangle_lines
 
 NOBODY = 0  # a triangle's mark is its number + 1
 MAX_TRIANGLES = 2**24 - 1

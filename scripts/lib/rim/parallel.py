@@ -5,9 +5,9 @@ import shutil
 import subprocess
 from dataclasses import dataclass, field
 
-from lib.child import adopt_orphans
-from lib.command import CommandFailure
-from lib.progress import Progress
+from lib.rim.child import adopt_orphans
+from lib.rim.command import CommandFailure
+from lib.rim.progress import Progress
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """Whether a scene's squares are drawn as squares."""
 import re
 
-from lib.projection import tangents
+from lib.text.projection import tangents
 
 FOURTH_LINE = " in the scene's fourth line"
 

@@ -1,7 +1,7 @@
 """Lines of a report: numbers in columns, and a matrix beside a list."""
 from fractions import Fraction
 
-from explain_parts.exact import short
+from lib.maths.exact import short
 
 NEGLIGIBLE = Fraction(1, 10**100)  # beside the largest entry of a matrix: what rounded sines leave of a 0
 MIN_LEFT_WIDTH = 42

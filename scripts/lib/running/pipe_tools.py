@@ -8,9 +8,9 @@ import subprocess
 import sys
 import tempfile
 
-from lib.command import CommandFailure
+from lib.rim.command import CommandFailure
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
 
 class ToolFailure(CommandFailure):

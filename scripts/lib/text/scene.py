@@ -4,8 +4,8 @@ import dataclasses
 import functools
 import itertools
 
-from explain_parts.exact import double
-from explain_parts.matrices import IDENTITY, TRANSFORMS, product
+from lib.maths.exact import double
+from lib.maths.matrices import IDENTITY, TRANSFORMS, product
 
 CAMERA_LINES = 4
 ARGUMENT_LINES = {"triangle": 3, "push": 0, "pop": 0, "end": 0}  # others have one

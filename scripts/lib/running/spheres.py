@@ -3,9 +3,9 @@ import mmap
 import os
 import stat
 
-from lib.command import CommandFailure
-from lib.input_file import name_of
-from lib.pipe_tools import ToolFailure
+from lib.rim.command import CommandFailure
+from lib.rim.input_file import name_of
+from lib.running.pipe_tools import ToolFailure
 
 REFUSED = "expected triangles alone, found a sphere: "
 

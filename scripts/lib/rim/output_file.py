@@ -6,7 +6,7 @@ import re
 import secrets
 import stat
 
-from lib.command import CommandFailure, leftovers, shown
+from lib.rim.command import CommandFailure, leftovers, shown
 
 MAX_LINKS = 40  # the kernel's limit
 OWN_FILE = re.compile(r"/dev/(?:(stdout)|(stderr)|fd/(\d+))|/proc/self/fd/(\d+)")

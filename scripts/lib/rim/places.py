@@ -1,14 +1,14 @@
 """Where files beside the scripts are: in the source tree, or where it is installed."""
 import pathlib
 
-from lib.command import CommandFailure
+from lib.rim.command import CommandFailure
 
 HERE = pathlib.Path(__file__).resolve()
 
 
 def place(in_source, installed):
     """The path of a file or folder, given from the source tree's top and from the prefix."""
-    paths = HERE.parents[2] / in_source, HERE.parents[3] / installed
+    paths = HERE.parents[3] / in_source, HERE.parents[4] / installed
     for path in paths:
         if path.exists():
             return path

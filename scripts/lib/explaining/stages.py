@@ -7,11 +7,11 @@ import pathlib
 import re
 import tempfile
 
-from explain_parts.window import Window
-from lib.input_file import read_input
-from lib.pipe_tools import opaque_background
-from lib.stage_text import parse_stage_text, text_of
-from lib.tool_options import words_of_project
+from lib.maths.window import Window
+from lib.rim.input_file import read_input
+from lib.running.pipe_tools import opaque_background
+from lib.running.tool_options import words_of_project
+from lib.text.stage_text import parse_stage_text, text_of
 
 FRAGMENT = re.compile(r"zbuf: \d+,\d+: triangle (\d+), depth (\S+): (.*)")
 EXACT = ("--digits", "exact")

@@ -1,7 +1,7 @@
 """The report on one pixel: does the triangle cover it, how deep is it there, and which triangle is seen."""
-from explain_parts.exact import fixed, measured, short
-from explain_parts.layout import INDENT, aligned_left
-from explain_parts.window import OWNING, PixelOfTriangle
+from lib.explaining.layout import INDENT, aligned_left
+from lib.maths.exact import fixed, measured, short
+from lib.maths.window import OWNING, PixelOfTriangle
 
 
 def pixel_section(stages, window, pieces, number, pixel):

@@ -1,9 +1,9 @@
 """The report on the stages model, view and project: a list of lines for each. The coordinates shown are the
 tools'."""
-from explain_parts.calculation import agrees
-from explain_parts.clipping import outside_of, winding
-from explain_parts.exact import coordinate, decimal_or_double, fixed, measured, short
-from explain_parts.layout import INDENT, aligned, beside, matrix_lines
+from lib.explaining.calculation import agrees
+from lib.explaining.clipping import outside_of, winding
+from lib.explaining.layout import INDENT, aligned, beside, matrix_lines
+from lib.maths.exact import coordinate, decimal_or_double, fixed, measured, short
 
 MAX_TRANSFORMS = 4  # as many as a matrix has rows
 MAX_CUTS = 4

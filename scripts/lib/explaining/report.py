@@ -1,8 +1,8 @@
 """The whole report: what happens to one triangle, stage by stage, and at a pixel."""
-from explain_parts.calculation import Calculation
-from explain_parts.exact import decimal_or_double
-from explain_parts.pixel_section import pixel_section, winner_lines
-from explain_parts.stage_sections import model_section, project_section, view_section, window_section
+from lib.explaining.calculation import Calculation
+from lib.explaining.pixel_section import pixel_section, winner_lines
+from lib.explaining.stage_sections import model_section, project_section, view_section, window_section
+from lib.maths.exact import decimal_or_double
 
 MAX_LINES = 60
 

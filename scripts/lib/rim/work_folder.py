@@ -5,8 +5,8 @@ import os
 import pathlib
 import stat
 
-from lib.command import CommandFailure, shown
-from lib.output_file import make_folders, write_file
+from lib.rim.command import CommandFailure, shown
+from lib.rim.output_file import make_folders, write_file
 
 OURS = ".pipeline-"  # so begin a mark, and what a tool that was killed may leave
 

@@ -6,7 +6,7 @@ import dataclasses
 import math
 from fractions import Fraction
 
-from explain_parts.exact import as_decimal, decimal_or_double, double, root
+from lib.maths.exact import as_decimal, decimal_or_double, double, root
 
 DEFAULT_LIMITS = ("-1", "-1", "-1", "1")
 FAR_OFF = 10**9  # a column beyond any picture, since doubles may be infinite

@@ -1,8 +1,8 @@
 """The matrices of the pipeline, as rows of exact numbers. Points are columns (x y z 1)."""
-from explain_parts.exact import cotangent, root, sine_cosine, trimmed
+from lib.maths.exact import cotangent, root, sine_cosine, trimmed
 from fractions import Fraction
 
-from lib.vectors import cross
+from lib.maths.vectors import cross
 
 ZERO, ONE = Fraction(0), Fraction(1)
 IDENTITY = tuple(tuple(ONE if i == j else ZERO for j in range(4)) for i in range(4))

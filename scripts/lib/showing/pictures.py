@@ -5,8 +5,8 @@ import re
 import struct
 import zlib
 
-from lib.command import CommandFailure
-from lib.input_file import name_of, read_input
+from lib.rim.command import CommandFailure
+from lib.rim.input_file import name_of, read_input
 
 MAX_SIDE = 65535          # as zbuf draws; a column of millions of rows takes gigabytes in Python
 MAX_PNG_PIXELS = 1 << 25  # a PNG of a few KB may claim millions, and Python is slow to filter bytes
