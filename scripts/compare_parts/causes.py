@@ -3,9 +3,9 @@ judge of hand-ins names."""
 import math
 
 from compare_parts.differences import exceeds
-from judge_parts.points import read_points
-from judge_parts.reference import Reference
-from judge_parts.stage_judge import Reading, StageJudge, exact_images
+from lib.judging.points import read_points
+from lib.judging.reference import Reference
+from lib.judging.stage_judge import Reading, StageJudge, exact_images
 from lib.running.pipe_tools import Tools
 
 UNIT = 1e-7   # in the last of 7 decimals

@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from judge_parts.matching import left_over_for_certain, named
+from lib.judging.matching import left_over_for_certain, named
 
 NAMES_OF = {"color": ["red", "green", "blue"], "normal": [f"{axis} of the normal" for axis in "xyz"]}
 

@@ -7,9 +7,9 @@ import re
 import shlex
 
 from grade_parts.hints import LEVELS
-from judge_parts.hand_in import KINDS, STAGE_OF
-from judge_parts.program import STAGES, input_of, without_comments
-from judge_parts.reference import JudgeError, Reference, kinds_of
+from lib.judging.hand_in import KINDS, STAGE_OF
+from lib.judging.program import STAGES, input_of, without_comments
+from lib.judging.reference import JudgeError, Reference, kinds_of
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import InputError, read_input
 from lib.running.pipe_tools import ToolFailure, Tools

@@ -1,7 +1,7 @@
 """The pictures of a page: what is right, what the hand-in shows, and where it differs."""
 import base64
 
-from judge_parts.verdict import UNREADABLE
+from lib.judging.verdict import UNREADABLE
 from lib.showing.pictures import PictureError, picture_of, png
 
 MOST_COLUMNS = 480

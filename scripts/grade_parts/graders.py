@@ -18,9 +18,9 @@ from grade_parts.difference import pictures
 from grade_parts.hand_ins import files_for, looked_for
 from grade_parts.hints import fixes, gives, in_words
 from grade_parts.programs import verdicts
-from judge_parts.hand_in import KINDS
-from judge_parts.judge import HandIn as Judge
-from judge_parts.verdict import OPEN, WRONG, Verdict
+from lib.judging.hand_in import KINDS
+from lib.judging.judge import HandIn as Judge
+from lib.judging.verdict import OPEN, WRONG, Verdict
 
 LARGEST_FILE = 1 << 30  # that a tool may write for a hand-in
 MEBIBYTE = 1 << 20

@@ -5,7 +5,7 @@ import os
 import re
 
 from grade_parts.contents import SUFFIXES, UNREAD, ContentsError, without_suffix
-from judge_parts.hand_in import KINDS, File, fitting_names, plain
+from lib.judging.hand_in import KINDS, File, fitting_names, plain
 from lib.rim.command import shown
 from lib.rim.input_file import InputError
 

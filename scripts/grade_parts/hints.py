@@ -2,9 +2,9 @@
 import dataclasses
 import re
 
-from judge_parts.mistakes import fix
-from judge_parts.report import sentence
-from judge_parts.verdict import MISSING, UNREADABLE, WRONG, Verdict
+from lib.judging.mistakes import fix
+from lib.judging.report import sentence
+from lib.judging.verdict import MISSING, UNREADABLE, WRONG, Verdict
 
 LEVELS = ("none", "stage", "cause", "fix")
 

@@ -17,7 +17,7 @@ from lib.running.pipe_tools import SOURCE, Tools
 from lib.rim.work_folder import WorkFolder
 
 TOP = "pipeline"      # the folder of a kit with what all kinds share, in the order of the source tree
-ROOMS = ("grade_parts", "judge_parts", "lib")
+ROOMS = ("grade_parts", "lib")
 TOOLS = ("model", "view", "project", "zbuf")
 OF_A_TEST = ("scene.txt", "config.txt", "weight.txt")
 DATE = (1980, 1, 1, 0, 0, 0)  # of every file, so that the same kit has the same bytes

@@ -6,7 +6,7 @@ import os
 from grade_parts.assignment import amount
 from grade_parts.contents import without_suffix
 from grade_parts.graders import GradedTest
-from judge_parts.verdict import Verdict
+from lib.judging.verdict import Verdict
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import read_input
 

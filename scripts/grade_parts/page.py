@@ -3,8 +3,8 @@ pictures are in it."""
 import html
 
 from grade_parts.hints import gives, told
-from judge_parts.fit import shown
-from judge_parts.report import remarks_of
+from lib.judging.fit import shown
+from lib.judging.report import remarks_of
 from lib.showing.page_policy import policy
 
 STYLE = """

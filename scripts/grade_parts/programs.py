@@ -7,11 +7,11 @@ import shutil
 import subprocess
 import tempfile
 
-from judge_parts.hand_in import KINDS
-from judge_parts.judge import HandIn as Judge
-from judge_parts.program import ProgramError, confined, hand_in, outcome, run_program
-from judge_parts.reference import kinds_of
-from judge_parts.verdict import WRONG, Cause, FileVerdict, Verdict
+from lib.judging.hand_in import KINDS
+from lib.judging.judge import HandIn as Judge
+from lib.judging.program import ProgramError, confined, hand_in, outcome, run_program
+from lib.judging.reference import kinds_of
+from lib.judging.verdict import WRONG, Cause, FileVerdict, Verdict
 from grade_parts.assignment import SECONDS_OF_BUILD, SECONDS_OF_RUN
 from lib.rim.places import place
 from lib.rim.command import CommandFailure, shown

@@ -5,7 +5,7 @@ import json
 import unicodedata
 
 from grade_parts.summary import equal_files
-from judge_parts.report import sentence
+from lib.judging.report import sentence
 from lib.rim.command import shown
 
 FORMULA = "=+-@"  # a spreadsheet takes a cell that begins so, in letters of any width, for a formula

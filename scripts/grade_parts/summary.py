@@ -1,7 +1,7 @@
 """How many hand-ins made which mistake."""
 import collections
 
-from judge_parts.verdict import FAILED, OPEN, WRONG
+from lib.judging.verdict import FAILED, OPEN, WRONG
 from lib.rim.command import shown
 from lib.showing.table import table
 

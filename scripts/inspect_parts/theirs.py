@@ -3,14 +3,14 @@ differ."""
 import base64
 
 from inspect_parts.packing import packed
-from judge_parts.digits import EXACT
-from judge_parts.hand_in import find_files
-from judge_parts.judge import judge
-from judge_parts.points import is_off, printed_tolerance, read_points
-from judge_parts.reference import reference
-from judge_parts.report import remarks_of, sentence
-from judge_parts.shown import read_colors
-from judge_parts.verdict import FAILED
+from lib.judging.digits import EXACT
+from lib.judging.hand_in import find_files
+from lib.judging.judge import judge
+from lib.judging.points import is_off, printed_tolerance, read_points
+from lib.judging.reference import reference
+from lib.judging.report import remarks_of, sentence
+from lib.judging.shown import read_colors
+from lib.judging.verdict import FAILED
 from lib.rim.command import CommandFailure, shown
 
 KINDS = {"model": "stage1", "view": "stage2", "project": "stage3"}

@@ -29,8 +29,8 @@ sys.path[:0] = [str(source / "scripts"), str(source / "tests/conformance")]
 import changes  # noqa: E402
 import course_scenes  # noqa: E402
 import damages  # noqa: E402
-from judge_parts.hand_in import find_files  # noqa: E402
-from judge_parts.judge import judge  # noqa: E402
+from lib.judging.hand_in import find_files  # noqa: E402
+from lib.judging.judge import judge  # noqa: E402
 from lib.text.stage_text import parse_stage_text  # noqa: E402
 
 NOTHING_IN_VIEW = "nothing is in view"  # of what the stages before have made

@@ -15,7 +15,7 @@ from toolbox import BIN, SOURCE, ToolTest, run  # noqa: E402
 import student  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
-from judge_parts.mistakes import sentences  # noqa: E402
+from lib.judging.mistakes import sentences  # noqa: E402
 from lib.showing.pictures import png, read_picture  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"

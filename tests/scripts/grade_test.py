@@ -29,7 +29,7 @@ sys.path.insert(0, str(SOURCE / "scripts"))
 from grade_parts import graders  # noqa: E402
 from grade_parts.contents import contents_of  # noqa: E402
 from grade_parts.hand_ins import find_hand_ins  # noqa: E402
-from judge_parts.mistakes import sentences  # noqa: E402
+from lib.judging.mistakes import sentences  # noqa: E402
 
 SAMPLE = SOURCE / "samples/worked-example"
 FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")

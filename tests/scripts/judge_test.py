@@ -19,13 +19,13 @@ import student  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 os.environ["BIN"] = str(BIN)
-from judge_parts import fit  # noqa: E402
-from judge_parts import mistakes  # noqa: E402
-from judge_parts.hand_in import File, find_files  # noqa: E402
-from judge_parts.judge import judge  # noqa: E402
-from judge_parts.matrices import image, perspective_matrix, view_matrix  # noqa: E402
-from judge_parts.reference import JudgeError, Reference  # noqa: E402
-from judge_parts.report import sentence  # noqa: E402
+from lib.judging import fit  # noqa: E402
+from lib.judging import mistakes  # noqa: E402
+from lib.judging.hand_in import File, find_files  # noqa: E402
+from lib.judging.judge import judge  # noqa: E402
+from lib.judging.matrices import image, perspective_matrix, view_matrix  # noqa: E402
+from lib.judging.reference import JudgeError, Reference  # noqa: E402
+from lib.judging.report import sentence  # noqa: E402
 from lib.showing.pictures import read_picture  # noqa: E402
 from lib.running.pipe_tools import Tools  # noqa: E402
 

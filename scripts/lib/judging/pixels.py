@@ -4,14 +4,14 @@ import collections
 import itertools
 import math
 
-from judge_parts.borders import Borders, is_shifted, shows_each
-from judge_parts.matrix_causes import MOST_PAIRS
-from judge_parts.mismatch import Finding, Mismatch
-from judge_parts.mistakes import sentence
-from judge_parts.pixel_rules import BLANK, CENTER, MISTAKES, OPEN_DEPTHS, OPEN_ENDS, in_words, pairs
-from judge_parts.raster import Drawing, Grid, Rule, TooMuch, Triangles
-from judge_parts.shown import DEPTH_BASE
-from judge_parts.verdict import cause_of, cause_of_all
+from lib.judging.borders import Borders, is_shifted, shows_each
+from lib.judging.matrix_causes import MOST_PAIRS
+from lib.judging.mismatch import Finding, Mismatch
+from lib.judging.mistakes import sentence
+from lib.judging.pixel_rules import BLANK, CENTER, MISTAKES, OPEN_DEPTHS, OPEN_ENDS, in_words, pairs
+from lib.judging.raster import Drawing, Grid, Rule, TooMuch, Triangles
+from lib.judging.shown import DEPTH_BASE
+from lib.judging.verdict import cause_of, cause_of_all
 
 PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else they could show
 MOST_WORK = 40_000_000     # pixels of triangles and spans looked at, in all that is tried

@@ -2,7 +2,7 @@
 raster.Rule."""
 import itertools
 
-from judge_parts.raster import COLUMNS, ENDS_IN_WORDS
+from lib.judging.raster import COLUMNS, ENDS_IN_WORDS
 
 CENTER = {"left": "up", "right": "down"}
 OPEN_ENDS = [{}, CENTER

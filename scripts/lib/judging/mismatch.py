@@ -2,7 +2,7 @@
 import collections
 import dataclasses
 
-from judge_parts.raster import Rule
+from lib.judging.raster import Rule
 
 
 @dataclasses.dataclass

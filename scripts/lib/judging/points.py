@@ -3,8 +3,8 @@ import dataclasses
 import math
 import statistics
 
-from judge_parts.digits import EXACT, Digits, digits_of
-from judge_parts.strays import of_a_text
+from lib.judging.digits import EXACT, Digits, digits_of
+from lib.judging.strays import of_a_text
 from lib.text.stage_text import StageTextError, begins_with_a_camera, is_scene, parse_stage_text, text_of
 
 # numbers of 7 decimals that were calculated from numbers of 7 decimals; times their size beyond 1

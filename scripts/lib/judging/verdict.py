@@ -1,7 +1,7 @@
 """What the judge says of a hand-in: a FileVerdict for each file, and from those the Verdict."""
 import dataclasses
 
-from judge_parts.mistakes import sentence
+from lib.judging.mistakes import sentence
 
 RIGHT = "right"
 ANOTHER_RULE = "right by another rule"
@@ -53,7 +53,7 @@ class FileVerdict:
     compared: int = 0
     largest: str = ""         # the largest difference, with its location
     first: str = ""           # the first one
-    matrices: object = None   # a judge_parts.fit.Comparison
+    matrices: object = None   # a lib.judging.fit.Comparison
     places: list = dataclasses.field(default_factory=list)  # (row, column) of the pixels that differ
 
     @property

@@ -7,15 +7,15 @@ combination of what the assignment leaves open; else wrong by the mistake that r
 """
 from types import SimpleNamespace
 
-from judge_parts.hand_in import STAGE_OF, File
-from judge_parts.pixel_stage import PixelStage, pixel_readings
-from judge_parts.points import holds_enough, read_points
-from judge_parts.digits import of_one_program
-from judge_parts.matrices import image
-from judge_parts.reference import kinds_of, reference
-from judge_parts.shown import read_colors, read_depths
-from judge_parts.stage_judge import Outcome, Reading, StageJudge, undecided_outcome
-from judge_parts.verdict import GOOD, MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
+from lib.judging.hand_in import STAGE_OF, File
+from lib.judging.pixel_stage import PixelStage, pixel_readings
+from lib.judging.points import holds_enough, read_points
+from lib.judging.digits import of_one_program
+from lib.judging.matrices import image
+from lib.judging.reference import kinds_of, reference
+from lib.judging.shown import read_colors, read_depths
+from lib.judging.stage_judge import Outcome, Reading, StageJudge, undecided_outcome
+from lib.judging.verdict import GOOD, MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
 from lib.rim.input_file import InputError
 from lib.showing.pictures import PictureError
 from lib.text.stage_text import StageTextError

@@ -1,8 +1,8 @@
 """Why the points of view or project are those of another matrix."""
-from judge_parts.forms import changed_elements, other_forms
-from judge_parts.matrices import IDENTITY
-from judge_parts.some_vertices import ALL_VERTICES
-from judge_parts.verdict import Cause, cause_of, cause_of_all
+from lib.judging.forms import changed_elements, other_forms
+from lib.judging.matrices import IDENTITY
+from lib.judging.some_vertices import ALL_VERTICES
+from lib.judging.verdict import Cause, cause_of, cause_of_all
 
 MOST_PAIRS = 3
 UNCHANGED = "The points are those of the stage before, unchanged"

@@ -3,7 +3,7 @@ import collections
 import copy
 import dataclasses
 
-from judge_parts.digits import EXACT, Digits, digits_of
+from lib.judging.digits import EXACT, Digits, digits_of
 from lib.rim.command import shown as printable
 from lib.showing.pictures import PictureError, picture_of
 from lib.text.plain_stage_text import real

@@ -2,16 +2,16 @@
 import dataclasses
 import math
 
-from judge_parts import fit
-from judge_parts import matching
-from judge_parts import some_vertices
-from judge_parts.digits import EXACT
-from judge_parts.matrices import ROUNDING, image, slack
-from judge_parts.matrix_causes import MOST_PAIRS, MatrixCauses
-from judge_parts.points import described, difference, differs
-from judge_parts.scene import NO_UNITS, ROUGH_PIS, Habit, turned_with
-from judge_parts.some_vertices import ALL_VERTICES
-from judge_parts.verdict import (
+from lib.judging import fit
+from lib.judging import matching
+from lib.judging import some_vertices
+from lib.judging.digits import EXACT
+from lib.judging.matrices import ROUNDING, image, slack
+from lib.judging.matrix_causes import MOST_PAIRS, MatrixCauses
+from lib.judging.points import described, difference, differs
+from lib.judging.scene import NO_UNITS, ROUGH_PIS, Habit, turned_with
+from lib.judging.some_vertices import ALL_VERTICES
+from lib.judging.verdict import (
     ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict, cause_of, cause_of_all)
 from lib.maths.vectors import cross
 

@@ -3,10 +3,10 @@ import collections
 import dataclasses
 import itertools
 
-from judge_parts.pixels import PixelJudge
-from judge_parts.shown import Shown
-from judge_parts.stage_judge import Reading, undecided_outcome
-from judge_parts.verdict import (
+from lib.judging.pixels import PixelJudge
+from lib.judging.shown import Shown
+from lib.judging.stage_judge import Reading, undecided_outcome
+from lib.judging.verdict import (
     ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
 
 KINDS_IN_WORDS = {

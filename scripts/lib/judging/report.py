@@ -3,7 +3,7 @@ import os
 import re
 import shlex
 
-from judge_parts.verdict import ANOTHER_RULE, FAILED, MISSING, OPEN, RIGHT, WRONG
+from lib.judging.verdict import ANOTHER_RULE, FAILED, MISSING, OPEN, RIGHT, WRONG
 
 BY_THE_RIGHT = "by the right numbers, "  # begins the remark of a stage that was judged by those
 HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference, first pixel", "remarks"]

@@ -2,8 +2,8 @@
 triangles."""
 import dataclasses
 
-from judge_parts.matching import listed
-from judge_parts.verdict import Cause
+from lib.judging.matching import listed
+from lib.judging.verdict import Cause
 
 ALL_VERTICES = (slice(None),)
 VERTICES = [slice(k, None, 3) for k in range(3)]

@@ -3,7 +3,7 @@ whether all pixels are shifted."""
 import collections
 import math
 
-from judge_parts.raster import kept, spend
+from lib.judging.raster import kept, spend
 
 REACH = 1.0        # pixels
 DEEP = 1.5         # pixels

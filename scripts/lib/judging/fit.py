@@ -7,8 +7,8 @@ import dataclasses
 import math
 import random
 
-from judge_parts.matrices import dot, image, product
-from judge_parts.verdict import Cause
+from lib.judging.matrices import dot, image, product
+from lib.judging.verdict import Cause
 
 MOST_POINTS = 60
 TRIALS = 3

@@ -7,8 +7,8 @@ import math
 
 from lib.maths.matrices import Projection
 from lib.text.scene import commands
-from judge_parts.mistakes import sentences
-from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, TWICE, VIEW_SPELLINGS, Z_TWICE, affine,
+from lib.judging.mistakes import sentences
+from lib.judging.matrices import (DIVIDES_X_AND_Y, IDENTITY, TWICE, VIEW_SPELLINGS, Z_TWICE, affine,
                                   image, negative, perspective_matrix, product, projection_matrix, rotation,
                                   scaling, slack, transposed, translation, unit, view_matrix)
 from lib.maths.vectors import cross

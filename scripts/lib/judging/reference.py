@@ -5,9 +5,9 @@ import os
 import re
 
 from lib.maths.window import Window
-from judge_parts.hand_in import KINDS
-from judge_parts.old_format import without_old_lines
-from judge_parts.scene import Scene
+from lib.judging.hand_in import KINDS
+from lib.judging.old_format import without_old_lines
+from lib.judging.scene import Scene
 from lib.rim.command import CommandFailure
 from lib.showing.pictures import read_picture
 from lib.running.pipe_tools import ToolFailure, Tools, opaque_background

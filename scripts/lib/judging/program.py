@@ -5,7 +5,7 @@ import resource
 import sys
 import tempfile
 
-from judge_parts.hand_in import KINDS, File, fitting_names
+from lib.judging.hand_in import KINDS, File, fitting_names
 from lib.rim.places import place
 from lib.rim.command import shown
 from lib.rim.input_file import InputError
