@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""The rooms of libpipeline and tools and the arrows between them match their maps, README.md in each.
+"""The rooms of libpipeline, tools and scripts and the arrows between them match the maps: README.md in each.
 
 usage: rooms_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
 """
+import ast
 import pathlib
 import re
 import sys
@@ -14,6 +15,9 @@ LIBRARY = SOURCE / "libpipeline"
 MAP = (LIBRARY / "README.md").read_text()
 TOOLS = SOURCE / "tools"
 TOOLS_MAP = (TOOLS / "README.md").read_text()
+SCRIPTS = SOURCE / "scripts"
+SCRIPTS_MAP = (SCRIPTS / "README.md").read_text()
+OF_SEVERAL = ("measure", "maintain")  # folders of commands with `parts` in common
 INCLUDE = r'^\s*#\s*include\s+"{}/(\w+)/([\w.]+)"'
 
 
@@ -21,7 +25,7 @@ def arrows_of(text):
     """{room: the rooms it may include} from a map's lines 'room -> room room'."""
     return {
         room: set(others.split())
-        for room, others in re.findall(r"^    (\w+) +->((?: +\w+)*)$", text, re.MULTILINE)}
+        for room, others in re.findall(r"^    ([\w/]+) +->((?: +[\w/]+)*)$", text, re.MULTILINE)}
 
 
 def sources(root):
@@ -38,10 +42,41 @@ def wrong_includes(root, arrows, prefix):
         if room != path.parent.name and room not in arrows.get(path.parent.name, ())]
 
 
+def python_files(root):
+    return sorted(path for path in root.rglob("*") if path.suffix == ".py" or not path.suffix
+                  and path.is_file() and path.read_bytes().startswith(b"#!/usr/bin/env python3"))
+
+
+def imported_folders(path, root):
+    """The folders below `root`, or beside a command, from which a Python file imports."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        module = node.module or "" if isinstance(node, ast.ImportFrom) else next(
+            (name.name for name in node.names), "") if isinstance(node, ast.Import) else ""
+        if re.match(r"(lib|parts|\w+_parts)\b", module):
+            name = module.replace(".", "/")
+            yield name if (root / name).is_dir() or "/" not in name else name.rpartition("/")[0]
+
+
+def wrong_imports(root, arrows):
+    """A line for every import that no arrow allows. A room that has none is of one command, X or make-X for
+    X_parts: that alone imports it, and both of them all rooms of lib. The rooms of a folder of commands are
+    one."""
+    wrong = []
+    for path in python_files(root):
+        place = path.relative_to(root)
+        room = place.parts[0] if place.parts[0] in OF_SEVERAL else str(place.parent)
+        own = f"{place.name.removeprefix('make-')}_parts" if room == "." else room
+        for folder in imported_folders(path, root):
+            is_own = folder == own or folder == "parts" and room in OF_SEVERAL
+            if not is_own and folder not in arrows.get(room, [to for to in arrows if to.startswith("lib/")]):
+                wrong.append(f"{place} imports {folder}")
+    return wrong
+
+
 def named_files(text):
     """{room: the names in backquotes in its row of a map's table}"""
     return {room: set(re.findall(r"`([a-z]\w*)`", row))
-            for room, row in re.findall(r"^\| `(\w+)/`[^\n]*? \| (.*) \|$", text, re.MULTILINE)}
+            for room, row in re.findall(r"^\| `([\w/]+)/`[^\n]*? \| (.*) \|$", text, re.MULTILINE)}
 
 
 def circle(arrows):
@@ -107,6 +142,21 @@ class ToolRooms(unittest.TestCase):
         self.assertEqual([path.name for path in sources(TOOLS) if path.parent == TOOLS], [])
 
 
+class ScriptRooms(unittest.TestCase):
+    def test_the_map_names_every_file_in_its_room_and_no_other(self):
+        rooms = {}
+        for path in SCRIPTS.rglob("*"):
+            if path.suffix in (".py", ".js", ".cpp", ".h") and path.name != "__init__.py":
+                rooms.setdefault(str(path.parent.relative_to(SCRIPTS)), set()).add(path.stem)
+        self.assertEqual(named_files(SCRIPTS_MAP), rooms)
+
+    def test_every_import_follows_an_arrow(self):
+        self.assertEqual(wrong_imports(SCRIPTS, arrows_of(SCRIPTS_MAP)), [])
+
+    def test_arrows_make_no_circle(self):
+        self.assertIsNone(circle(arrows_of(SCRIPTS_MAP)))
+
+
 class Invariants(unittest.TestCase):
     """The map's promises about the whole code, as far as a text search can check them."""
 
@@ -170,6 +220,25 @@ class TheTestItself(unittest.TestCase):
                 (root / room / f"{'a' if room == 'low' else 'b'}.h").write_text(text)
             self.assertEqual(wrong_includes(root, {"low": set(), "high": {"low"}}, "libpipeline"),
                              ["low/a.h includes high/b.h, but there is no arrow low -> high"])
+
+    def test_a_wrong_import_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root, head = pathlib.Path(folder), "#!/usr/bin/env python3\n"
+            for name, text in {
+                    "fly": head + "from fly_parts.pipe import run\nfrom lib.high import b\n",
+                    "film": head + "def f():\n    from fly_parts import pipe\n", "make-fly": head,
+                    "fly_parts/pipe.py": "import film_parts.path\nimport lib.low.a\n",
+                    "film_parts/path.py": "", "lib/low/a.py": "from lib.high.b import c\nimport parts.x\n",
+                    "lib/high/b.py": "from lib.low import a\n",
+                    "measure/bench": head + "import parts.x\nfrom lib.low import a\n",
+                    "measure/parts/x.py": "from parts import y\nfrom lib.high import b\n"}.items():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(text)
+            arrows = {"lib/low": set(), "lib/high": {"lib/low"}, "measure": {"lib/low"}}
+            self.assertEqual(wrong_imports(root, arrows), [
+                "film imports fly_parts", "fly_parts/pipe.py imports film_parts",
+                "lib/low/a.py imports lib/high", "lib/low/a.py imports parts",
+                "measure/parts/x.py imports lib/high"])
 
     def test_a_circle_is_found(self):
         self.assertEqual(circle({"a": {"b"}, "b": {"c"}, "c": {"b"}}), ["b", "c", "b"])
