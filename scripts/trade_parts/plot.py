@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from lib.showing.svg import STYLE, line, text
+from lib.showing.svg import document, line, text
 from trade_parts.report import asked
 
 TOP, ROW, BOTTOM = 96, 22, 60
@@ -105,10 +105,6 @@ def plot(rows, chosen, limits, times):
     height = bottom + BOTTOM
     verdict = "the cheapest with" if limits.are_met_by(chosen) else "the nearest to"
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" '
-        f'height="{height}">',
-        "<title>What each setting takes and what it loses</title>", f"<style>{STYLE}{STYLE_OF_BARS}</style>",
-        f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
         text(20, 30, f"{chosen.setting}: {verdict} {asked(limits)}",
              'class="title"'), *panel(cpu, "CPU time", "seconds; grey: four processes start", most, bottom),
         *panel(wrong, "wrong pixels", "% of those covered", limits.percent_wrong, bottom),
@@ -121,4 +117,4 @@ def plot(rows, chosen, limits, times):
             f"Medians of {times.rounds} round{'s' * (times.rounds != 1)}, with a line between the quartiles. "
             f"Dashed: what was asked for.",
             'class="soft"'))
-    return "\n".join(parts) + "\n</svg>\n"
+    return document(WIDTH, height, "What each setting takes and what it loses", parts, STYLE_OF_BARS)

@@ -41,6 +41,15 @@ def line(kind, *points):
                                                                        for x, y in points) + '"/>'
 
 
+def document(width, height, title, parts, style=""):
+    """The whole picture: a card with the parts on it."""
+    return "\n".join([
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
+        f'height="{height}">', f"<title>{title}</title>", f"<style>{STYLE}{style}</style>",
+        f'<rect class="card" x=".5" y=".5" width="{width - 1}" height="{height - 1}" rx="8"/>',
+        *parts]) + "\n</svg>\n"
+
+
 def spread_out(wanted, gap):
     """Positions as near as possible to the wanted ones (ascending), at least `gap` apart."""
     groups = []  # [sum of the positions that each would have as the group's first, count]
@@ -60,3 +69,33 @@ def end_labels(points_of, gap=15):
     names = sorted(points_of, key=lambda name: points_of[name][1])
     heights = spread_out([points_of[name][1] for name in names], gap)
     return {name: (points_of[name][0] + 9, y + 4) for name, y in zip(names, heights)}
+
+
+LINES_TOP, LINES_BOTTOM = 80, 330  # of a panel of lines
+
+
+def line_panels(title, panels):
+    """A plot of panels side by side."""
+    parts = (part for i, panel in enumerate(panels) for part in line_panel(80 + 465 * i, *panel))
+    return document(940, 400, title, parts)
+
+
+def line_panel(left, title, unit, ticks, counts, lines):
+    """A panel with lines over numbers of triangles: `ticks` are (class, height, words), `counts` words,
+    `lines` the heights of each by its name."""
+    width, middle = 280, 'class="soft" text-anchor="middle"'
+    columns = [left + 10 + j * (width - 20) / max(len(counts) - 1, 1) for j in range(len(counts))]
+    yield text(left - 55, 34, title, 'class="title"')
+    yield text(left - 55, 52, unit, 'class="soft"')
+    for kind, y, words in ticks:
+        yield line(kind, (left, y), (left + width, y))
+        yield text(left - 8, y + 4, words, 'class="soft" text-anchor="end"')
+    for x, words in zip(columns, counts):
+        yield text(x, LINES_BOTTOM + 22, words, middle)
+    yield text(left + width / 2, LINES_BOTTOM + 46, "triangles", middle)
+    labels = end_labels({name: (columns[-1], heights[-1]) for name, heights in lines.items()})
+    for j, (name, heights) in enumerate(lines.items()):
+        yield f'<g class="s s{j % 4}">' + line("front", *zip(columns, heights))
+        for x, y in zip(columns, heights):
+            yield f'<circle class="dot" cx="{x:.1f}" cy="{y:.1f}" r="3.5"/>'
+        yield text(*labels[name], name) + "</g>"

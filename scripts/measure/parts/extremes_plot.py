@@ -1,6 +1,6 @@
 """The plots of scripts/measure/extremes: for each axis the digits that are right, and where pixels are wrong
 and what is noted."""
-from lib.showing.svg import STYLE, line, spread_out, text
+from lib.showing.svg import document, line, spread_out, text
 from parts.extremes_report import Results, short
 from parts.extremes_scenes import AXES
 
@@ -86,10 +86,6 @@ def plot(rows, axis):
     end = top + ROW * len(results.settings)
     height = end + 44
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" '
-        f'height="{height}">',
-        f"<title>{title}: digits and pixels that are right</title>", f"<style>{STYLE}{STYLE_OF_ROWS}</style>",
-        f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
         text(20, 30, title[0].upper() + title[1:], 'class="title"'),
         text(20, 50, "digits that are right; lines are the values of --digits", 'class="soft"'),
         text(20, top - 14, "wrong pixels", 'class="soft"'),
@@ -99,4 +95,4 @@ def plot(rows, axis):
         if i % 2 == 0 or len(values) < 14:
             parts.append(text(x, BOTTOM + 20, short(value), 'class="soft" text-anchor="middle"'))
     parts += [*curves(results, axis, x_of), *rows_of_pixels(results, axis, x_of, top), *legend(height - 18)]
-    return "\n".join(parts) + "\n</svg>\n"
+    return document(WIDTH, height, f"{title}: digits and pixels that are right", parts, STYLE_OF_ROWS)

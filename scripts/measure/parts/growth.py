@@ -4,7 +4,7 @@ import math
 import random
 import shutil
 
-from lib.showing.svg import STYLE, end_labels, line, text
+from lib.showing.svg import LINES_BOTTOM, LINES_TOP, line_panels
 from parts.measuring import machine, run_pipe
 
 SIZES = (100, 500, 2000, 8192)
@@ -124,36 +124,12 @@ def plot(rows):
     kinds, sizes = axes(rows)
     seconds = [row["cpu_seconds"] for row in rows]
     low, high = math.floor(math.log10(min(seconds))), math.ceil(math.log10(max(seconds)))
-    width, height, top, bottom, panel_width = 940, 400, 80, 330, 280
-    parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
-        f'height="{height}">',
-        "<title>How zbuf's cost grows with triangles and pixels</title>", f"<style>{STYLE}</style>",
-        f'<rect class="card" x=".5" y=".5" width="{width - 1}" height="{height - 1}" rx="8"/>']
 
     def y_of(value):
-        return bottom - (bottom - top) * (math.log10(value) - low) / (high - low)
+        return LINES_BOTTOM - (LINES_BOTTOM - LINES_TOP) * (math.log10(value) - low) / (high - low)
 
-    for i, (kind, counts) in enumerate(kinds.items()):
-        left = 80 + i * 465
-        x_of = {
-            count: left + 10 + j * (panel_width - 20) / max(len(counts) - 1, 1)
-            for j, count in enumerate(counts)}
-        parts.append(text(left - 55, 34, f"{kind} triangles", 'class="title"'))
-        parts.append(text(left - 55, 52, "CPU seconds of zbuf", 'class="soft"'))
-        for power in range(low, high + 1):
-            y = y_of(10.0**power)
-            parts += [
-                line("grid", (left, y), (left + panel_width, y)),
-                text(left - 8, y + 4, f"{10.0**power:g}", 'class="soft" text-anchor="end"')]
-        for count in counts:
-            parts.append(text(x_of[count], bottom + 22, short(count), 'class="soft" text-anchor="middle"'))
-        parts.append(
-            text(left + panel_width / 2, bottom + 46, "triangles", 'class="soft" text-anchor="middle"'))
-        lines = {size: [(x_of[count], y_of(table[kind, count, size])) for count in counts] for size in sizes}
-        labels = end_labels({size: points[-1] for size, points in lines.items()})
-        for j, (size, points) in enumerate(lines.items()):
-            parts.append(f'<g class="s s{j % 4}">' + line("front", *points))
-            parts += [f'<circle class="dot" cx="{x:.1f}" cy="{y:.1f}" r="3.5"/>' for x, y in points]
-            parts.append(text(*labels[size], f"{size} x {size}") + "</g>")
-    return "\n".join(parts) + "\n</svg>\n"
+    ticks = [("grid", y_of(10.0**power), f"{10.0**power:g}") for power in range(low, high + 1)]
+    return line_panels("How zbuf's cost grows with triangles and pixels", [
+        (f"{kind} triangles", "CPU seconds of zbuf", ticks, [short(n) for n in counts],
+         {f"{size} x {size}": [y_of(table[kind, n, size]) for n in counts] for size in sizes})
+        for kind, counts in kinds.items()])

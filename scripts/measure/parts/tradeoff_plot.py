@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from lib.showing.svg import STYLE, line, text
+from lib.showing.svg import document, line, text
 
 WIDTH, TOP, ROW_HEIGHT, LABEL_WIDTH = 1180, 112, 24, 255
 ZERO_WIDTH = 36  # left of a logarithmic axis, for errors that are 0
@@ -74,25 +74,18 @@ def power_text(value):
     return f"1e{math.log10(value):.0f}"
 
 
-def plot(results):
-    beaten = results.beaten()
-    settings = [setting for setting in results.settings("plain") if setting in results.settings("unit")]
-    nanoseconds = {s: 1e9 * results.per_triangle("plain", s, "cpu_seconds") for s in settings}
-    settings.sort(key=nanoseconds.get)
-
+def panels_of(results, settings, nanoseconds):
     def errors(scenes, error):
         return {name: {s: error(scene, s) for s in settings} for name, scene in scenes.items()}
 
-    layers = errors({f"1e{n}": f"layers 1e{n}"
-                     for n in (6, 4, 2)},
+    layers = errors({f"1e{n}": f"layers 1e{n}" for n in (6, 4, 2)},
                     lambda scene, s: results.share(scene, s, "flipped_pixels", "wrong_pixels"))
-    vertices = errors({"1e-5": "1e-5", "1e-3": "1e-3", "1": "unit"},
-                      lambda scene, s: results.cell(scene, s, "vertex_error_pixels"))
-    edges = errors({"1e-5": "1e-5", "1e-3": "1e-3", "1": "unit"},
-                   lambda scene, s: results.share(scene, s, "off_center_pixels"))
+    sizes = {"1e-5": "1e-5", "1e-3": "1e-3", "1": "unit"}
+    vertices = errors(sizes, lambda scene, s: results.cell(scene, s, "vertex_error_pixels"))
+    edges = errors(sizes, lambda scene, s: results.share(scene, s, "off_center_pixels"))
     shares = (1e-4, 1e-2, 1)
     text_bytes = {s: results.cell("plain", s, "bytes") for s in settings}
-    panels = [
+    return [
         Panel("CPU", "ns a triangle", {"": nanoseconds}, LABEL_WIDTH, 150,
               rounded_up(max(nanoseconds.values()))),
         Panel("Text", "bytes a triangle", {"": text_bytes}, LABEL_WIDTH + 190, 90,
@@ -102,23 +95,25 @@ def plot(results):
         Panel("Hidden that shows", "layers 1e-5 apart, far/near", layers, LABEL_WIDTH + 565, 160, shares,
               True, share_text),
         Panel("Pixels off center", "objects of size", edges, LABEL_WIDTH + 765, 130, shares, True,
-              share_text), ]
+              share_text)]
+
+
+def plot(results):
+    beaten = results.beaten()
+    settings = [setting for setting in results.settings("plain") if setting in results.settings("unit")]
+    nanoseconds = {s: 1e9 * results.per_triangle("plain", s, "cpu_seconds") for s in settings}
+    settings.sort(key=nanoseconds.get)
     bottom = TOP + ROW_HEIGHT * len(settings)
     height = bottom + 40
     footnote = (f"Plain triangles, what they cost beyond an empty run. Medians of "
                 f"{results.words('plain', 'rounds')} rounds, {results.machine}.")
     if any(setting in beaten for setting in settings):
         footnote += " *: beaten by another setting."
-    parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" '
-        f'height="{height}">',
-        "<title>Cost and errors of the settings of the pipeline</title>", f"<style>{STYLE}</style>",
-        f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
-        text(20, height - 14, footnote, 'class="soft"')]
+    parts = [text(20, height - 14, footnote, 'class="soft"')]
     for row, setting in enumerate(settings):
         y = TOP + ROW_HEIGHT * (row + 0.5)
         parts.append(line("grid", (20, y + ROW_HEIGHT / 2), (WIDTH - 20, y + ROW_HEIGHT / 2)))
         parts.append(text(20, y + 4, setting + " *" * (setting in beaten)))
-    for panel in panels:
+    for panel in panels_of(results, settings, nanoseconds):
         parts += panel_parts(panel, settings, bottom)
-    return "\n".join(parts) + "\n</svg>\n"
+    return document(WIDTH, height, "Cost and errors of the settings of the pipeline", parts)
