@@ -6,7 +6,9 @@ import pathlib
 import subprocess
 import sys
 
+from lib.rim.arguments import CommandParser
 from lib.rim.child import cpu_seconds, finished
+from lib.running.pipe_tools import SOURCE
 
 
 def machine():
@@ -14,6 +16,23 @@ def machine():
     models = [
         line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
     return f"{models[0] if models else 'unknown processor'}, {len(os.sched_getaffinity(0))} cores"
+
+
+def result_parser(description, rounds=0, redrawn=""):
+    """Of a command that writes its figures to results/: `rounds` is the default of --rounds, if it has that,
+    and `redrawn` names what --redraw reads."""
+    parser = CommandParser(description=description)
+    parser.add_argument("--bin", type=pathlib.Path, default=SOURCE / "build/release/bin",
+                        help="the folder of the tools")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=SOURCE / "scripts/measure/results",
+                        help="the folder for the results")
+    parser.add_argument("--quick", action="store_true", help="a test of this script, no measurement")
+    if rounds:
+        parser.add_argument("--rounds", type=int, default=rounds, help="timed runs (default %(default)s)")
+    if redrawn:
+        parser.add_argument("--redraw", action="store_true",
+                            help=f"measure nothing; read the numbers from {redrawn}")
+    return parser
 
 
 LAUNCHER = pathlib.Path(__file__).with_name("launcher.py")
