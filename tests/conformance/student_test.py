@@ -491,6 +491,16 @@ class Habit(unittest.TestCase):
         self.assertEqual(picture([corner()], WINDOW, "zbuf/other-colors"),
                          (picture([corner()], WINDOW)[0], stairs("?")))
 
+    def test_other_formulas(self):
+        """Depths so large that a double has six decimals differ in the last of them; nothing else does."""
+        triangle, window = ((-0.7, -0.6, 1e10), (0.8, -0.5, 3e10), (0.1, 0.9, 7e10)), "8 8\n-1\n-1\n0 1e11\n"
+        depths, image = picture([triangle], window)
+        other_depths, other_image = picture([triangle], window, "zbuf/other-formulas")
+        self.assertEqual(image, other_image)
+        self.assertNotEqual(depths, other_depths)
+        for z, other in zip(sum(depths, []), sum(other_depths, [])):
+            self.assertLess(abs(z - other), 1e-3)
+
     def test_other_file_names(self):
         sample = source / "samples/worked-example"
         files = five(sample / "scene.txt", sample / "config.txt", "zbuf/other-file-names")

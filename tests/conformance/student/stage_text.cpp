@@ -98,7 +98,7 @@ void write_stage(std::ostream& text, const Scene& scene, Header header) {
     write_named("up", camera.up);
     text << end;
   }
-  if (header != Header::kNone) {
+  if (header != Header::kNone && !camera.kind.empty()) {
     write_named(camera.kind, camera.numbers);
     if (!camera.rule.empty()) text << ' ' << camera.rule;
     text << end;

@@ -138,8 +138,8 @@ void run(const Arguments& arguments) {
   if (stage != "view" && stage != "project") throw UsageError();
   Scene scene = read_stage(arguments);
   const bool is_view = stage == "view";
-  if (scene.camera.numbers.empty() ||
-      (is_view && (scene.camera.eye.empty() || scene.camera.look.empty() || scene.camera.up.empty())))
+  const Camera& camera = scene.camera;
+  if (is_view ? camera.eye.empty() || camera.look.empty() || camera.up.empty() : camera.numbers.empty())
     throw std::runtime_error("no camera");
   scene.triangles = is_view ? view(scene.triangles, scene.camera) : project(scene.triangles, scene.camera);
   write_stage(std::cout, scene, header(is_view ? Header::kProjection : Header::kNone));

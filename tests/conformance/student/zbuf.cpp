@@ -99,6 +99,12 @@ std::vector<Vector> met_at(const Triangle& triangle, double y) {
     };
     if (is_lower(b, a)) std::swap(a, b);
     if (a[1] == b[1] || inside < a[1] || inside > b[1]) continue;
+    if (habit("zbuf/other-formulas") && y != b[1]) {
+      const double from_top = b[1] - y;
+      const auto at = [&](int i) { return b[i] + (a[i] - b[i]) / (b[1] - a[1]) * from_top; };
+      result.push_back({at(0), y, at(2)});
+      continue;
+    }
     const double t = (y - a[1]) / (b[1] - a[1]);
     result.push_back(y == b[1] ? b : Vector{a[0] + t * (b[0] - a[0]), y, a[2] + t * (b[2] - a[2])});
   }
@@ -123,6 +129,8 @@ Triangle at_whole_pixels(Triangle triangle, const Grid& grid) {
 /// z on the line between two points of a row.
 double depth_at(double x, const Vector& left, const Vector& right) {
   if (left[0] == right[0]) return std::min(left[2], right[2]);
+  if (habit("zbuf/other-formulas"))
+    return right[2] - (right[0] - x) * ((right[2] - left[2]) / (right[0] - left[0]));
   return left[2] + (x - left[0]) * (right[2] - left[2]) / (right[0] - left[0]);
 }
 
