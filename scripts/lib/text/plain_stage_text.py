@@ -78,64 +78,81 @@ def real(word):
 
 def read(text, name="text", may_have_spheres=False):
     """The StageText of a str; `name` is that of the file in messages. Raises a StageTextError."""
-    header, vertices, names, next_name, passed_over = {}, [], [], 0, 0
-    header_lines = []
-    spheres, of_sphere = [], 0  # and how many lines of the last one are still to come
+    reader = Reader(may_have_spheres)
     for number, line in enumerate(text.split("\n"), 1):
-        words = line.split("#")[0].split()
-        if not words or words[0] in ("framed", "end"):
-            continue
-        if words[0] == "error":
-            raise StageTextError(f"{name}:{number}: {' '.join(words[1:])}")
-        if KEYWORD.match(words[0]) and words[0].lower() not in NO_KEYWORDS:
-            if words[0] == "triangle":
-                next_name = triangle_number(" ".join(words[1:]), f"{name}:{number}")
-            elif words[0] == "clipped":  # the whole triangle in clip space; its pieces follow
-                passed_over = 3
-            elif words[0] == "sphere" and may_have_spheres:
-                next_name, of_sphere = next_name + 1, 4
-                spheres.append([])
-            elif words[0] == "sphere":
-                raise StageTextError(
-                    f"{name}:{number}: expected triangles alone, found a sphere: trace draws it, and model "
-                    f"--facets N makes triangles of it"
-                )
-            else:
-                header[words[0]] = words[1:]
-                header_lines.append(words)
-            continue
-        if passed_over:
-            passed_over -= 1
-            continue
         try:
-            numbers = tuple(real(word) for word in words)
-        except ValueError:
-            comma = ": write a decimal point, not a comma" if DECIMAL_COMMA.search(line) else ""
-            raise StageTextError(
-                f"{name}:{number}: expected numbers, found '{line.strip()[:40]}'{comma}") from None
-        if len(numbers) < 3:
-            raise StageTextError(
-                f"{name}:{number}: expected x, y and z, found "
-                f"{'1 number' if len(numbers) == 1 else f'{len(numbers)} numbers'}"
-            )
-        if of_sphere:
-            of_sphere -= 1
-            spheres[-1].append(Vertex(number, numbers))
-            continue
-        if len(vertices) % 3 == 0:
-            names.append(next_name)
-            next_name += 1
-        vertices.append(Vertex(number, numbers))
+            reader.take(number, line)
+        except StageTextError as error:
+            raise StageTextError(f"{name}:{number}: {error}") from None
+    vertices, missing = reader.vertices, reader.of_sphere
     if len(vertices) % 3:
         raise StageTextError(f"{name}: expected three vertices a triangle, found {len(vertices)} in all")
-    if of_sphere:
-        raise StageTextError(
-            f"{name}: expected four vertices a sphere, found {4 - of_sphere} of the last one")
-    return StageText(header, [vertices[i:i + 3] for i in range(0, len(vertices), 3)], names, spheres,
-                     header_lines)
+    if missing:
+        raise StageTextError(f"{name}: expected four vertices a sphere, found {4 - missing} of the last one")
+    reader.found.triangles = [vertices[i:i + 3] for i in range(0, len(vertices), 3)]
+    return reader.found
 
 
-def triangle_number(word, place):
+class Reader:
+    """Takes lines; its errors name no location."""
+
+    def __init__(self, may_have_spheres):
+        self.may_have_spheres, self.found = may_have_spheres, StageText({}, [], [])
+        self.vertices, self.next_name = [], 0
+        self.passed_over = self.of_sphere = 0  # lines of a clipped triangle, of a sphere, still to come
+
+    def take(self, number, line):
+        words = line.split("#")[0].split()
+        if not words or words[0] in ("framed", "end"):
+            return
+        if KEYWORD.match(words[0]) and words[0].lower() not in NO_KEYWORDS:
+            self.take_keyword(words)
+        elif self.passed_over:
+            self.passed_over -= 1
+        else:
+            vertex = Vertex(number, numbers_of(line, words))
+            if self.of_sphere:
+                self.of_sphere -= 1
+                self.found.spheres[-1].append(vertex)
+                return
+            if len(self.vertices) % 3 == 0:
+                self.found.names.append(self.next_name)
+                self.next_name += 1
+            self.vertices.append(vertex)
+
+    def take_keyword(self, words):
+        keyword, *rest = words
+        if keyword == "error":
+            raise StageTextError(" ".join(rest))
+        if keyword == "triangle":
+            self.next_name = triangle_number(" ".join(rest))
+        elif keyword == "clipped":  # the whole triangle in clip space; its pieces follow
+            self.passed_over = 3
+        elif keyword != "sphere":
+            self.found.header[keyword] = rest
+            self.found.header_lines.append(words)
+        elif self.may_have_spheres:
+            self.next_name, self.of_sphere = self.next_name + 1, 4
+            self.found.spheres.append([])
+        else:
+            raise StageTextError("expected triangles alone, found a sphere: trace draws it, and model "
+                                 "--facets N makes triangles of it")
+
+
+def numbers_of(line, words):
+    """The numbers of a vertex line."""
+    try:
+        numbers = tuple(real(word) for word in words)
+    except ValueError:
+        comma = ": write a decimal point, not a comma" if DECIMAL_COMMA.search(line) else ""
+        raise StageTextError(f"expected numbers, found '{line.strip()[:40]}'{comma}") from None
+    if len(numbers) < 3:
+        count = "1 number" if len(numbers) == 1 else f"{len(numbers)} numbers"
+        raise StageTextError(f"expected x, y and z, found {count}")
+    return numbers
+
+
+def triangle_number(word):
     if not re.fullmatch("[0-9]{1,20}", word):
-        raise StageTextError(f"{place}: expected a triangle's number, found '{word[:40]}'")
+        raise StageTextError(f"expected a triangle's number, found '{word[:40]}'")
     return int(word)

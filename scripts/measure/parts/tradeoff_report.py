@@ -139,7 +139,7 @@ def beaten_table(results):
     return table(["setting", "beaten by", "it stays because"], rows) if rows else "None is.\n"
 
 
-def report(results):
+def costs(results):
     rounds = results.words(results.cost_scenes[0], "rounds")
     counted = {
         "callgrind":
@@ -147,17 +147,8 @@ def report(results):
         "perf":
             "Instructions are those that the processor counts outside the kernel"}.get(
                 results.counter, f"Instructions: {results.counter}")
-    costs = "\n".join(cost_section(results, scene) for scene in results.cost_scenes)
-    return f"""# What accuracy costs
-
-Written by `scripts/measure/tradeoff`; all numbers are in [tradeoff.csv](tradeoff.csv) and
-[epsilon.csv](epsilon.csv). A setting is named by what differs from the default,
-`--digits 7 --precision extended --coverage nearest --depth f64`.
-
-![cost and errors of every setting](tradeoff.svg)
-
-## Cost
-
+    sections = "\n".join(cost_section(results, scene) for scene in results.cost_scenes)
+    return f"""\
 The whole pipe `model | view | project | zbuf` on {results.machine}. An *empty run* has the same header,
 options and picture, but no triangle: it is what a run costs anyway. What it costs is taken off the run with
 triangles of the same round; the rest is given for a triangle, or for the picture. Medians of {rounds}
@@ -165,10 +156,11 @@ rounds, quartiles in brackets; a ratio is to the default's time in the same roun
 cores. {counted}: those of a picture with as large triangles, but a 25th of them (`ball` and `half`: the
 same). Memory is the sum of the stages' largest resident sets. Bytes are those in the three pipes together.
 
-{costs}
-## What it gives up
+{sections}"""
 
-Against a lossless run (`--digits exact`) with the same rule of coverage.
+
+def losses(results):
+    return f"""Against a lossless run (`--digits exact`) with the same rule of coverage.
 
 Largest error of a vertex on the screen, in pixels:
 
@@ -185,7 +177,24 @@ nearly edge-on, of which a pixel shows depths from end to end.
 {error_table(results, depth_cell(results))}
 Pixels that show another triangle than the nearest in which their center lies, as a share of those covered:
 
-{error_table(results, off_center_cell(results))}
+{error_table(results, off_center_cell(results))}"""
+
+
+def report(results):
+    return f"""# What accuracy costs
+
+Written by `scripts/measure/tradeoff`; all numbers are in [tradeoff.csv](tradeoff.csv) and
+[epsilon.csv](epsilon.csv). A setting is named by what differs from the default,
+`--digits 7 --precision extended --coverage nearest --depth f64`.
+
+![cost and errors of every setting](tradeoff.svg)
+
+## Cost
+
+{costs(results)}
+## What it gives up
+
+{losses(results)}
 ## What --depth-epsilon hides
 
 One oblique plane, drawn twice and divided differently, should show the surface drawn first: pixels that

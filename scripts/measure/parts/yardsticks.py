@@ -239,20 +239,18 @@ def measured(tools, baselines, rounds, quick):
                 row.name: counted(row, folder / "small")
                 for row in rows_of(tools, baselines, folder / "small", scenes, 1 if quick else 25)
                 if row.sources}
-        speed = {key: statistics.median(each[key] for each in speeds) for key in speeds[0]}
-        table = [{
-            "name":
-                row.name, "unit":
-                    row.unit, "count":
-                        row.count, "text_bytes":
-                            row.text_bytes, "rounds":
-                                rounds, **quartile_columns("cpu_seconds", [
-                                    run.cpu_seconds for run in runs[row.name]]), **quartile_columns(
-                "wall_seconds", [run.wall_seconds for run in runs[row.name]]), "system_seconds":
-                statistics.median(run.system_seconds for run in runs[row.name]), "mib":
-                    min(run.mib for run in runs[row.name]), **small.get(row.name, {}),
-            **speed} for row in rows]
+    speed = {key: statistics.median(each[key] for each in speeds) for key in speeds[0]}
+    table = [{**columns_of(row, runs[row.name]), **small.get(row.name, {}), **speed} for row in rows]
     return table, missing
+
+
+def columns_of(row, runs):
+    return {
+        "name": row.name, "unit": row.unit, "count": row.count, "text_bytes": row.text_bytes,
+        "rounds": len(runs), **quartile_columns("cpu_seconds", [run.cpu_seconds for run in runs]),
+        **quartile_columns("wall_seconds", [run.wall_seconds for run in runs]),
+        "system_seconds": statistics.median(run.system_seconds for run in runs),
+        "mib": min(run.mib for run in runs)}
 
 
 # The table
