@@ -26,26 +26,14 @@ namespace pipeline {
 namespace {
 
 PictureRays rays_of(const TraceOptions& chosen) {
-  const ZbufOptions& picture = chosen.picture;
   return {.sampling = chosen.sampling.value_or(Sampling::regular),
-          .sample_count = picture.sample_count,
+          .sample_count = chosen.sample_count,
           .threshold = chosen.threshold,
-          .has_colors = picture.has_image(),
-          .has_depths = picture.z_buffer_path != "none" || !picture.depth_image_path.empty() ||
-                        !picture.depth_array_path.empty(),
-          .has_triangles = !picture.triangle_array_path.empty(),
-          .counts_covered = picture.summarizes};
-}
-
-/// Writes image and depths.
-void write_all(Tool& tool, const ZbufOptions& chosen, const TracedPicture& picture, Color background) {
-  PictureOutputs outputs(tool, chosen, picture.screen, 1, background);
-  for (int row = 0; row < picture.screen.rows; ++row) {
-    if (!picture.depths.empty()) outputs.write_depths(picture.row_of(picture.depths, row));
-    if (outputs.wants_triangles()) outputs.write_triangles(picture.row_of(picture.triangles, row));
-    if (outputs.wants_colors()) outputs.write_colors(picture.row_of(picture.colors, row));
-  }
-  outputs.finish(picture.covered_count);
+          .has_colors = chosen.has_image(),
+          .has_depths = chosen.z_buffer_path != "none" || !chosen.depth_image_path.empty() ||
+                        !chosen.depth_array_path.empty(),
+          .has_triangles = !chosen.triangle_array_path.empty(),
+          .counts_covered = chosen.summarizes};
 }
 
 /// Why triangles do not show: the notes of `project` and of `zbuf`.
@@ -63,92 +51,136 @@ std::string unmet_note(const TracedScene& scene, std::uint64_t object_count) {
   return reason == std::string::npos ? note : note + "; " + triangles.substr(reason + 7);
 }
 
-}  // namespace
+/// A run of `trace`, from the header of its input to the notes.
+class Rendering {
+ public:
+  /// Reads the header.
+  Rendering(Tool& tool, const TraceOptions& chosen, const Viewport& screen, Statistics& statistics)
+      : tool_(tool),
+        chosen_(chosen),
+        screen_(screen),
+        statistics_(statistics),
+        outputs_(tool, chosen, statistics),
+        scene_(tool, chosen, screen, statistics.is_wanted()),
+        background_(background_color(scene_.header().appearance, parse_color(chosen.background))),
+        setup_(
+            light_transport_setup(scene_.header().appearance, scene_.projection().is_perspective, chosen)) {
+    if (rays_.has_colors)
+      shader_ =
+          surface_shader(scene_.header(), scene_.header_end(), places_.screen(), surface_options(chosen));
+    probed_ = probed_pixels(chosen, screen);
+  }
 
-void trace(Tool& tool, const TraceOptions& chosen, const Viewport& screen, Statistics& statistics) {
-  const ZbufOptions& output = chosen.picture;
-  const PictureRays rays = rays_of(chosen);
-  const SamplePlaces places(screen, rays.sample_count, is_random(rays.sampling));
-  statistics.open();
-  TracedScene scene(tool, chosen, screen, statistics.is_wanted());
-  const SurfaceOptions surfaces = {.model = output.shading,
-                                   .wireframe = {},
-                                   .background = parse_color(output.background),
-                                   .holds_alpha = rays.has_colors && can_hold_alpha(output.image_path)};
-  const Color background = background_color(scene.header().appearance, surfaces.background);
-  std::optional<SurfaceShader> shader;
-  if (rays.has_colors) shader = surface_shader(scene.header(), scene.header_end(), places.screen(), surfaces);
-  const LightTransportSetup setup =
-      light_transport_setup(scene.header().appearance, scene.projection().is_perspective, chosen);
-  const bool sends_rays = rays.has_colors && needs_light_transport(setup);
-  const std::vector<Pixel> probed = probed_pixels(output, screen);
-  const bool casts_any_rays = sends_rays || !probed.empty();
-  scene.read(casts_any_rays);
-  // The shader of zbuf has no spheres.
-  const bool has_spheres = !scene.triangles().spheres().empty();
-  const bool traces_light = sends_rays || (rays.has_colors && has_spheres);
-  tool.timing().lap(&Timing::read_seconds);
+  void read() {
+    const bool sends_rays = rays_.has_colors && needs_light_transport(setup_);
+    casts_any_rays_ = sends_rays || !probed_.empty();
+    scene_.read(casts_any_rays_);
+    // The shader of zbuf has no spheres.
+    has_spheres_ = !scene_.triangles().spheres().empty();
+    traces_light_ = sends_rays || (rays_.has_colors && has_spheres_);
+    tool_.timing().lap(&Timing::read_seconds);
+  }
 
-  TraceWork work;
-  ShownLight shown_light;
-  ThreadPool pool(chosen.thread_count());
-  std::vector<std::string> probe_lines;
-  const TracedPicture picture = [&] {
+  TracedPicture cast() {
+    ThreadPool pool(chosen_.thread_count);
     auto last = std::chrono::steady_clock::now();
     const auto lap = [&] {
       const auto now = std::chrono::steady_clock::now();
       return std::chrono::duration<double>(now - std::exchange(last, now)).count();
     };
-    const ProjectionTransform& projection = scene.projection();
-    const TracedTriangles& triangles = scene.triangles();
-    const Bvh bvh = hierarchy_of(triangles, PixelRays(projection, screen), pool,
-                                 casts_any_rays ? RaysOfBoxes::any : RaysOfBoxes::primary);
-    const LightTransport transport(triangles, bvh, setup);
-    work.build_seconds = lap();
-
-    const PixelRays sample_rays(projection, places.screen());
+    const ProjectionTransform& projection = scene_.projection();
+    const TracedTriangles& triangles = scene_.triangles();
+    const PixelRays pixel_rays(projection, screen_), sample_rays(projection, places_.screen());
+    const Bvh bvh =
+        hierarchy_of(triangles, pixel_rays, pool, casts_any_rays_ ? RaysOfBoxes::any : RaysOfBoxes::primary);
+    const LightTransport transport(triangles, bvh, setup_);
+    work_.build_seconds = lap();
     const auto make_colors = [&]() -> std::unique_ptr<SampleColors> {
-      if (!traces_light) return std::make_unique<SurfaceColors>(scene, shader ? &*shader : nullptr);
-      return std::make_unique<LightColors>(transport, sample_rays, background, work, shown_light);
+      if (!traces_light_) return std::make_unique<SurfaceColors>(scene_, shader_ ? &*shader_ : nullptr);
+      return std::make_unique<LightColors>(transport, sample_rays, background_, work_, shown_light_);
     };
-    TracedPicture all = traced_picture(scene, bvh, screen, places, rays, background, make_colors, pool, work);
-    work.cast_seconds = lap();
-    for (const Pixel& pixel : probed)
+    TracedPicture picture =
+        traced_picture(scene_, bvh, screen_, places_, rays_, background_, make_colors, pool, work_);
+    work_.cast_seconds = lap();
+    for (const Pixel& pixel : probed_)
       for (const std::string& line :
-           ray_lines(pixel, {triangles, bvh, projection, screen}, transport, PixelRays(projection, screen)))
-        probe_lines.push_back(line);
-    return all;
-  }();
-  tool.timing().details = to_text(work);
-  statistics.add("triangles", tool.timing().triangle_count);
-  scene.view().add_to(statistics);
-  statistics.add("primary_rays", work.primary_rays);
-  if (traces_light) {
-    statistics.add("shadow_rays", work.rays.shadow);
-    statistics.add("mirrored_rays", work.rays.mirrored);
-    statistics.add("refracted_rays", work.rays.refracted);
-    statistics.add("cut_rays", work.rays.cut);
+           ray_lines(pixel, {triangles, bvh, projection, screen_}, transport, pixel_rays))
+        probe_lines_.push_back(line);
+    return picture;
   }
-  statistics.finish();
-  tool.timing().lap(&Timing::work_seconds);
 
-  write_all(tool, output, picture, background);
-  statistics.commit();
-  for (const std::string& line : probe_lines) Tool::report(line);
-  if (!rays.has_colors) return;
-  const auto note = [&]() -> std::optional<std::string> {
-    if (has_spheres && !shown_light.has_seen) return unmet_note(scene, tool.timing().triangle_count);
-    if (!has_spheres)
-      if (auto unseen = unseen_triangles_note(scene)) return unseen;
-    if (!traces_light) return shader ? invisible_colors_note(*shader) : std::nullopt;
-    return shown_light.has_seen
-               ? invisible_light_note(shown_light, background, setup.model != ShadingModel::none)
+  void write(const TracedPicture& picture) {
+    tool_.timing().details = to_text(work_);
+    add_statistics();
+    outputs_.close_reports();
+    tool_.timing().lap(&Timing::work_seconds);
+    outputs_.open(screen_, 1, background_, "");
+    for (int row = 0; row < screen_.rows; ++row) {
+      if (rays_.has_depths) outputs_.write_depths(picture.row_of(picture.depths, row));
+      if (outputs_.wants_triangles()) outputs_.write_triangles(picture.row_of(picture.triangles, row));
+      if (outputs_.wants_colors()) outputs_.write_colors(picture.row_of(picture.colors, row));
+    }
+    outputs_.finish(picture.covered_count);
+    for (const std::string& line : probe_lines_) Tool::report(line);
+  }
+
+  /// Notes why the image is empty, if it is, or squeezed.
+  void note() const {
+    if (!rays_.has_colors) return;
+    if (const auto note = invisible_note())
+      tool_.note(*note);
+    else if (const auto squeezed = squeezed_note(scene_.given_projection(), screen_))
+      tool_.note(*squeezed);
+  }
+
+ private:
+  void add_statistics() {
+    statistics_.add("triangles", tool_.timing().triangle_count);
+    scene_.view().add_to(statistics_);
+    statistics_.add("primary_rays", work_.primary_rays);
+    if (!traces_light_) return;
+    statistics_.add("shadow_rays", work_.rays.shadow);
+    statistics_.add("mirrored_rays", work_.rays.mirrored);
+    statistics_.add("refracted_rays", work_.rays.refracted);
+    statistics_.add("cut_rays", work_.rays.cut);
+  }
+
+  [[nodiscard]] std::optional<std::string> invisible_note() const {
+    if (has_spheres_ && !shown_light_.has_seen) return unmet_note(scene_, tool_.timing().triangle_count);
+    if (!has_spheres_)
+      if (auto unseen = unseen_triangles_note(scene_)) return unseen;
+    if (!traces_light_) return shader_ ? invisible_colors_note(*shader_) : std::nullopt;
+    return shown_light_.has_seen
+               ? invisible_light_note(shown_light_, background_, setup_.model != ShadingModel::none)
                : std::nullopt;
-  }();
-  if (note)
-    tool.note(*note);
-  else if (const auto squeezed = squeezed_note(scene.given_projection(), screen))
-    tool.note(*squeezed);
+  }
+
+  Tool& tool_;
+  const TraceOptions& chosen_;
+  const Viewport& screen_;
+  Statistics& statistics_;
+  const PictureRays rays_ = rays_of(chosen_);
+  const SamplePlaces places_{screen_, rays_.sample_count, is_random(rays_.sampling)};
+  PictureOutputs outputs_;
+  TracedScene scene_;
+  Color background_;
+  std::optional<SurfaceShader> shader_;
+  LightTransportSetup setup_;
+  std::vector<Pixel> probed_;
+  bool casts_any_rays_ = false;  // beyond primary ones
+  bool has_spheres_ = false, traces_light_ = false;
+  TraceWork work_;
+  ShownLight shown_light_;
+  std::vector<std::string> probe_lines_;
+};
+
+}  // namespace
+
+void trace(Tool& tool, const TraceOptions& chosen, const Viewport& screen, Statistics& statistics) {
+  Rendering rendering(tool, chosen, screen, statistics);
+  rendering.read();
+  rendering.write(rendering.cast());
+  rendering.note();
 }
 
 }  // namespace pipeline

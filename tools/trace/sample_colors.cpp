@@ -37,9 +37,9 @@ Color SurfaceColors::color(int row, int column, const RayCaster::Seen& seen) {
 
 LightTransportSetup light_transport_setup(const Appearance& appearance, bool is_perspective,
                                           const TraceOptions& chosen) {
-  const Color background = background_color(appearance, parse_color(chosen.picture.background));
+  const Color background = background_color(appearance, parse_color(chosen.background));
   LightTransportSetup setup;
-  setup.model = shading_model(appearance, chosen.picture.shading);
+  setup.model = shading_model(appearance, chosen.shading);
   setup.lighting = lighting_of(appearance, is_perspective);
   setup.materials = materials_of(appearance);
   setup.background = to_vec3(background);

@@ -31,12 +31,11 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
 
   return tool.run(argc, argv, [&] {
-    ZbufOptions& picture = chosen.picture;
     chosen.complete(tool.options(), ::isatty(STDOUT_FILENO) == 1);
-    const NamedFile config = config_of(tool, picture);
-    tool.expect_separate(outputs_of(picture, statistics), {config, chosen.projection->scene()});
-    const Viewport screen = read_screen(tool, picture, config);
-    if (picture.has_image()) check_image_size(picture.image_path, screen.columns, screen.rows);
+    const NamedFile config = config_of(tool, chosen);
+    tool.expect_separate(outputs_of(chosen, {}, statistics), {config, chosen.projection.scene()});
+    const Viewport screen = read_screen(tool, chosen, config);
+    if (chosen.has_image()) check_image_size(chosen.image_path, screen.columns, screen.rows);
     trace(tool, chosen, screen, statistics);
   });
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include "libpipeline/picture/supersampling.h"
 #include "libpipeline/text/error.h"
 
 namespace pipeline {
@@ -18,14 +19,18 @@ constexpr int kMaxDepth = 1000;  // what a thread's stack has room for
 
 }  // namespace
 
-TraceOptions::TraceOptions(CommandLine& options) {
-  picture.coverage = TypeValue<CenterCoverage>();
-  picture.thread_count = 0;
-  options.set_usage(
-      "Usage: trace [OPTIONS] CONFIG [INPUT]\n"
-      "       trace [OPTIONS] --size WIDTHxHEIGHT [CONFIG] [INPUT]");
-  picture.add_screen_and_outputs(options, false);
-  projection.emplace(options);
+TraceOptions::TraceOptions(CommandLine& options)
+    : PictureOptions(options, "trace", false), projection(options) {
+  add_pixels(options);
+  add_color_and_light(options);
+  options.begin_group("Debugging");
+  options.add_repeatable("--probe", "COLUMN,ROW", probes,
+                         "Report on stderr the rays that make the color of this pixel's center: where each "
+                         "goes, its weight and what it brings; may be repeated");
+  add_framed(options);
+}
+
+void TraceOptions::add_pixels(CommandLine& options) {
   options.begin_group("Pixels");
   options.add_choice<std::optional<Sampling>>(
       "--sampling", sampling,
@@ -37,7 +42,7 @@ TraceOptions::TraceOptions(CommandLine& options) {
       "cells, as in zbuf; jittered: through a random point of each cell, the same in every run; adaptive: as "
       "jittered, but where the cells in the corners and in the middle look alike, through these alone. "
       "Without the option: regular");
-  options.add_whole("--samples", picture.sample_count, 1, kMaxSamples,
+  options.add_whole("--samples", sample_count, 1, kMaxSamples,
                     "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
                     "of its center; without the option " +
                         std::to_string(kSamplesOfSampling) + " with --sampling, else 1; N");
@@ -45,11 +50,14 @@ TraceOptions::TraceOptions(CommandLine& options) {
       "--threshold", threshold, 0, 255,
       "With --sampling adaptive: the first samples of a pixel are alike if no channel differs by "
       "this much; 0 takes all samples; N");
-  options.add_whole("--threads", picture.thread_count, 0, kMaxThreads,
+  options.add_whole("--threads", thread_count, 0, kMaxThreads,
                     "How many threads trace rays, 0 for one on every core");
+}
+
+void TraceOptions::add_color_and_light(CommandLine& options) {
   options.begin_group("Color and light");
-  picture.add_shading(options);
-  picture.add_background(options);
+  add_shading(options);
+  add_background(options);
   options.add_flag("--no-shadows", without_shadows, "Light every surface that faces a light, as zbuf does");
   options.add_flag("--no-recursion", without_recursion,
                    "Draw what mirrors or is clear as zbuf draws it: opaque and matt");
@@ -60,30 +68,22 @@ TraceOptions::TraceOptions(CommandLine& options) {
       "1/510, half a level)");
   options.add_whole("--max-depth", max_depth, 0, kMaxDepth,
                     "How often a ray may be mirrored or refracted on its way");
-  options.begin_group("Debugging");
-  options.add_repeatable("--probe", "COLUMN,ROW", picture.probes,
-                         "Report on stderr the rays that make the color of this pixel's center: where each "
-                         "goes, its weight and what it brings; may be repeated");
-  picture.add_framed(options);
 }
 
 void TraceOptions::complete(const CommandLine& options, bool is_terminal) {
-  picture.complete(is_terminal);
+  PictureOptions::complete(is_terminal, false);
   if (!options.is_given("--samples") && sampling && *sampling != Sampling::basic)
-    picture.sample_count = kSamplesOfSampling;
-  if (sampling == Sampling::basic && picture.sample_count > 1)
+    sample_count = kSamplesOfSampling;
+  if (sampling == Sampling::basic && sample_count > 1)
     throw UsageError("--samples: " + expected_but_found("1 with --sampling basic, which has one ray a pixel",
-                                                        "'" + std::to_string(picture.sample_count) + "'"));
+                                                        "'" + std::to_string(sample_count) + "'"));
   if (options.is_given("--threshold") && sampling != Sampling::adaptive)
     throw UsageError(
         "--threshold: " +
         expected_but_found("--sampling adaptive, which alone has one",
                            sampling ? kSamplings[static_cast<std::size_t>(*sampling)] : "no --sampling"));
-}
-
-int TraceOptions::thread_count() const {
-  if (picture.thread_count > 0) return picture.thread_count;
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+  if (thread_count == 0)
+    thread_count = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
 }
 
 }  // namespace pipeline

@@ -66,10 +66,13 @@ class PixelTracer {
     }
     if (shared_.rays.has_colors && !shared_.shows_centers) picture.colors[pixel] = mean_of(row, column);
   }
-  [[nodiscard]] const SampleColors& colors() const { return *colors_; }
   [[nodiscard]] std::uint64_t ray_count() const { return ray_count_; }
-  [[nodiscard]] std::uint64_t covered_count() const { return covered_count_; }
-  [[nodiscard]] std::uint64_t exact_count() const { return centers_.exact_count() + samples_.exact_count(); }
+  /// When all threads are done.
+  void add_up(TracedPicture& picture, TraceWork& work) const {
+    work.exact_decisions += centers_.exact_count() + samples_.exact_count();
+    picture.covered_count += covered_count_;
+    colors_->add_up();
+  }
 
  private:
   Color mean_of(int row, int column) {
@@ -108,15 +111,19 @@ class PixelTracer {
 
 }  // namespace
 
+TracedPicture::TracedPicture(const Viewport& of_pixels, const PictureRays& rays, Color background)
+    : screen(of_pixels) {
+  const std::size_t pixel_count =
+      static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns);
+  if (rays.has_colors) colors.assign(pixel_count, background);
+  if (rays.has_depths) depths.assign(pixel_count, screen.rear);
+  if (rays.has_triangles) triangles.assign(pixel_count, -1);
+}
+
 TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
                              const SamplePlaces& places, const PictureRays& rays, Color background,
                              const ColorsMaker& make_colors, ThreadPool& pool, TraceWork& work) {
-  TracedPicture picture(screen);
-  const std::size_t pixel_count =
-      static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns);
-  if (rays.has_colors) picture.colors.assign(pixel_count, background);
-  if (rays.has_depths) picture.depths.assign(pixel_count, screen.rear);
-  if (rays.has_triangles) picture.triangles.assign(pixel_count, -1);
+  TracedPicture picture(screen, rays, background);
   const bool has_one_sample = rays.sample_count == 1 && !is_random(rays.sampling);
   const RayCaster centers(scene.triangles(), bvh, scene.projection(), screen);
   const RayCaster samples(scene.triangles(), bvh, scene.projection(), places.screen());
@@ -148,12 +155,8 @@ TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Vie
   });
   pool.finish();
   work.primary_rays = ray_count;
-  for (const auto& tracer : tracers) {
-    if (!tracer) continue;
-    work.exact_decisions += tracer->exact_count();
-    picture.covered_count += tracer->covered_count();
-    tracer->colors().add_up();
-  }
+  for (const auto& tracer : tracers)
+    if (tracer) tracer->add_up(picture, work);
   return picture;
 }
 

@@ -30,7 +30,8 @@ struct PictureRays {
 
 /// What the pixels of a screen show, row after row.
 struct TracedPicture {
-  explicit TracedPicture(const Viewport& of_pixels) : screen(of_pixels) {}
+  /// The picture of nothing.
+  TracedPicture(const Viewport& of_pixels, const PictureRays& rays, Color background);
   template <typename T>
   [[nodiscard]] std::span<const T> row_of(const std::vector<T>& entries, int row) const {
     const auto columns = static_cast<std::size_t>(screen.columns);

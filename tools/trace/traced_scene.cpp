@@ -29,13 +29,14 @@ void expect_room(const TracedTriangles& triangles) {
 
 TracedScene::TracedScene(Tool& tool, const TraceOptions& chosen, const Viewport& screen, bool counts)
     : tool_(tool),
-      reader_(opened(tool.input(), chosen.picture.framed)),
-      given_(chosen.projection->projection(reader_, tool)),
+      reader_(opened(tool.input(), chosen.framed)),
+      given_(chosen.projection.projection(reader_, tool)),
       projection_(clip_from_view(given_)),
       header_(projected_header(reader_.header(), given_, projection_)),
       exact_(projection_, tool.input().file(), header_.projected.has_value()),
       view_(exact_.stage(), ViewVolume(projection_), counts),
-      drawing_(drawing_report(chosen.picture, screen, false)),
+      drawing_(drawing_report({.coverage = TypeValue<CenterCoverage>(), .depth = {}}, screen,
+                              chosen.sample_count, false)),
       spheres_(projection_, screen) {
   view_.suspect_radians(given_);
 }

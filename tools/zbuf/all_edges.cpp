@@ -75,7 +75,7 @@ class AllEdgesOf final : public AllEdges {
 
 std::unique_ptr<AllEdges> all_edges(const ZbufOptions& chosen, const Viewport& screen) {
   if (!chosen.has_all_edges || !chosen.has_image()) return nullptr;
-  return made_for<AllEdges, AllEdgesOf>(chosen, screen, chosen.depth_epsilon);
+  return made_for<AllEdges, AllEdgesOf>(chosen.rules, screen, chosen.rules.depth_epsilon);
 }
 
 }  // namespace pipeline

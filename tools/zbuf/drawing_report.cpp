@@ -13,10 +13,10 @@ namespace {
 template <typename CoverageRule, typename Depth>
 class ReportOf final : public DrawingReport {
  public:
-  ReportOf(const ZbufOptions& chosen, const Viewport& screen, bool counts)
+  ReportOf(double depth_epsilon, const Viewport& screen, int sample_count, bool counts)
       : screen_(screen), at_centers_(screen) {
-    if (chosen.sample_count > 1) at_samples_.emplace(sample_screen(screen, chosen.sample_count));
-    if (counts) counter_.emplace(screen, chosen.depth_epsilon);
+    if (sample_count > 1) at_samples_.emplace(sample_screen(screen, sample_count));
+    if (counts) counter_.emplace(screen, depth_epsilon);
   }
 
   void add(const TriangleBatch& p_ndc) override {
@@ -52,9 +52,9 @@ class ReportOf final : public DrawingReport {
 
 }  // namespace
 
-std::unique_ptr<DrawingReport> drawing_report(const ZbufOptions& chosen, const Viewport& screen,
-                                              bool counts) {
-  return made_for<DrawingReport, ReportOf>(chosen, chosen, screen, counts);
+std::unique_ptr<DrawingReport> drawing_report(const PixelRules& rules, const Viewport& screen,
+                                              int sample_count, bool counts) {
+  return made_for<DrawingReport, ReportOf>(rules, rules.depth_epsilon, screen, sample_count, counts);
 }
 
 }  // namespace pipeline

@@ -25,7 +25,8 @@ class DrawingReport {
   virtual void add_to(Statistics& statistics) const = 0;
 };
 
-/// The report for the chosen coverage rule and depth format; it counts if `counts` is true.
-std::unique_ptr<DrawingReport> drawing_report(const ZbufOptions& chosen, const Viewport& screen, bool counts);
+/// The report for these rules; it counts if `counts` is true.
+std::unique_ptr<DrawingReport> drawing_report(const PixelRules& rules, const Viewport& screen,
+                                              int sample_count, bool counts);
 
 }  // namespace pipeline

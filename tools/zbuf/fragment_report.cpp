@@ -7,8 +7,6 @@
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
-#include "libpipeline/text/output_file.h"
-#include "libpipeline/text/text_writer.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/fragment_log.h"
 #include "libpipeline/visibility/tagged_batch.h"
@@ -37,10 +35,10 @@ Pixel parsed_pixel(const std::string& word, const Viewport& screen) {
 template <typename CoverageRule, typename Depth>
 class FragmentReportOf final : public FragmentReport {
  public:
-  FragmentReportOf(const ZbufOptions& chosen, const Viewport& screen) {
-    for (const Pixel& pixel : probed_pixels(chosen, screen))
-      probes_.emplace_back(screen, pixel, chosen.depth_epsilon);
-    if (!chosen.fragments_path.empty()) file_.emplace(chosen.fragments_path, screen, chosen.depth_epsilon);
+  FragmentReportOf(const std::vector<Pixel>& probed, const Viewport& screen, double epsilon, TextWriter* log)
+      : log_(log) {
+    for (const Pixel& pixel : probed) probes_.emplace_back(screen, pixel, epsilon);
+    if (log != nullptr) all_.emplace(screen, epsilon);
   }
 
   void add(const TriangleBatch& p_ndc, std::size_t index) override {
@@ -48,20 +46,12 @@ class FragmentReportOf final : public FragmentReport {
     const std::uint64_t number = p_ndc.numbers[index];
     for (Probe& probe : probes_)
       probe.test.add(triangle, number, [&](const Fragment& fragment) { probe.found.push_back(fragment); });
-    if (!file_) return;
-    file_->log.add(triangle, number,
-                   [&](const Fragment& fragment) { file_->text.append(to_text(fragment) + "\n"); });
+    if (all_)
+      all_->add(triangle, number, [&](const Fragment& fragment) { log_->append(to_text(fragment) + "\n"); });
   }
 
-  void finish() override {
+  void finish() const override {
     for (const Probe& probe : probes_) say(probe);
-    if (!file_) return;
-    file_->text.flush();
-    file_->file.close();
-  }
-
-  void commit() override {
-    if (file_) file_->file.commit();
   }
 
  private:
@@ -73,14 +63,6 @@ class FragmentReportOf final : public FragmentReport {
     FragmentLog<CoverageRule, Depth> test;
     std::vector<Fragment> found;
   };
-  struct LogFile {
-    LogFile(const std::string& path, const Viewport& screen, double epsilon)
-        : file(path), text(file.descriptor(), path), log(screen, epsilon) {}
-
-    OutputFile file;
-    TextWriter text;
-    FragmentLog<CoverageRule, Depth> log;
-  };
 
   static void say(const Probe& probe) {
     for (const Fragment& fragment : probe.found)
@@ -90,20 +72,23 @@ class FragmentReportOf final : public FragmentReport {
   }
 
   std::vector<Probe> probes_;
-  std::optional<LogFile> file_;
+  std::optional<FragmentLog<CoverageRule, Depth>> all_;
+  TextWriter* log_;  // null without `all_`
 };
 
 }  // namespace
 
-std::vector<Pixel> probed_pixels(const ZbufOptions& chosen, const Viewport& screen) {
+std::vector<Pixel> probed_pixels(const PictureOptions& chosen, const Viewport& screen) {
   std::vector<Pixel> pixels;
   for (const std::string& word : chosen.probes) pixels.push_back(parsed_pixel(word, screen));
   return pixels;
 }
 
-std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen) {
-  if (chosen.probes.empty() && chosen.fragments_path.empty()) return nullptr;
-  return made_for<FragmentReport, FragmentReportOf>(chosen, chosen, screen);
+std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen,
+                                                TextWriter* log) {
+  if (chosen.probes.empty() && log == nullptr) return nullptr;
+  return made_for<FragmentReport, FragmentReportOf>(chosen.rules, probed_pixels(chosen, screen), screen,
+                                                    chosen.rules.depth_epsilon, log);
 }
 
 }  // namespace pipeline

@@ -19,22 +19,40 @@ std::string summary(const std::string& image_path, const Viewport& screen, std::
 
 }  // namespace
 
-PictureOutputs::PictureOutputs(Tool& tool, const ZbufOptions& chosen, const Viewport& screen,
-                               int sample_count, Color background)
-    : tool_(tool), chosen_(chosen), screen_(screen) {
-  if (chosen.has_image()) {
-    image_ = image_writer(opened(image_file_of(chosen.image_path)), chosen.image_path, screen.columns,
+PictureOutputs::PictureOutputs(Tool& tool, const PictureOptions& chosen, Statistics& statistics)
+    : tool_(tool), chosen_(chosen), statistics_(statistics) {
+  statistics_.open();
+}
+
+TextWriter* PictureOutputs::open_fragments(const std::string& path) {
+  if (path.empty()) return nullptr;
+  return &fragments_.emplace(fragments_file_.emplace(path).descriptor(), path);
+}
+
+void PictureOutputs::close_reports() {
+  if (fragments_) {
+    fragments_->flush();
+    fragments_file_->close();
+  }
+  statistics_.finish();
+}
+
+void PictureOutputs::open(const Viewport& screen, int sample_count, Color background,
+                          const std::string& seen_path) {
+  screen_ = screen;
+  if (chosen_.has_image()) {
+    image_ = image_writer(opened(image_file_of(chosen_.image_path)), chosen_.image_path, screen.columns,
                           screen.drawn_row_count(), !background.is_opaque());
     if (sample_count > 1) means_.emplace(screen.columns, sample_count, background);
   }
-  if (chosen.z_buffer_path != "none") depths_ = text_writer(chosen.z_buffer_path, depth_file_);
-  const auto open = [&](const std::string& path, auto& writer) {
+  if (chosen_.z_buffer_path != "none") depths_ = text_writer(chosen_.z_buffer_path, depth_file_);
+  const auto open_pixels = [&](const std::string& path, auto& writer) {
     if (!path.empty()) writer.emplace(opened(path), path, screen);
   };
-  open(chosen.depth_image_path, depth_image_);
-  open(chosen.depth_array_path, depth_array_);
-  open(chosen.triangle_array_path, triangles_);
-  if (!chosen.seen_path.empty()) seen_ = text_writer(chosen.seen_path, seen_file_);
+  open_pixels(chosen_.depth_image_path, depth_image_);
+  open_pixels(chosen_.depth_array_path, depth_array_);
+  open_pixels(chosen_.triangle_array_path, triangles_);
+  if (!seen_path.empty()) seen_ = text_writer(seen_path, seen_file_);
 }
 
 TextWriter* PictureOutputs::text_writer(const std::string& path, std::optional<TextWriter>& of_file) {
@@ -68,6 +86,8 @@ void PictureOutputs::finish(std::uint64_t covered_count) {
   tool_.close_output();
   for (OutputFile& file : files_) file.commit();
   if (chosen_.summarizes) Tool::report(summary(chosen_.image_path, screen_, covered_count));
+  if (fragments_file_) fragments_file_->commit();
+  statistics_.commit();
   tool_.timing().lap(&Timing::write_seconds);
 }
 

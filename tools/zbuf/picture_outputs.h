@@ -16,20 +16,27 @@
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/text/text_writer.h"
+#include "tools/rim/statistics.h"
 #include "tools/rim/tool.h"
-#include "tools/zbuf/zbuf_options.h"
+#include "tools/zbuf/picture_options.h"
 
 namespace pipeline {
 
-/// What a run writes of its picture, as far as each is requested: the image, the depths, as text to standard
-/// output or a file, as an image and an array, the array of the triangles seen, and the text of `--seen`.
-/// Opens all at once; closes them, and standard output, before the first gets its name.
+/// All that a run writes, as far as each is requested: the image, the depths, as text to standard output or a
+/// file, as an image and an array, the array of the triangles seen, the text of `--seen`, the fragments and
+/// the statistics. Closes them, and standard output, before the first gets its name.
 class PictureOutputs {
  public:
-  /// The image takes the colors of `sample_count` x `sample_count` samples a pixel. A background that is not
-  /// opaque needs an image that can_hold_alpha.
-  PictureOutputs(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, int sample_count,
-                 Color background);
+  /// Opens the statistics.
+  PictureOutputs(Tool& tool, const PictureOptions& chosen, Statistics& statistics);
+
+  /// Where the fragments go; null if `path` is empty.
+  TextWriter* open_fragments(const std::string& path);
+  /// Writes and closes the fragments and the statistics.
+  void close_reports();
+  /// Opens all others. The image takes the colors of `sample_count` x `sample_count` samples a pixel. A
+  /// background that is not opaque needs an image that can_hold_alpha.
+  void open(const Viewport& screen, int sample_count, Color background, const std::string& seen_path);
 
   [[nodiscard]] bool wants_colors() const { return image_ != nullptr; }
   [[nodiscard]] bool wants_triangles() const { return triangles_.has_value(); }
@@ -49,9 +56,12 @@ class PictureOutputs {
   TextWriter* text_writer(const std::string& path, std::optional<TextWriter>& of_file);
 
   Tool& tool_;
-  const ZbufOptions& chosen_;
+  const PictureOptions& chosen_;
+  Statistics& statistics_;
+  std::optional<OutputFile> fragments_file_;
+  std::optional<TextWriter> fragments_;
   Viewport screen_;
-  std::deque<OutputFile> files_;
+  std::deque<OutputFile> files_;  // the others
   std::unique_ptr<ImageWriter> image_;
   std::optional<Downsampler> means_;
   std::optional<TextWriter> depth_file_, seen_file_;

@@ -7,16 +7,11 @@
 #include <string>
 
 #include "libpipeline/coverage/rules.h"
-#include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/read_ahead.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/text_kind.h"
-#include "libpipeline/stream/thread_pool.h"
-#include "libpipeline/visibility/algorithms.h"
-#include "libpipeline/visibility/fragment_log.h"
-#include "libpipeline/visibility/triangle_drawing.h"
 #include "tools/rim/empty_picture_note.h"
 #include "tools/rim/progress.h"
 #include "tools/zbuf/all_edges.h"
@@ -24,9 +19,9 @@
 #include "tools/zbuf/drawing_report.h"
 #include "tools/zbuf/fragment_report.h"
 #include "tools/zbuf/picture_outputs.h"
+#include "tools/zbuf/sampled_drawing.h"
 #include "tools/zbuf/screen.h"
 #include "tools/zbuf/surface_shading.h"
-#include "tools/zbuf/triangle_store.h"
 
 namespace pipeline {
 namespace {
@@ -45,103 +40,20 @@ void for_each_batch(Tool& tool, Source& source, DrawingReport& report, Batch&& b
   }
 }
 
-/// The visible triangles at the pixel centers and, with several samples a pixel, at the samples.
-template <VisibilityAlgorithm Visible>
-struct SampledVisible {
-  SampledVisible(const Viewport& of_centers, int sample_count, PixelTag background)
-      : center_screen(of_centers),
-        screen(sample_screen(of_centers, sample_count)),
-        centers(of_centers, background) {
-    if (sample_count > 1) samples.emplace(screen, background);
-  }
-
-  Viewport center_screen;
-  Viewport screen;  // of the samples; of the centers if there is one sample a pixel
-  Visible centers;
-  std::optional<Visible> samples;
-};
-
-/// Whether a triangle is nearer than all before it somewhere. Under a depth epsilon any other may be left
-/// out: a fragment that is drawn over one of depth c is nearer than c by more than epsilon, and none before
-/// it is.
-template <typename CoverageRule, typename Depth>
-class NearestSoFar {
- public:
-  template <typename Visible>
-  explicit NearestSoFar(const SampledVisible<Visible>& visible) : at_centers_(visible.center_screen) {
-    if (visible.samples) at_samples_.emplace(visible.screen);
-  }
-
-  /// True if the next triangle is.
-  bool add(const ExactTriangle& p_ndc) {
-    bool is_nearest = false;
-    const auto look_at = [&](const Fragment& fragment) {
-      is_nearest |= fragment.result == DepthTestResult::kept;
-    };
-    at_centers_.add(p_ndc, 0, look_at);
-    if (at_samples_) at_samples_->add(p_ndc, 0, look_at);
-    return is_nearest;
-  }
-
- private:
-  FragmentLog<CoverageRule, Depth> at_centers_;
-  std::optional<FragmentLog<CoverageRule, Depth>> at_samples_;
-};
-
 template <typename CoverageRule, typename Depth>
 void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, TriangleStore& store,
               DrawingReport& report, SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
-  using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
-  visible.centers.set_depth_epsilon(chosen.depth_epsilon);
+  visible.set_depth_epsilon(chosen.rules.depth_epsilon);
   ThreadPool pool(chosen.thread_count);
-  Drawing centers(visible.centers, visible.center_screen, pool);
-  std::optional<Drawing> samples;
-  if (visible.samples) {
-    visible.samples->set_depth_epsilon(chosen.depth_epsilon);
-    samples.emplace(*visible.samples, visible.screen, pool);
-  }
-  std::vector<PixelTag> tags;
-  std::optional<NearestSoFar<CoverageRule, Depth>> nearest;
-  if (store.keeps_text() && chosen.depth_epsilon > 0) nearest.emplace(visible);
-  const auto tag_of = [&](const TriangleBatch& p_ndc, std::size_t i) { return store.tag_of(p_ndc, i); };
-  const auto draw_batch = [&] {
-    if (!samples) return centers.draw_batch(tag_of);
-    TriangleBatch& batch = samples->next_batch() = centers.next_batch();
-    tags.clear();
-    for (std::size_t i = 0; i < batch.size(); ++i) tags.push_back(tag_of(batch, i));
-    const auto kept_tag = [&](const TriangleBatch&, std::size_t i) { return tags[i]; };
-    centers.draw_batch(kept_tag);
-    samples->draw_batch(kept_tag);
-  };
-  std::vector<std::uint8_t> winners, needed;
-  const auto draw_and_keep_texts = [&] {
-    const TriangleBatch& batch = centers.next_batch();
-    const KeptIds::Id first_id = store.next_id();
-    needed.clear();
-    for (std::size_t i = 0; nearest && i < batch.size(); ++i)
-      needed.push_back(nearest->add(exact_triangle(batch, i)) ? 1 : 0);
-    if (samples || !centers.draws_at_once()) {
-      store.add_texts(batch, first_id, {}, needed);
-      return draw_batch();
-    }
-    centers.finish();  // only this batch is marked
-    winners.assign(batch.size(), 0);
-    visible.centers.mark_winners(first_id, winners.data());
-    draw_batch();
-    visible.centers.mark_winners(0, nullptr);
-    store.add_texts(batch, first_id, winners, needed);
-  };
-  const auto finish = [&] {
-    centers.finish();
-    if (samples) samples->finish();
-  };
+  SampledDrawing drawing(visible, store, pool);
+  SeenDrawing<CoverageRule, Depth> seen(visible, store, chosen.rules.depth_epsilon);
   const auto draw = [&] {
     if (store.keeps_text())
-      draw_and_keep_texts();
+      seen.draw_batch(drawing);
     else
-      draw_batch();
+      drawing.draw_batch();
     if (!store.is_full()) return;
-    finish();
+    drawing.finish();
     store.keep_seen([&](const auto& visit) {
       if (!visible.samples || store.keeps_text()) visible.centers.for_each_drawn_tag(visit);
       if (visible.samples) visible.samples->for_each_drawn_tag(visit);
@@ -149,8 +61,8 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, Triang
   };
   ReadAhead ahead(reader, pool);
   for_each_batch(
-      tool, ahead, report, [&]() -> TriangleBatch& { return centers.next_batch(); }, draw);
-  finish();
+      tool, ahead, report, [&]() -> TriangleBatch& { return drawing.next_batch(); }, draw);
+  drawing.finish();
 }
 
 template <typename CoverageRule, typename Depth>
@@ -170,11 +82,11 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore
 }
 
 template <VisibilityAlgorithm Visible>
-void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
+void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
                const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader,
                AllEdges* edges) {
   const Viewport& screen = visible.center_screen;
-  PictureOutputs outputs(tool, chosen, screen, chosen.sample_count, store.background_color());
+  outputs.open(screen, chosen.sample_count, store.background_color(), chosen.seen_path);
   ColoredRows colors(store, shader, edges, chosen.sample_count * screen.drawn_rows().first,
                      chosen.thread_count, outputs);
   std::vector<std::int64_t> numbers;
@@ -206,68 +118,64 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
 /// That the picture is empty, or squeezed. The note is about the whole picture; a band of it may well show
 /// nothing.
 void note_odd_picture(const Tool& tool, const DrawingReport& report, const Viewport& screen,
-                      const std::optional<SurfaceShader>& shader,
-                      const std::optional<Located<Projection>>& projected) {
+                      const std::optional<SurfaceShader>& shader, const StageHeader& header) {
+  if (const auto note = opaque_note(header.appearance)) tool.note(*note);
   std::optional<std::string> note = report.empty_picture_note();
   const bool is_whole = screen.drawn_row_count() == screen.rows;
   if (!note && shader && is_whole) note = invisible_colors_note(*shader);
-  if (!note && projected) note = squeezed_note_of_projected(projected->value, screen);
+  if (!note && header.projected) note = squeezed_note_of_projected(header.projected->value, screen);
   if (note) tool.note(*note);
 }
 
-std::size_t pixel_count(const Viewport& screen) {
-  return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.drawn_row_count());
-}
-
-template <VisibilityAlgorithm Visible>
-void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
-  statistics.open();
+StageReader opened(Tool& tool, const ZbufOptions& chosen, bool uses_decimals) {
   expect_kind(tool.input(), TextKind::ndc);
-  StageReader reader(tool.input(), Visible::CoverageRule::kUsesDecimals);
+  StageReader reader(tool.input(), uses_decimals);
   expect_header(reader, TextKind::ndc);
   reader.accept_clipped();
   if (chosen.framed) reader.expect_framed();
   if (!chosen.seen_path.empty()) reader.keep_text();
-  const Viewport shaded_screen = sample_screen(screen, chosen.sample_count);
-  SurfaceOptions surfaces;
-  surfaces.model = chosen.shading;
-  surfaces.background = parse_color(chosen.background);
-  surfaces.holds_alpha = chosen.has_image() && can_hold_alpha(chosen.image_path);
+  return reader;
+}
+
+TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, const Viewport& of_samples,
+                          AllEdges* edges) {
+  return {.keeps_text = !chosen.seen_path.empty(),
+          .keeps_numbers = !chosen.triangle_array_path.empty(),
+          .background = background_color(reader.header().appearance, parse_color(chosen.background)),
+          .pixel_count = static_cast<std::size_t>(of_samples.columns) *
+                         static_cast<std::size_t>(of_samples.drawn_row_count()),
+          .edges = edges};
+}
+
+template <VisibilityAlgorithm Visible>
+void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
+  PictureOutputs outputs(tool, chosen, statistics);
+  StageReader reader = opened(tool, chosen, Visible::CoverageRule::kUsesDecimals);
+  const Viewport of_samples = sample_screen(screen, chosen.sample_count);
+  SurfaceOptions surfaces = surface_options(chosen);
   if (chosen.wireframe) surfaces.wireframe = {screen.dx(), screen.dy()};
   std::optional<SurfaceShader> shader;
-  if (chosen.has_image())
-    shader = surface_shader(reader.header(), reader.header_end(), shaded_screen, surfaces);
+  if (chosen.has_image()) shader = surface_shader(reader.header(), reader.header_end(), of_samples, surfaces);
   tool.timing().lap(&Timing::read_seconds);
-  const std::unique_ptr<FragmentReport> fragments = fragment_report(chosen, screen);
-  const std::unique_ptr<DrawingReport> report = drawing_report(chosen, screen, statistics.is_wanted());
-  TriangleStore::Setup kept;
-  kept.keeps_text = !chosen.seen_path.empty();
-  kept.keeps_numbers = !chosen.triangle_array_path.empty();
-  kept.background = background_color(reader.header().appearance, surfaces.background);
-  kept.pixel_count = pixel_count(shaded_screen);
-  const std::unique_ptr<AllEdges> edges = all_edges(chosen, shaded_screen);
-  kept.edges = edges.get();
-  TriangleStore store(kept, shader, fragments.get());
+  const auto fragments = fragment_report(chosen, screen, outputs.open_fragments(chosen.fragments_path));
+  const auto report = drawing_report(chosen.rules, screen, chosen.sample_count, statistics.is_wanted());
+  const std::unique_ptr<AllEdges> edges = all_edges(chosen, of_samples);
+  TriangleStore store(kept(chosen, reader, of_samples, edges.get()), shader, fragments.get());
   SampledVisible<Visible> visible(screen, chosen.sample_count, store.background());
   tool.timing().lap(&Timing::work_seconds);
   draw_all(tool, chosen, reader, store, *report, visible);
   if (fragments) fragments->finish();
   report->add_to(statistics);
-  statistics.finish();
+  outputs.close_reports();
   tool.timing().lap(&Timing::work_seconds);
-  write_all(tool, chosen, visible, reader, store, shader, edges.get());
-  if (fragments) fragments->commit();
-  statistics.commit();
-  if (chosen.has_image()) {
-    if (const auto note = opaque_note(reader.header().appearance)) tool.note(*note);
-    note_odd_picture(tool, *report, screen, shader, reader.header().projected);
-  }
+  write_all(outputs, chosen, visible, reader, store, shader, edges.get());
+  if (chosen.has_image()) note_odd_picture(tool, *report, screen, shader, reader.header());
 }
 
 }  // namespace
 
 void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
-  dispatch(chosen, [&]<typename Rule, typename Depth>() {
+  dispatch(chosen.rules, [&]<typename Rule, typename Depth>() {
     switch (chosen.algorithm) {
       case Algorithm::zbuffer:
         return render_with<ZBufferAlgorithm<Rule, Depth>>(tool, chosen, screen, statistics);

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <variant>
 
+#include "libpipeline/scene/config.h"
 #include "libpipeline/stream/text_kind.h"
 
 namespace pipeline {
@@ -62,7 +63,7 @@ std::optional<double> shape_of(const Projection& projection) {
 
 }  // namespace
 
-NamedFile config_of(Tool& tool, const ZbufOptions& chosen) {
+NamedFile config_of(Tool& tool, const PictureOptions& chosen) {
   const CommandLine& options = tool.options();
   if (!options.is_given("CONFIG")) return {};
   if (chosen.size.empty() || options.is_given("INPUT") || is_config(chosen.config_path))
@@ -71,7 +72,7 @@ NamedFile config_of(Tool& tool, const ZbufOptions& chosen) {
   return {};
 }
 
-Viewport read_screen(Tool& tool, const ZbufOptions& chosen, const NamedFile& config) {
+Viewport read_screen(Tool& tool, const PictureOptions& chosen, const NamedFile& config) {
   const std::optional<Viewport> size = parse_size(chosen.size);
   const bool has_config = !config.name.empty();
   if (size && !has_config) return *size;

@@ -5,18 +5,18 @@
 
 #include "libpipeline/scene/camera.h"
 #include "tools/rim/tool.h"
-#include "tools/zbuf/zbuf_options.h"
+#include "tools/zbuf/picture_options.h"
 
 namespace pipeline {
 
 /// The operand CONFIG, without a name if there is none. With --size, a single operand is CONFIG if it is a
 /// file that holds a config, else the tool's INPUT.
-NamedFile config_of(Tool& tool, const ZbufOptions& chosen);
+NamedFile config_of(Tool& tool, const PictureOptions& chosen);
 
 /// The screen of `config`, of --size, or, with both, the limits of the config at the size of --size, with a
 /// note if that stretches the picture. A UsageError if there is neither; an InputError or IoError of the
 /// config.
-Viewport read_screen(Tool& tool, const ZbufOptions& chosen, const NamedFile& config);
+Viewport read_screen(Tool& tool, const PictureOptions& chosen, const NamedFile& config);
 
 /// The note on a picture whose shape parts from its camera's by more than whole pixels explain, so that no
 /// square is square. None for a perspective whose aspect is one of angles: then squares need not be.

@@ -4,11 +4,19 @@
 #include <string>
 #include <utility>
 
+#include "libpipeline/picture/image_file.h"
 #include "libpipeline/picture/png_file.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
+
+SurfaceOptions surface_options(const PictureOptions& chosen) {
+  return {.model = chosen.shading,
+          .wireframe = {},
+          .background = parse_color(chosen.background),
+          .holds_alpha = chosen.has_image() && can_hold_alpha(chosen.image_path)};
+}
 
 Lighting lighting_of(const Appearance& appearance, bool is_perspective) {
   Lighting lighting;

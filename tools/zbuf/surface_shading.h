@@ -6,6 +6,7 @@
 #include "libpipeline/picture/shading.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/stream/stage_text.h"
+#include "tools/zbuf/picture_options.h"
 
 namespace pipeline {
 
@@ -16,6 +17,9 @@ struct SurfaceOptions {
   std::optional<Color> background;
   bool holds_alpha = false;  // the image can
 };
+
+/// Those of a command line; without a wireframe.
+SurfaceOptions surface_options(const PictureOptions& chosen);
 
 /// Why a background is refused that is not opaque: what is expected in its place.
 std::string expected_opaque_background();

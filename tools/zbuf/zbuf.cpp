@@ -23,8 +23,7 @@ int main(int argc, char** argv) {
               "model scene.txt | view | project | zbuf config.txt --coverage center -o picture.ppm > "
               "z_buffer.txt"}},
             OutputKind::other_text);
-  ZbufOptions chosen;
-  chosen.add_to(tool.options());
+  ZbufOptions chosen(tool.options());
   Statistics statistics(tool.options());
   // A closed pipe is a failure to write like any other: the image that was begun has to be removed.
   std::signal(SIGPIPE, SIG_IGN);
@@ -33,7 +32,7 @@ int main(int argc, char** argv) {
     chosen.complete(::isatty(STDOUT_FILENO) == 1);
     if (chosen.seen_path == "-") tool.write_stage_text();
     const NamedFile config = config_of(tool, chosen);
-    tool.expect_separate(outputs_of(chosen, statistics), {config});
+    tool.expect_separate(chosen.outputs(statistics), {config});
     const Viewport whole = read_screen(tool, chosen, config);
     const Viewport screen = chosen.rows.empty() ? whole : chosen.drawn_part(whole);
     chosen.check_limits(screen);

@@ -1,48 +1,97 @@
 #include "tools/zbuf/zbuf_options.h"
 
+#include "libpipeline/picture/image_file.h"
+#include "libpipeline/picture/supersampling.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
-#include "tools/zbuf/surface_shading.h"
 
 namespace pipeline {
+namespace {
+
+/// Adds an option that takes the name of one type of a list; its help ends with a line for each.
+template <typename... Types>
+void add_type_choice(CommandLine& options, const std::string& name, TypeList<Types...>,
+                     TypeChoice<TypeList<Types...>>& chosen, std::string help) {
+  const auto line = [](std::string_view word, std::string_view meaning) {
+    return "\n" + std::string(word) + ": " + std::string(meaning);
+  };
+  ((help += line(Types::kName, Types::kMeaning)), ...);
+  options.add_choice<TypeChoice<TypeList<Types...>>>(
+      name, chosen, {{std::string(Types::kName), TypeValue<Types>()}...}, help);
+}
+
+}  // namespace
+
+ZbufOptions::ZbufOptions(CommandLine& options) : PictureOptions(options, "zbuf", true) {
+  options.add_word(
+      "--rows", "A:B", rows,
+      "Draw only the rows from A to before B of the picture, counted from 0 at the top, in memory "
+      "for these alone: cat joins the depths of such bands, join-images the images",
+      [](const std::string& word) {
+        return word.empty() ? expected_but_found("A:B, such as 0:100", pipeline::quoted(word))
+                            : std::string();
+      });
+  options.add_word(
+      "--seen", "FILE", seen_path,
+      "Write the triangles that a pixel or sample shows, as text that zbuf reads and that gives "
+      "the same picture; - is standard output, and the input may be replaced. With it, no image and no "
+      "depths unless asked for");
+  add_pixels(options);
+  options.begin_group("Color and light");
+  add_shading(options);
+  options.add_flag_with_word("--wireframe", "all", wireframe, has_all_edges,
+                             "Show only the edges of the visible surfaces: the pixels within half a pixel of "
+                             "an edge; with all, hidden edges, too");
+  add_background(options);
+  options.begin_group("Debugging");
+  options.add_repeatable("--probe", "COLUMN,ROW", probes,
+                         "Report on stderr, for every triangle at this pixel, its depth there and whether it "
+                         "was kept or why it was lost; may be repeated");
+  options.add_word("--fragments", "FILE", fragments_path, "Write the same for the whole picture to a file");
+  add_framed(options);
+}
+
+void ZbufOptions::add_pixels(CommandLine& options) {
+  options.begin_group("Pixels");
+  add_type_choice(options, "--coverage", CoverageRules(), rules.coverage, "Which pixels a triangle covers.");
+  options.add_choice<Algorithm>(
+      "--algorithm", algorithm, {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
+      "How the visible triangle is found; both give the same output.\n"
+      "zbuffer: every pixel keeps the nearest depth so far\n"
+      "scanline: triangles are kept and compared row by row, without memory for the image");
+  add_type_choice(options, "--depth", DepthFormats(), rules.depth, "How a pixel stores its depth.");
+  options.add_number(
+      "--depth-epsilon", "E", rules.depth_epsilon, [](double epsilon) { return epsilon >= 0; },
+      "a number of at least 0",
+      "Draw a triangle only where it is nearer than the visible one by more than E; the result then depends "
+      "on the order of the triangles");
+  options.add_whole("--samples", sample_count, 1, kMaxSamples,
+                    "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
+                    "of its center; N");
+  options.add_whole("--threads", thread_count, 1, 256, "How many threads draw with the z-buffer and shade");
+}
+
 void ZbufOptions::complete(bool is_terminal) {
-  const bool image_is_output = image_file_of(image_path) == "-", seen_is_output = seen_path == "-";
-  if (image_is_output && seen_is_output)
+  const bool writes_seen = !seen_path.empty(), seen_is_output = seen_path == "-";
+  if (seen_is_output && image_file_of(image_path) == "-")
     throw UsageError("--image: " + expected_but_found("a file, as --seen is standard output", "'-'"));
-  if ((image_is_output || seen_is_output) && z_buffer_path == "-") {
-    const std::string is_output = image_is_output ? "the image" : "--seen";
+  if (seen_is_output && z_buffer_path == "-")
     throw UsageError("--z-buffer: " +
-                     expected_but_found("a file or none, as " + is_output + " is standard output", "'-'"));
-  }
-  const bool writes_seen = !seen_path.empty();
+                     expected_but_found("a file or none, as --seen is standard output", "'-'"));
   if (writes_seen && has_all_edges)
     throw UsageError("--seen: " + expected_but_found("no --wireframe all, which shows hidden triangles, too",
                                                      pipeline::quoted(seen_path)));
-  if (image_path.empty() && !writes_seen) image_path = "out.bmp";
-  image_path = named_standard_output(image_path);
-  if (z_buffer_path.empty()) {
-    const bool is_wanted = !image_is_output && !writes_seen;
-    summarizes = is_terminal && is_wanted;
-    z_buffer_path = is_terminal || !is_wanted ? "none" : "-";
-  }
-  if (const auto color = parse_color(background);
-      color && !color->is_opaque() && has_image() && !can_hold_alpha(image_path))
-    throw UsageError("--background: " +
-                     expected_but_found(expected_opaque_background(), pipeline::quoted(background)));
-  if (sample_count > 1 && !(depth_array_path.empty() && triangle_array_path.empty()))
-    throw UsageError(
-        (depth_array_path.empty() ? "--triangle-array: " : "--depth-array: ") +
-        expected_but_found("--samples 1 with it", pipeline::quoted(std::to_string(sample_count))));
+  PictureOptions::complete(is_terminal, writes_seen);
   if (algorithm != Algorithm::scanline) return;
   if (thread_count > 1)
     throw UsageError("--threads: " +
                      expected_but_found("1 with --algorithm scanline, which goes through the rows in turn",
                                         "'" + std::to_string(thread_count) + "'"));
-  if (depth_epsilon > 0)
+  if (rules.depth_epsilon > 0)
     throw UsageError("--depth-epsilon: " +
                      expected_but_found("0 with --algorithm scanline, which keeps no order of drawing",
-                                        "'" + shortest_text(depth_epsilon) + "'"));
+                                        "'" + shortest_text(rules.depth_epsilon) + "'"));
 }
 
 Viewport ZbufOptions::drawn_part(Viewport screen) const {
@@ -61,7 +110,7 @@ Viewport ZbufOptions::drawn_part(Viewport screen) const {
 }
 
 void ZbufOptions::check_limits(const Viewport& screen) const {
-  dispatch(*this, [&]<typename Rule, typename Depth>() {
+  dispatch(rules, [&]<typename Rule, typename Depth>() {
     const std::string_view needed = Depth::needed_limits(screen);
     if (needed.empty()) return;
     throw UsageError("--depth " + std::string(Depth::kName) + ": " +
@@ -70,19 +119,10 @@ void ZbufOptions::check_limits(const Viewport& screen) const {
   });
 }
 
-std::vector<NamedFile> outputs_of(const ZbufOptions& chosen, const Statistics& statistics) {
-  const std::string depths = chosen.z_buffer_path == "none" ? "" : chosen.z_buffer_path;
-  NamedFile seen = file_or_stream("--seen", chosen.seen_path, kStandardOutput);
+std::vector<NamedFile> ZbufOptions::outputs(const Statistics& statistics) const {
+  NamedFile seen = file_or_stream("--seen", seen_path, kStandardOutput);
   seen.is_in_place = true;
-  return {{"--image", image_file_of(chosen.image_path)},
-          file_or_stream("--z-buffer", depths, kStandardOutput),
-          {"--depth-image", chosen.depth_image_path},
-          {"--depth-array", chosen.depth_array_path},
-          {"--triangle-array", chosen.triangle_array_path},
-          {"--fragments", chosen.fragments_path},
-          seen,
-          statistics.output(),
-          chosen.probes.empty() ? NamedFile() : kStandardError};
+  return outputs_of(*this, {{"--fragments", fragments_path}, seen}, statistics);
 }
 
 }  // namespace pipeline

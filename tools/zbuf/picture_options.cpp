@@ -1,0 +1,136 @@
+#include "tools/zbuf/picture_options.h"
+
+#include <string_view>
+
+#include "libpipeline/picture/depth_image.h"
+#include "libpipeline/picture/image_file.h"
+#include "libpipeline/picture/pixel_array.h"
+#include "libpipeline/scene/config.h"
+#include "libpipeline/text/error.h"
+#include "tools/zbuf/surface_shading.h"
+
+namespace pipeline {
+namespace {
+
+/// The name of an image, with /dev/stdout, to which OutputFile writes without replacing anything, in place of
+/// a dash.
+std::string named_standard_output(const std::string& image) {
+  return image_file_of(image) == "-" ? image.substr(0, image.size() - 1) + "/dev/stdout" : image;
+}
+
+}  // namespace
+
+PictureOptions::PictureOptions(CommandLine& options, const std::string& tool, bool has_seen) {
+  options.set_usage("Usage: " + tool + " [OPTIONS] CONFIG [INPUT]\n       " + tool +
+                    " [OPTIONS] --size WIDTHxHEIGHT [CONFIG] [INPUT]");
+  options.add_operand(
+      "CONFIG", config_path,
+      "The screen (config.txt): WIDTH HEIGHT in pixels, alone or before three lines: the left "
+      "limit of x, the bottom limit of y, the front and rear limits of z");
+  options.begin_group("Output");
+  options.add_word("--size", "WIDTHxHEIGHT", size,
+                   "The screen's size in place of that in CONFIG, whose limits stay; without CONFIG, x, y "
+                   "and z are shown from -1 to 1. With it, a single operand that holds no config is INPUT",
+                   [](const std::string& word) {
+                     return parse_size(word) ? std::string()
+                                             : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300",
+                                                                  pipeline::quoted(word));
+                   });
+  add_outputs(options, has_seen);
+}
+
+void PictureOptions::add_outputs(CommandLine& options, bool has_seen) {
+  const std::vector<std::string_view> extensions = image_extensions();
+  options.add_word(
+      "-o,--image", "FILE", image_path,
+      "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +
+          " file, or png:FILE of any name; - is standard output, as PPM, or png:-, both without "
+          "the depths (default: out.bmp" +
+          (has_seen ? ", but none with --seen)" : ")"),
+      [](const std::string& name) { return wrong_with_name(check_image_name)(named_standard_output(name)); });
+  options.add_word("--z-buffer", "FILE", z_buffer_path,
+                   std::string("Where the depths go; - is standard output, none is nowhere, ./none a file "
+                               "of that name (default: -, but none with -o -") +
+                       (has_seen ? ", with --seen and at a terminal)" : " and at a terminal)"));
+  options.add_word("--depth-image", "FILE", depth_image_path,
+                   "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
+                   "black at the rear limit",
+                   wrong_with_name(check_depth_image_name));
+  options.add_word("--depth-array", "FILE", depth_array_path,
+                   "Also write the depths as an array of doubles, a .npy file for numpy.load: nan where "
+                   "nothing is seen",
+                   wrong_with_name(check_array_name));
+  options.add_word(
+      "--triangle-array", "FILE", triangle_array_path,
+      "Also write the numbers of the triangles seen as an array of whole numbers, a .npy file: -1 "
+      "where nothing is seen",
+      wrong_with_name(check_array_name));
+}
+
+void PictureOptions::add_shading(CommandLine& options) {
+  options.add_choice<std::optional<ShadingModel>>(
+      "--shading", shading,
+      {{"none", ShadingModel::none},
+       {"flat", ShadingModel::flat},
+       {"gouraud", ShadingModel::gouraud},
+       {"phong", ShadingModel::phong}},
+      "Where surfaces are lit. none: nowhere; flat: once per triangle; gouraud: at its vertices; phong: at "
+      "every pixel. Without the option: phong with lights and normals, flat with lights alone, else none");
+}
+
+void PictureOptions::add_background(CommandLine& options) {
+  options.add_word(
+      "--background", "RRGGBB[AA]", background,
+      "The color of pixels that show no triangle, six hexadecimal digits, in place of the "
+      "scene's; black if neither gives one. Two more digits are its alpha, from 00, invisible, to "
+      "ff, opaque; less than ff only for a .png image",
+      [](const std::string& word) {
+        return parse_color(word)
+                   ? std::string()
+                   : expected_but_found("RRGGBB or RRGGBBAA, hexadecimal digits", pipeline::quoted(word));
+      });
+}
+
+void PictureOptions::add_framed(CommandLine& options) {
+  options.add_flag("--expect-framed", framed,
+                   "Refuse a text without the frame that model --framed gives it: an empty one may come from "
+                   "a stage that was killed");
+}
+
+void PictureOptions::complete(bool is_terminal, bool writes_seen) {
+  const bool image_is_output = image_file_of(image_path) == "-";
+  if (image_is_output && z_buffer_path == "-")
+    throw UsageError("--z-buffer: " +
+                     expected_but_found("a file or none, as the image is standard output", "'-'"));
+  if (image_path.empty() && !writes_seen) image_path = "out.bmp";
+  image_path = named_standard_output(image_path);
+  if (z_buffer_path.empty()) {
+    const bool is_wanted = !image_is_output && !writes_seen;
+    summarizes = is_terminal && is_wanted;
+    z_buffer_path = is_terminal || !is_wanted ? "none" : "-";
+  }
+  if (const auto color = parse_color(background);
+      color && !color->is_opaque() && has_image() && !can_hold_alpha(image_path))
+    throw UsageError("--background: " +
+                     expected_but_found(expected_opaque_background(), pipeline::quoted(background)));
+  if (sample_count > 1 && !(depth_array_path.empty() && triangle_array_path.empty()))
+    throw UsageError(
+        (depth_array_path.empty() ? "--triangle-array: " : "--depth-array: ") +
+        expected_but_found("--samples 1 with it", pipeline::quoted(std::to_string(sample_count))));
+}
+
+std::vector<NamedFile> outputs_of(const PictureOptions& chosen, const std::vector<NamedFile>& others,
+                                  const Statistics& statistics) {
+  const std::string depths = chosen.z_buffer_path == "none" ? "" : chosen.z_buffer_path;
+  std::vector<NamedFile> outputs = {{"--image", image_file_of(chosen.image_path)},
+                                    file_or_stream("--z-buffer", depths, kStandardOutput),
+                                    {"--depth-image", chosen.depth_image_path},
+                                    {"--depth-array", chosen.depth_array_path},
+                                    {"--triangle-array", chosen.triangle_array_path}};
+  outputs.insert(outputs.end(), others.begin(), others.end());
+  outputs.push_back(statistics.output());
+  if (!chosen.probes.empty()) outputs.push_back(kStandardError);
+  return outputs;
+}
+
+}  // namespace pipeline
