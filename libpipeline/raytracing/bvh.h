@@ -73,6 +73,15 @@ class Bvh {
     std::array<std::uint32_t, 2> children;  // nodes or leaves
   };
   struct Builder;
+  /// A ray, as it passes boxes.
+  struct BoxRay {
+    explicit BoxRay(const Ray& ray);
+    /// Which children of a node it enters, 1 and 2 or both, between two distances; `entry` gets where.
+    int entered(const Node& node, double first, double limit, TwoDoubles& entry) const;
+
+    std::array<TwoDoubles, 3> origin, inverse;  // by axis
+    std::array<std::size_t, 3> entrance;        // the side where it enters a box
+  };
 
   std::unique_ptr<Node[]> nodes_;  // room for the most there may be, of which the rest is never touched
   std::size_t node_count_ = 0;
@@ -80,17 +89,34 @@ class Bvh {
   std::uint32_t root_ = 0;
 };
 
+inline Bvh::BoxRay::BoxRay(const Ray& ray) {
+  const std::array<double, 3> origins = {ray.origin.x, ray.origin.y, ray.origin.z};
+  const std::array<double, 3> directions = {ray.direction.x, ray.direction.y, ray.direction.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    origin[axis] = both(origins[axis]);
+    inverse[axis] = both(1 / directions[axis]);
+    entrance[axis] = std::size_t{std::signbit(directions[axis])};
+  }
+}
+
+inline int Bvh::BoxRay::entered(const Node& node, double first, double limit, TwoDoubles& entry) const {
+  TwoDoubles leave = both(limit);
+  entry = both(first);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto distance = [&](std::size_t side) {
+      return (from_floats(node.sides[axis][side].data()) - origin[axis]) * inverse[axis];
+    };
+    // 0 times infinity, on a side of a box, leaves them as they are.
+    entry = greater(distance(entrance[axis]), entry);
+    leave = less(distance(1 - entrance[axis]), leave);
+  }
+  return at_most(entry, leave);
+}
+
 template <typename Test>
 void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, Test&& test) const {
   if (ids_.empty()) return;
-  const std::array<double, 3> origins = {ray.origin.x, ray.origin.y, ray.origin.z};
-  const std::array<double, 3> directions = {ray.direction.x, ray.direction.y, ray.direction.z};
-  const auto by_axis = [](const auto& value) { return std::array{value(0), value(1), value(2)}; };
-  const auto origin = by_axis([&](std::size_t axis) { return both(origins[axis]); });
-  const auto inverse = by_axis([&](std::size_t axis) { return both(1 / directions[axis]); });
-  // The side where the ray enters a box.
-  const auto entrance =
-      by_axis([&](std::size_t axis) { return std::size_t{std::signbit(directions[axis])}; });
+  const BoxRay box_ray(ray);
   struct Waiting {
     std::uint32_t child;
     double entry;
@@ -105,16 +131,8 @@ void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, 
       for (std::uint32_t i = begin; i < end; ++i) test(ids_[i]);
     } else {
       const Node& node = nodes_[current];
-      TwoDoubles entry = both(first), leave = both(limit);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto distance = [&](std::size_t side) {
-          return (from_floats(node.sides[axis][side].data()) - origin[axis]) * inverse[axis];
-        };
-        // 0 times infinity, on a side of a box, leaves them as they are.
-        entry = greater(distance(entrance[axis]), entry);
-        leave = less(distance(1 - entrance[axis]), leave);
-      }
-      const int entered = at_most(entry, leave);
+      TwoDoubles entry;
+      const int entered = box_ray.entered(node, first, limit, entry);
       if (entered == 3) {
         const std::size_t nearer = entry[1] < entry[0] ? 1 : 0;
         stack[waiting_count++] = {node.children[1 - nearer], nearer == 0 ? entry[1] : entry[0]};

@@ -50,6 +50,47 @@ std::string name_of_part(std::size_t part, std::size_t part_count) {
   return std::string(std::to_string(part_count).size() - number.size(), '0') + number + ".txt";
 }
 
+std::uint64_t part_count_of(const std::string& word) {
+  std::uint64_t part_count = 0;
+  if (!parse_count(word, part_count) || part_count < 1 || part_count > kMaxParts)
+    throw UsageError("PARTS: " + expected_but_found("a whole number from 1 to " + std::to_string(kMaxParts),
+                                                    pipeline::quoted(word)));
+  return part_count;
+}
+
+/// Writes a part that ends about there, and its line of the list.
+void write_part(Tool& tool, SceneCutter& cutter, const std::string& path, std::size_t end) {
+  add_unfinished(path);
+  OutputFile file(path);
+  TextWriter text(file.descriptor(), path);
+  const std::uint64_t first = cutter.next_number();
+  cutter.begin(text);
+  if (cutter.has_triangle()) cutter.copy(text, end);
+  text.append("end\n");
+  text.flush();
+  file.commit();
+  tool.output().append(path + " " + std::to_string(first) + "\n");
+  tool.timing().triangle_count = cutter.next_number();
+}
+
+void cut(Tool& tool, const std::string& scene_path, std::uint64_t part_count, const std::string& folder) {
+  InputFile scene(scene_path);
+  const double size = static_cast<double>(size_of(scene));
+  expect_kind(scene.text(), TextKind::scene);
+  SceneCutter cutter(scene.text());
+  make_empty_folder(folder);
+  for (std::size_t k = 1, part = 1; part == 1 || cutter.has_triangle(); ++k) {
+    // A part may have passed the end of the next one.
+    const auto end =
+        static_cast<std::size_t>(size * static_cast<double>(k) / static_cast<double>(part_count));
+    if (k < part_count && scene.text().bytes_read() - scene.text().buffered().size() >= end &&
+        cutter.has_triangle())
+      continue;
+    write_part(tool, cutter, folder + "/" + name_of_part(part, part_count), end);
+    ++part;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -77,37 +118,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (!tool.options().is_given("PARTS"))
       throw UsageError(expected_but_found("operands SCENE and PARTS", "fewer"));
-    std::uint64_t part_count = 0;
-    if (!parse_count(part_count_word, part_count) || part_count < 1 || part_count > kMaxParts)
-      throw UsageError("PARTS: " + expected_but_found("a whole number from 1 to " + std::to_string(kMaxParts),
-                                                      pipeline::quoted(part_count_word)));
+    const std::uint64_t part_count = part_count_of(part_count_word);
     tool.expect_separate({kStandardOutput}, {file_or_stream("SCENE", scene_path, kStandardInput)});
-    InputFile scene(scene_path);
-    const double size = static_cast<double>(size_of(scene));
-    expect_kind(scene.text(), TextKind::scene);
-    SceneCutter cutter(scene.text());
-    make_empty_folder(folder);
-    for (std::size_t k = 1, part = 1; part == 1 || cutter.has_triangle(); ++k) {
-      // A part may have passed the end of the next one.
-      const auto end =
-          static_cast<std::size_t>(size * static_cast<double>(k) / static_cast<double>(part_count));
-      if (k < part_count && scene.text().bytes_read() - scene.text().buffered().size() >= end &&
-          cutter.has_triangle())
-        continue;
-      const std::string path = folder + "/" + name_of_part(part, part_count);
-      add_unfinished(path);
-      OutputFile file(path);
-      TextWriter text(file.descriptor(), path);
-      const std::uint64_t first = cutter.next_number();
-      cutter.begin(text);
-      if (cutter.has_triangle()) cutter.copy(text, end);
-      text.append("end\n");
-      text.flush();
-      file.commit();
-      tool.output().append(path + " " + std::to_string(first) + "\n");
-      tool.timing().triangle_count = cutter.next_number();
-      ++part;
-    }
+    cut(tool, scene_path, part_count, folder);
     tool.close_output();
     keep_unfinished();
   });

@@ -15,6 +15,37 @@ using namespace pipeline;
 
 namespace {
 
+struct ModelOptions {
+  bool bare = false;
+  bool framed = false;
+  std::string first;  // the number of the first triangle; empty: 0
+  std::string belts;  // of a sphere's facets; empty: spheres stay spheres
+};
+
+void add_options(CommandLine& options, ModelOptions& chosen) {
+  options.begin_group("Output");
+  options.add_flag("--bare", chosen.bare, "Write the triangles alone (stage1.txt)");
+  options.add_flag("--framed", chosen.framed,
+                   "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
+  options.add_word(
+      "--first", "N", chosen.first,
+      "Number the triangles from N on: of a part of a scene (cut-scene), so that joined texts of "
+      "parts are that of the whole (default: 0)");
+  options.add_word("--facets", "N", chosen.belts,
+                   "Make triangles with normals of every sphere: N belts of 2 N facets; all other triangles "
+                   "get normals, too");
+}
+
+std::uint64_t first_number(const ModelOptions& chosen) {
+  if (chosen.bare && chosen.framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
+  std::uint64_t number = 0;
+  if (!chosen.first.empty() && !parse_count(chosen.first, number))
+    throw UsageError("--first: " + expected_but_found("a whole number", quoted(chosen.first)));
+  if (chosen.bare && number > 0)
+    throw UsageError("--first: " + expected_but_found("no --bare, which writes no numbers", "both"));
+  return number;
+}
+
 /// The argument of --facets; none if it is not given.
 std::optional<std::size_t> belt_count(const std::string& given) {
   if (given.empty()) return std::nullopt;
@@ -22,6 +53,16 @@ std::optional<std::size_t> belt_count(const std::string& given) {
   if (!parse_count(given, count) || count < SphereFacets::kMinBelts || count > SphereFacets::kMaxBelts)
     throw UsageError("--facets: " + expected_but_found("a whole number from 2 to 10000", quoted(given)));
   return static_cast<std::size_t>(count);
+}
+
+/// Notes on a scene that reads well, but may not be what was meant.
+void note_odd_scene(const Tool& tool, const ModelStage& stage, const ModelOptions& chosen,
+                    const std::string& file, std::uint64_t triangle_count) {
+  if (const auto note = bright_light_note(stage.appearance())) tool.note(*note);
+  if (chosen.first.empty())  // a part of a scene has its pops, and what its transforms move, in other parts
+    for (const std::string& note : stage.odd_transforms().notes(file, triangle_count > 0)) tool.note(note);
+  if (triangle_count == 0 || stage.flattening_scale())
+    tool.note(empty_scene_note(triangle_count, stage.flattening_scale()));
 }
 
 }  // namespace
@@ -34,48 +75,25 @@ int main(int argc, char** argv) {
               "model --bare scene.txt > stage1.txt"}},
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
-  bool bare = false;
-  bool framed = false;
-  tool.options().begin_group("Output");
-  tool.options().add_flag("--bare", bare, "Write the triangles alone (stage1.txt)");
-  tool.options().add_flag("--framed", framed,
-                          "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
-  std::string first;
-  tool.options().add_word(
-      "--first", "N", first,
-      "Number the triangles from N on: of a part of a scene (cut-scene), so that joined texts of "
-      "parts are that of the whole (default: 0)");
-  std::string belts;
-  tool.options().add_word(
-      "--facets", "N", belts,
-      "Make triangles with normals of every sphere: N belts of 2 N facets; all other triangles "
-      "get normals, too");
+  ModelOptions chosen;
+  add_options(tool.options(), chosen);
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
     tool.expect_separate({kStandardOutput, statistics.output()});
-    if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
-    std::uint64_t first_number = 0;
-    if (!first.empty() && !parse_count(first, first_number))
-      throw UsageError("--first: " + expected_but_found("a whole number", pipeline::quoted(first)));
-    if (bare && first_number > 0)
-      throw UsageError("--first: " + expected_but_found("no --bare, which writes no numbers", "both"));
+    const std::uint64_t first = first_number(chosen);
     expect_kind(tool.input(), TextKind::scene);
     SceneReader scene(tool.input());
-    ModelStage stage(scene, first_number, {.is_refused = bare && belts.empty(), .belts = belt_count(belts)});
-    StageWriter writer(tool.output(), numbers.format(), bare);
-    writer.write_header({framed, scene.camera(), stage.appearance()});
+    ModelStage stage(scene, first,
+                     {.is_refused = chosen.bare && chosen.belts.empty(), .belts = belt_count(chosen.belts)});
+    StageWriter writer(tool.output(), numbers.format(), chosen.bare);
+    writer.write_header({chosen.framed, scene.camera(), stage.appearance()});
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     const auto transform = [&](TriangleBatch& batch) { stage.transform(batch, rounder); };
     StageLoop loop(tool, writer, rounder, statistics);
     loop.run(stage, transform, stage.uncertain_lights());
-    if (const auto note = bright_light_note(stage.appearance())) tool.note(*note);
-    const std::uint64_t count = tool.timing().triangle_count;
-    if (first.empty())  // a part of a scene has its pops, and what its transforms move, in other parts
-      for (const std::string& note : stage.odd_transforms().notes(tool.input().file(), count > 0))
-        tool.note(note);
-    if (count == 0 || stage.flattening_scale()) tool.note(empty_scene_note(count, stage.flattening_scale()));
+    note_odd_scene(tool, stage, chosen, tool.input().file(), tool.timing().triangle_count);
     loop.write_statistics(numbers.format());
   });
 }

@@ -24,14 +24,21 @@ using namespace pipeline;
 namespace {
 
 struct ProjectOptions {
+  explicit ProjectOptions(CommandLine& options) : numbers(options), projections(options) {
+    add_clipping(options);
+  }
+  void add_clipping(CommandLine& options);
+
+  NumberOptions numbers;
+  ProjectionOptions projections;
   ClipMode clip = ClipMode::automatic;
   CullMode cull = CullMode::nothing;
   double clip_inset = 0;
 };
 
-void add_options(CommandLine& options, ProjectOptions& chosen) {
+void ProjectOptions::add_clipping(CommandLine& options) {
   options.begin_group("Clipping");
-  options.add_choice<ClipMode>("--clip", chosen.clip,
+  options.add_choice<ClipMode>("--clip", clip,
                                {{"auto", ClipMode::automatic},
                                 {"near", ClipMode::near},
                                 {"frustum", ClipMode::frustum},
@@ -43,13 +50,13 @@ void add_options(CommandLine& options, ProjectOptions& chosen) {
                                "reject: drop triangles wholly outside one plane, cut nothing\n"
                                "none: a vertex that is not in front of the eye is an error");
   options.add_number(
-      "--clip-inset", "F", chosen.clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
+      "--clip-inset", "F", clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
       "a number from 0 to less than 1",
       "Pull in the planes of --clip near, frustum or reject, so that the cuts can be seen: 0.1 keeps "
       "the triangles "
       "between -0.9 and 0.9 in NDC");
   options.add_choice<CullMode>(
-      "--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
+      "--cull", cull, {{"back", CullMode::back}, {"front", CullMode::front}},
       "Drop triangles that show this side to the eye; counterclockwise is front. A closed surface looks the "
       "same without its backs, but for its silhouette under zbuf --coverage nearest");
 }
@@ -81,6 +88,42 @@ std::string to_text(const ProjectionCounts& counts) {
          std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
 }
 
+void project(Tool& tool, const ProjectOptions& chosen, Statistics& statistics) {
+  tool.expect_separate({kStandardOutput, statistics.output()}, {chosen.projections.scene()});
+  check_inset(chosen);
+  expect_kind(tool.input(), TextKind::view);
+  StageReader reader(tool.input());
+  expect_header(reader, TextKind::view);
+  const Located<Projection> given = chosen.projections.projection(reader, tool);
+  const ProjectionTransform projection = clip_from_view(given);
+  StageWriter writer(tool.output(), chosen.numbers.format(), false);
+  const StageHeader header = projected_header(reader.header(), given, projection);
+  writer.write_header(header);
+
+  CoordinateRounder rounder = chosen.numbers.rounder(tool.input().file());
+  ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);
+  if (header.projected) stage.keep_unclipped_triangles();
+  ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
+  report.suspect_radians(given);
+  const NumberFormat format = chosen.numbers.format();
+  CloseLayers layers(projection, format.shortest ? std::nullopt : std::optional(format.decimals));
+  TriangleBatch p_view;
+  const auto transform = [&](TriangleBatch& batch) {
+    std::swap(batch, p_view);
+    stage.project(p_view, batch);
+    report.add(p_view, batch);
+    layers.add(batch);
+  };
+  StageLoop loop(tool, writer, rounder, statistics);
+  loop.run(reader, transform);
+  tool.timing().details = to_text(stage.counts());
+  loop.note_if_no_triangle_came();
+  if (const auto note = report.note()) tool.note(*note);
+  if (const auto found = layers.found()) tool.note(close_layers_note(*found, format.decimals));
+  report.add_to(statistics);
+  loop.write_statistics(format);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -91,46 +134,9 @@ int main(int argc, char** argv) {
        {"project --scene scene.txt stage2.txt > stage3.txt",
         "model scene.txt | view | project --cull back --clip frustum | zbuf config.txt > z_buffer.txt"}},
       OutputKind::stage_text);
-  NumberOptions numbers(tool.options());
-  ProjectionOptions projections(tool.options());
-  ProjectOptions chosen;
-  add_options(tool.options(), chosen);
+  ProjectOptions chosen(tool.options());
   tool.options().begin_group("Output");
   Statistics statistics(tool.options());
 
-  return tool.run(argc, argv, [&] {
-    tool.expect_separate({kStandardOutput, statistics.output()}, {projections.scene()});
-    check_inset(chosen);
-    expect_kind(tool.input(), TextKind::view);
-    StageReader reader(tool.input());
-    expect_header(reader, TextKind::view);
-    const Located<Projection> given = projections.projection(reader, tool);
-    const ProjectionTransform projection = clip_from_view(given);
-    StageWriter writer(tool.output(), numbers.format(), false);
-    const StageHeader header = projected_header(reader.header(), given, projection);
-    writer.write_header(header);
-
-    CoordinateRounder rounder = numbers.rounder(tool.input().file());
-    ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);
-    if (header.projected) stage.keep_unclipped_triangles();
-    ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
-    report.suspect_radians(given);
-    const NumberFormat format = numbers.format();
-    CloseLayers layers(projection, format.shortest ? std::nullopt : std::optional(format.decimals));
-    TriangleBatch p_view;
-    const auto transform = [&](TriangleBatch& batch) {
-      std::swap(batch, p_view);
-      stage.project(p_view, batch);
-      report.add(p_view, batch);
-      layers.add(batch);
-    };
-    StageLoop loop(tool, writer, rounder, statistics);
-    loop.run(reader, transform);
-    tool.timing().details = to_text(stage.counts());
-    loop.note_if_no_triangle_came();
-    if (const auto note = report.note()) tool.note(*note);
-    if (const auto found = layers.found()) tool.note(close_layers_note(*found, format.decimals));
-    report.add_to(statistics);
-    loop.write_statistics(format);
-  });
+  return tool.run(argc, argv, [&] { project(tool, chosen, statistics); });
 }
