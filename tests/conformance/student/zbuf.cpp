@@ -101,7 +101,7 @@ std::vector<Vector> met_at(const Triangle& triangle, double y) {
     if (a[1] == b[1] || inside < a[1] || inside > b[1]) continue;
     if (habit("zbuf/other-formulas") && y != b[1]) {
       const double from_top = b[1] - y;
-      const auto at = [&](int i) { return b[i] + (a[i] - b[i]) / (b[1] - a[1]) * from_top; };
+      const auto at = [&](int axis) { return b[axis] + (a[axis] - b[axis]) / (b[1] - a[1]) * from_top; };
       result.push_back({at(0), y, at(2)});
       continue;
     }
