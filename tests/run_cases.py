@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs a unittest script, and then prints a line 'N skipped: REASON' for each reason that kept cases from
-running.
+"""Runs a unittest script, which may import what tests share and the modules of scripts, and then prints a line
+'N skipped: REASON' for each reason that kept cases from running.
 
 usage: run_cases.py SCRIPT [ARGUMENT...]
 
@@ -36,5 +36,7 @@ if len(sys.argv) < 2:
     sys.exit(__doc__)
 del sys.argv[0]
 sys.path[0] = str(pathlib.Path(sys.argv[0]).resolve().parent)
+TESTS = pathlib.Path(__file__).resolve().parent
+sys.path += [str(TESTS / room) for room in ("tools", "scripts", "reference", "conformance", "../scripts")]
 unittest.main = Program
 runpy.run_path(sys.argv[0], run_name="__main__")

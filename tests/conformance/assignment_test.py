@@ -12,7 +12,6 @@ import tempfile
 
 STUDENT, BIN, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
 os.environ |= {"BIN": str(BIN), "STUDENT_SEED": "1"}
-sys.path.insert(0, str(SOURCE / "scripts"))
 from lib.judging.hand_in import find_files  # noqa: E402
 from lib.judging.judge import judge  # noqa: E402
 from lib.judging.mistakes import sentences  # noqa: E402

@@ -25,7 +25,6 @@ arguments = [sys.argv.pop(1) for _ in sys.argv[1:]]
 student, bin_dir, source = (pathlib.Path(path).resolve() for path in arguments[:3])
 scene_count, share = (int(word) for word in (*arguments[3:], *("20", "4")[len(arguments) - 3:]))
 os.environ["BIN"] = str(bin_dir)
-sys.path[:0] = [str(source / "scripts"), str(source / "tests/conformance")]
 import changes  # noqa: E402
 import course_scenes  # noqa: E402
 import damages  # noqa: E402

@@ -11,7 +11,6 @@ import tempfile
 import unittest
 
 student, bin_dir, source = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(3))
-sys.path.insert(0, str(source / "scripts"))
 from lib.showing.pictures import read_picture  # noqa: E402
 
 PLAIN = ("one-triangle", "two-triangles", "torus", "tilted-camera", "nested-transforms", "worked-example")

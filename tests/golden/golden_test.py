@@ -22,7 +22,6 @@ ADDED = [sys.argv.pop() for _ in [sys.argv.pop(-2)]] if "--add" in sys.argv else
 SOURCE = pathlib.Path(sys.argv.pop()).resolve()
 BIN = pathlib.Path(sys.argv.pop()).resolve()
 HERE = SOURCE / "tests/golden"
-sys.path.insert(0, str(SOURCE / "tests/reference"))
 import reference  # noqa: E402
 
 SMALL = ("nested-transforms", "one-triangle", "orthographic", "tilted-camera", "two-triangles",

@@ -13,7 +13,6 @@ import unittest
 SOURCE = pathlib.Path(sys.argv.pop()).resolve()
 PAGES = ("scene", "stage-text", "stages")
 REFERENCE = (SOURCE / "tests/reference/reference.py").read_text()
-sys.path.insert(0, str(SOURCE / "tests/conformance"))
 from conform_parts import paragraph  # noqa: E402
 from conform_parts.pages import files_of, read_fields, read_page  # noqa: E402
 

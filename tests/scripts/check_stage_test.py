@@ -8,12 +8,9 @@ import pathlib
 import re
 import signal
 import subprocess
-import sys
-import time
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest
 
 SCENE = ("3 4 7\n0.3 -0.2 0.1\n0.2 1 0.1\n50 1.3 1 50\ntriangle\n0 0 0\n1 0 0.3\n0 1 0\ntriangle\n0.5 0.2 "
          "-1\n1 0.7 0\n0 -1 0\nend\n")

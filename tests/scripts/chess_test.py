@@ -3,13 +3,10 @@
 
 usage: chess_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
-import pathlib
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import SOURCE, ToolTest, pipe, run  # noqa: E402
+from toolbox import SOURCE, ToolTest, pipe, run
 
 
 def scene(around):

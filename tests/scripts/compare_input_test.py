@@ -10,12 +10,10 @@ import resource
 import signal
 import struct
 import subprocess
-import sys
 import unittest
 import zlib
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals
 
 COMPARE = SOURCE / "scripts/compare"
 ENVIRONMENT = {"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}

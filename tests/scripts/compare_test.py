@@ -7,16 +7,12 @@ import math
 import pathlib
 import struct
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, run  # noqa: E402
-import student  # noqa: E402
-
-sys.path.insert(0, str(SOURCE / "scripts"))
-from lib.judging.mistakes import sentences  # noqa: E402
-from lib.showing.pictures import png, read_picture  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, run
+import student  # takes the word behind toolbox's
+from lib.judging.mistakes import sentences
+from lib.showing.pictures import png, read_picture
 
 SAMPLE = SOURCE / "samples/tilted-camera"
 SCENE = (SAMPLE / "scene.txt").read_text()

@@ -9,12 +9,10 @@ import pathlib
 import re
 import select
 import subprocess
-import sys
 import time
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, TOOLS, ToolTest  # noqa: E402
+from toolbox import BIN, TOOLS, ToolTest
 
 PREFIX = BIN.parent
 COMPLETION = PREFIX / "share/bash-completion/completions/pipeline"

@@ -9,8 +9,7 @@ import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import SOURCE, ToolTest  # noqa: E402
+from toolbox import SOURCE, ToolTest
 
 SOURCE_LINES = [
     "int half(int x) {", "  if (x % 2 != 0) fail(x);", "  return x / 2;", "}", "void fail(int x) {",

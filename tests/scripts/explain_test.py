@@ -9,23 +9,17 @@ import os
 import pathlib
 import random
 import subprocess
-import sys
 import unittest
 from fractions import Fraction
 from types import SimpleNamespace
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run  # noqa: E402
-
-sys.path.insert(0, str(SOURCE / "tests/reference"))
-import reference  # noqa: E402
-
-sys.path.insert(0, str(SOURCE / "scripts"))
-from lib.explaining.calculation import Calculation, agrees  # noqa: E402
-from lib.text.scene import find_triangle  # noqa: E402
-from lib.explaining.stages import Settings, Stages, vertex_lines, words_of  # noqa: E402
-from lib.maths.window import PixelOfTriangle, Window  # noqa: E402
-from lib.running.pipe_tools import Tools  # noqa: E402
+import reference
+from lib.explaining.calculation import Calculation, agrees
+from lib.explaining.stages import Settings, Stages, vertex_lines, words_of
+from lib.maths.window import PixelOfTriangle, Window
+from lib.running.pipe_tools import Tools
+from lib.text.scene import find_triangle
+from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run
 
 SAMPLES = sorted(scene.parent for scene in SOURCE.glob("samples/*/scene.txt"))
 MAX_LINES = 60

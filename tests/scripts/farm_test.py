@@ -13,18 +13,15 @@ import signal
 import socket
 import struct
 import subprocess
-import sys
 import time
 import unittest
 import zlib
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "scripts"))
-from lib.showing.pictures import png_chunks, read_picture, unfiltered  # noqa: E402
-from random_scene import CAMERA, scene_of_parts as scene  # noqa: E402
-from ssh_server import SshServer  # noqa: E402
-from cut_scene_test import random_scene  # noqa: E402
-from toolbox import BIN, SOURCE, ToolTest, pipe, run  # noqa: E402
+from cut_scene_test import random_scene
+from lib.showing.pictures import png_chunks, read_picture, unfiltered
+from random_scene import CAMERA, scene_of_parts as scene
+from ssh_server import SshServer
+from toolbox import BIN, SOURCE, ToolTest, pipe, run
 
 FARM = SOURCE / "scripts/farm"
 SETTINGS = ([], ["--coverage", "center", "--samples",

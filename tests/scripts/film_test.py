@@ -10,13 +10,11 @@ import pathlib
 import shutil
 import signal
 import subprocess
-import sys
 import time
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from ssh_server import SshServer  # noqa: E402
-from toolbox import BIN, SOURCE, ToolTest, pipe, run  # noqa: E402
+from ssh_server import SshServer
+from toolbox import BIN, SOURCE, ToolTest, pipe, run
 
 FILM = SOURCE / "scripts/film"
 ENVIRONMENT = {**os.environ, "BIN": str(BIN)}

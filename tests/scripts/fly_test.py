@@ -15,11 +15,7 @@ import unittest
 import unittest.mock
 
 from display import MISSING, Display
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pipe, run  # noqa: E402
-
-sys.path.insert(0, str(SOURCE / "scripts"))
+from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pipe, run
 
 SCENE = """# a scene to fly through
 1 2 5   # eye

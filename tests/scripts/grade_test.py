@@ -14,7 +14,6 @@ import shutil
 import signal
 import struct
 import subprocess
-import sys
 import tarfile
 import tempfile
 import time
@@ -22,14 +21,11 @@ import unittest
 import zipfile
 from unittest import mock
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pseudo_terminal  # noqa: E402
-
-sys.path.insert(0, str(SOURCE / "scripts"))
-from grade_parts import graders  # noqa: E402
-from grade_parts.contents import contents_of  # noqa: E402
-from grade_parts.hand_ins import find_hand_ins  # noqa: E402
-from lib.judging.mistakes import sentences  # noqa: E402
+from grade_parts import graders
+from grade_parts.contents import contents_of
+from grade_parts.hand_ins import find_hand_ins
+from lib.judging.mistakes import sentences
+from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pseudo_terminal
 
 SAMPLE = SOURCE / "samples/worked-example"
 FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")

@@ -15,13 +15,10 @@ import unittest
 from unittest import mock
 
 from browser import MISSING, Browser
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, pipe, pseudo_terminal, run, stage_texts  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, pipe, pseudo_terminal, run, stage_texts
 
 TAB, ESCAPE, LEFT, UP, RIGHT, DOWN, HOME, SHIFT = ("\ue004", "\ue00c", "\ue012", "\ue013", "\ue014", "\ue015",
                                                    "\ue011", "\ue008")
-sys.path.insert(0, str(SOURCE / "scripts"))
 from lib.showing.pictures import read_picture  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"

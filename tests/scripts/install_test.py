@@ -18,7 +18,6 @@ import unittest
 
 sys.dont_write_bytecode = True
 BUILD, SOURCE = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from display import MISSING, Display  # noqa: E402
 
 NOBODY = 65534

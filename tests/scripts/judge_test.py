@@ -10,14 +10,11 @@ import re
 import shutil
 import struct
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
-import student  # noqa: E402
+from toolbox import BIN, ToolTest
+import student  # takes the word behind toolbox's
 
-sys.path.insert(0, str(SOURCE / "scripts"))
 os.environ["BIN"] = str(BIN)
 from lib.judging import fit  # noqa: E402
 from lib.judging import mistakes  # noqa: E402

@@ -10,18 +10,14 @@ import os
 import pathlib
 import shutil
 import subprocess
-import sys
 import unittest
 import zipfile
 from datetime import datetime
 from types import SimpleNamespace
 from unittest import mock
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
-
-sys.path.insert(0, str(SOURCE / "scripts"))
-from grade_parts import kit_classroom50  # noqa: E402
+from grade_parts import kit_classroom50
+from toolbox import BIN, SOURCE, ToolTest
 
 FORMS = json.loads((pathlib.Path(__file__).parent / "kit_forms.json").read_text())
 KINDS = ("gradescope", "classroom50", "plain")

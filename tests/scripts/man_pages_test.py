@@ -12,7 +12,6 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../tools")))
 from toolbox import BIN, SOURCE, ToolTest, run  # noqa: E402
 sys.path.insert(0, str(SOURCE / "scripts/maintain"))
 from parts.help_text import parse  # noqa: E402

@@ -19,9 +19,7 @@ import time
 import unittest
 
 from devices import IS_ROOT, full_device, null_device
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SCENE, SOURCE, ToolTest, end_by_signal, heed_signals  # noqa: E402
+from toolbox import BIN, SCENE, SOURCE, ToolTest, end_by_signal, heed_signals
 
 SCRIPTS = SOURCE / "scripts"
 

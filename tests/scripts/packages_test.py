@@ -8,11 +8,9 @@ import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest
 
 # A package is installed if a file of its name is in installed/, and can be if none is in unknown/.
 STUBS = {

@@ -6,11 +6,9 @@ usage: picture_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import os
 import pathlib
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, expect_mesh2scene, pipe, pseudo_terminal, run  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, expect_mesh2scene, pipe, pseudo_terminal, run
 
 
 def setUpModule():  # noqa: N802

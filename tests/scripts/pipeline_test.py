@@ -10,11 +10,9 @@ import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest
 
 SAMPLE = SOURCE / "samples/worked-example"
 PLAIN = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}

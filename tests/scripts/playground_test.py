@@ -17,7 +17,6 @@ import urllib.request
 import zipfile
 
 BIN, ROOT = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
-sys.path[:0] = [str(ROOT / "tests/conformance"), str(ROOT / "tests/scripts")]
 
 import firefox
 from browser import MISSING, Browser

@@ -12,8 +12,7 @@ import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest
 
 ROOMS = tuple(SOURCE / "scripts" / room for room in (".", "measure", "maintain", "package"))
 

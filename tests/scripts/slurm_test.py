@@ -9,13 +9,11 @@ import pathlib
 import shutil
 import signal
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from random_scene import scene_of_parts  # noqa: E402
-from slurm_cluster import Cluster  # noqa: E402
-from toolbox import BIN, SOURCE, ToolTest, pipe  # noqa: E402
+from random_scene import scene_of_parts
+from slurm_cluster import Cluster
+from toolbox import BIN, SOURCE, ToolTest, pipe
 
 SCRIPTS = SOURCE / "samples/slurm"
 ENDED = ("COMPLETED", "FAILED", "CANCELLED", "NODE_FAIL", "TIMEOUT", "OUT_OF_MEMORY")

@@ -16,9 +16,7 @@ import unittest
 import zlib
 
 from display import MISSING, Display
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals
 
 # Half of a square that faces the camera: its side is 2.
 SCENE = "0 0 5\n0 0 0\n0 1 0\n{}\ntriangle\n-1 -1 0\n1 -1 0\n1 1 0\nend\n"

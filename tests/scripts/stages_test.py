@@ -15,9 +15,7 @@ import threading
 import unittest
 
 from devices import null_device
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest
 
 STAGES = SOURCE / "scripts/stages"
 SAMPLE = SOURCE / "samples/worked-example"

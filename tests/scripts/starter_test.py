@@ -7,11 +7,9 @@ import os
 import pathlib
 import shutil
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest
 
 # For a camera that looks down -z, view only subtracts the eye: a line that stands where each says what to do.
 SCENE = ("1 2 5\n1 2 0\n0 1 0\n60 1 1 100\ntriangle\n0 0 0\n1 0 0.5\n0 1 0\ntriangle\n1 1 1\n2 1 1\n1 3 -1\n"

@@ -8,24 +8,19 @@ import os
 import pathlib
 import re
 import subprocess
-import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run  # noqa: E402
-
-sys.path.insert(0, str(SOURCE / "scripts"))
-from lib.showing.figures import Quartiles  # noqa: E402
-from lib.running.owners import NOBODY, owners, write_marked  # noqa: E402
-from lib.running.pipe_tools import Tools, without_inner_location  # noqa: E402
-from trade_parts.choice import Choice, Limits, Row, cheapest, least_wrong, nearest  # noqa: E402
-from trade_parts.levers import settings  # noqa: E402
-from trade_parts.losses import Loss  # noqa: E402
-from lib.running.pipe import DEFAULT, Pipe, Setting  # noqa: E402
-from trade_parts.report import about_ties, about_times  # noqa: E402
-from trade_parts.timing import (AGAIN, CHEAPER, DEARER, EMPTY, TIE, UNTOLD, Times,  # noqa: E402
+from lib.running.owners import NOBODY, owners, write_marked
+from lib.running.pipe import DEFAULT, Pipe, Setting
+from lib.running.pipe_tools import Tools, without_inner_location
+from lib.showing.figures import Quartiles
+from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run
+from trade_parts.choice import Choice, Limits, Row, cheapest, least_wrong, nearest
+from trade_parts.levers import settings
+from trade_parts.losses import Loss
+from trade_parts.report import about_ties, about_times
+from trade_parts.timing import (AGAIN, CHEAPER, DEARER, EMPTY, TIE, UNTOLD, Times,
                                 median_interval)
 
 LEAST = {"--digits 5", "default", "--digits 9", "--digits 12", "--digits exact", "--precision double",

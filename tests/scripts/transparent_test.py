@@ -9,15 +9,11 @@ import pathlib
 import shutil
 import struct
 import subprocess
-import sys
 import unittest
 import zlib
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, run  # noqa: E402
-
-sys.path.insert(0, str(SOURCE / "scripts"))
-from lib.showing.pictures import PictureError, picture_of, png_chunk  # noqa: E402
+from lib.showing.pictures import PictureError, picture_of, png_chunk
+from toolbox import BIN, SOURCE, ToolTest, run
 
 COLORS = {"plain": "", "lit": "light 3 4 5 1 1 1\nambient 0.2 0.2 0.2\ncolor 10 200 30\n"}
 CAMERA = "3 1 6\n0 0 0\n0 1 0\n40 1.25 1 30 ratio\n"

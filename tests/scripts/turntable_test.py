@@ -7,11 +7,9 @@ import os
 import pathlib
 import shutil
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, pipe  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, pipe
 
 SAMPLE = SOURCE / "samples/worked-example"
 

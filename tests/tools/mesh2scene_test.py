@@ -11,15 +11,12 @@ import signal
 import socket
 import struct
 import subprocess
-import sys
 import unittest
 
-from toolbox import SOURCE, ToolTest, command, expect_mesh2scene, heed_signals, pipe, run
-
-sys.path.insert(0, str(SOURCE / "scripts"))
-from lib.maths.vectors import cross  # noqa: E402
-from model_parts.formats import FORMATS  # noqa: E402
-from model_parts.shapes import SHAPES, Mesh, knot, terrain, vase  # noqa: E402
+from lib.maths.vectors import cross
+from model_parts.formats import FORMATS
+from model_parts.shapes import SHAPES, Mesh, knot, terrain, vase
+from toolbox import ToolTest, command, expect_mesh2scene, heed_signals, pipe, run
 
 BOX = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for y in (0, 1) for x in (0, 1)) + "".join(
     f"f {face}\n" for face in ("1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"))

@@ -10,14 +10,11 @@ usage: shading_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import decimal
 import math
 import pathlib
-import sys
 import unittest
 
-from toolbox import BIN, SOURCE, ToolTest, pipe, run
-
-sys.path.append(str(SOURCE / "tests/reference"))
-import leeway  # noqa: E402
-import reference  # noqa: E402
+import leeway
+import reference
+from toolbox import SOURCE, ToolTest, pipe, run
 
 SIZE = 24
 EYE_AT_5 = "0 0 5\n0 0 0\n0 1 0\n"

@@ -10,17 +10,14 @@ vertex.
 """
 import argparse
 import json
-import pathlib
 import re
 import sys
 import unittest
 from decimal import Decimal
 from fractions import Fraction
 
+import reference
 from toolbox import CAMERA, ToolTest, add_claims, run
-
-sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "reference"))
-import reference  # noqa: E402
 
 parser = argparse.ArgumentParser(add_help=False)
 parser.add_argument("--cases")

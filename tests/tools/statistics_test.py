@@ -6,14 +6,11 @@ usage: statistics_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import os
 import pathlib
 import random
-import sys
 import unittest
 from fractions import Fraction
 
+import reference
 from toolbox import SOURCE, ToolTest, run
-
-sys.path.append(str(SOURCE / "tests/reference"))
-import reference  # noqa: E402
 
 SIDES = ("left", "right", "below", "above", "near", "far")
 PROJECT_KEYS = ["triangles", "behind", *("outside_" + side for side in SIDES), "cut", "culled"]

@@ -8,7 +8,6 @@ import math
 import pathlib
 import random
 import re
-import sys
 import unittest
 
 from toolbox import ToolTest, run

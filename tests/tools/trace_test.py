@@ -9,14 +9,10 @@ import math
 import os
 import pathlib
 import random
-import re
-import sys
 import unittest
 
-from toolbox import CAMERA, CONFIG, SCENE, SOURCE, ToolTest, pipe, pseudo_terminal, run
-
-sys.path.insert(0, str(SOURCE / "tests/reference"))
-import random_scenes  # noqa: E402
+import random_scenes
+from toolbox import CAMERA, SCENE, SOURCE, ToolTest, pipe, pseudo_terminal, run
 
 SCENE_COUNT = int(os.environ.get("TRACE_SCENES", "60"))
 

@@ -10,14 +10,11 @@ import random
 import re
 import struct
 import subprocess
-import sys
 import unittest
 import zlib
 
+from lib.showing import pictures
 from toolbox import CAMERA, NO_TRIANGLE, SOURCE, ToolTest, command, pipe, pseudo_terminal, run, stage_texts
-
-sys.path.insert(0, str(SOURCE / "scripts"))
-from lib.showing import pictures  # noqa: E402
 
 # The lower left half of the screen, and all of it.
 HALF = "-1.0000000 -1.0000000 0.0000000\n1.0000000 -1.0000000 0.0000000\n-1.0000000 1.0000000 0.0000000\n\n"

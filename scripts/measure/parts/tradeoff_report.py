@@ -216,8 +216,6 @@ differ if they do so by more than 3 %, times only if their quartiles do not over
 SHORT_SETTINGS = [
     "default", "--digits 5", "--digits 9", "--digits 12", "--digits exact", "--precision double",
     "--depth f32", "--coverage center", "--digits 9 --coverage center", "--digits exact --coverage center"]
-LIT_SETTINGS = [
-    "default", "--digits 9", "--digits exact", "--coverage center", "--shading none", "--samples 2"]
 
 
 def short_table(results):
