@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs a unittest script, which may import what tests share and the modules of scripts, and then prints a line
+"""Runs a unittest script, which may import what tests share and the modules of scripts. Then prints a line
 'N skipped: REASON' for each reason that kept cases from running.
 
 usage: run_cases.py SCRIPT [ARGUMENT...]

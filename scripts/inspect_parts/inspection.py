@@ -103,8 +103,8 @@ class Inspection:
         self.notes.append(
             f"project and zbuf have {4 * belts * (belts - 1)} facets in place of each sphere, and count those"
         )
-        world = self.tools.output("model", "--digits", "exact", "--facets", belts, stdin=self.scene_data)
-        return self.tools.output("view", "--digits", "exact", stdin=world)
+        return self.tools.through(["model", "--digits", "exact", "--facets", belts],
+                                  ["view", "--digits", "exact"], stdin=self.scene_data)
 
     def stage(self, tool, title, done):
         read, stderr = self.lines[tool], done.stderr.decode(errors="replace")

@@ -7,24 +7,13 @@ import subprocess
 import unittest
 
 from toolbox import SOURCE, ToolTest, pipe, run
+from vectors import cross, dot, minus
 
 
 def scene(around):
     return subprocess.run(
         [SOURCE / "scripts/make-chess", "--around", str(around)], check=True, capture_output=True,
         text=True).stdout
-
-
-def minus(a, b):
-    return [p - q for p, q in zip(a, b)]
-
-
-def cross(a, b):
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def dot(a, b):
-    return sum(p * q for p, q in zip(a, b))
 
 
 class Chess(ToolTest):

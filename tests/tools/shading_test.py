@@ -15,6 +15,7 @@ import unittest
 import leeway
 import reference
 from toolbox import SOURCE, ToolTest, pipe, run
+from vectors import cross, dot, minus, unit
 
 SIZE = 24
 EYE_AT_5 = "0 0 5\n0 0 0\n0 1 0\n"
@@ -50,22 +51,6 @@ def scene_of(corners, projection, lit=True):
         lines += ["light " + words(*position, *intensity) for position, intensity in LIGHTS]
     lines += ["triangle"] + [words(*p, *c, *n) for p, c, n in corners] + ["end\n"]
     return "\n".join(lines)
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def minus(a, b):
-    return tuple(x - y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def unit(v):
-    return tuple(x / math.sqrt(dot(v, v)) for x in v)
 
 
 def mean(weights, vectors):

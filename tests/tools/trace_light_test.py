@@ -11,21 +11,10 @@ import re
 import unittest
 
 from toolbox import ToolTest, run
+from vectors import dot, minus, unit
 
 CAMERA = "perspective 60 1 0.1 1000\n"
 EXACT = 1e-12
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def minus(a, b):
-    return tuple(x - y for x, y in zip(a, b))
-
-
-def unit(v):
-    return tuple(x / math.sqrt(dot(v, v)) for x in v)
 
 
 def distance(a, b):

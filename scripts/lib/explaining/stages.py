@@ -87,9 +87,8 @@ class Stages:
 
     def fragments(self, column, row):
         """Every Fragment of the whole scene at a pixel, in the order they come."""
-        in_view = self.tools.output("view", *EXACT, stdin=self.lossless)
-        text = self.tools.output("project", "--digits", self.settings.digits, *self.settings.of_project,
-                                 stdin=in_view)
+        project = ["project", "--digits", self.settings.digits, *self.settings.of_project]
+        text = self.tools.through(["view", *EXACT], project, stdin=self.lossless)
         report = self.zbuf(text, "--probe", f"{column},{row}")
         return [Fragment(int(n), depth, fate) for n, depth, fate in FRAGMENT.findall(report)]
 

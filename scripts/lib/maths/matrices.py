@@ -2,14 +2,10 @@
 from lib.maths.exact import cotangent, root, sine_cosine, trimmed
 from fractions import Fraction
 
-from lib.maths.vectors import cross
+from lib.maths.vectors import cross, dot
 
 ZERO, ONE = Fraction(0), Fraction(1)
 IDENTITY = tuple(tuple(ONE if i == j else ZERO for j in range(4)) for i in range(4))
-
-
-def dot(a, b):
-    return sum(p * q for p, q in zip(a, b))
 
 
 def product(a, b):

@@ -122,11 +122,10 @@ class Pipe:
         image = self.folder / "colors.ppm"
         output = ["--z-buffer", "none", "--image", image, self.config]
         if setting.is_traced:
-            text = b""
-            for tool, source in (("model", [self.scene]), ("view", [])):
-                text = self.tools.output(tool, *self.words(tool, setting), *source, stdin=text)
-            self.tools.run("trace", *self.words("trace", setting), "--no-shadows", "--no-recursion", *output,
-                           stdin=text)
+            self.tools.through(["model", *self.words("model", setting), self.scene],
+                               ["view", *self.words("view", setting)],
+                               ["trace", *self.words("trace", setting), "--no-shadows", "--no-recursion",
+                                *output])
         else:
             self.tools.run("zbuf", *self.words("zbuf", setting), *output, self.text(setting)[0])
         return b"".join(read_picture(image)[2])

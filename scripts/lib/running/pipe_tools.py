@@ -78,6 +78,12 @@ class Tools:
     def output(self, tool, *words, stdin=b""):
         return self.run(tool, *words, stdin=stdin).stdout
 
+    def through(self, *runs, stdin=b""):
+        """What comes out of a pipe of tools, each a list of its name and its words."""
+        for words in runs:
+            stdin = self.output(*words, stdin=stdin)
+        return stdin
+
     def write(self, path, tool, *words):
         """Runs a tool with its stdout in a file; its notes."""
         with open(path, "wb") as file:

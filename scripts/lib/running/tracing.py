@@ -25,8 +25,8 @@ def add_trace_options(parser):
 
 def trace_words(parser, options, meaningless=(), others=()):
     """The words for trace; `others` are more options of the command that are for trace alone. Ends the
-    program if there are some without --trace, or with it one of the options in `meaningless`, pairs of a given
-    option (or None) and why it means nothing to trace."""
+    program if there are some without --trace, or with it one of the options in `meaningless`, pairs of a
+    given option (or None) and why it means nothing to trace."""
     words = [
         word for option in (*VALUES, *others) for word in (option, getattr(options, attribute(option)))
         if getattr(options, attribute(option)) is not None]

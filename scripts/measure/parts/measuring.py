@@ -81,6 +81,11 @@ def run(words, name="a tool", **streams):
     return Cost(cpu_seconds(usage), usage.ru_maxrss / 1024)
 
 
+def read_csv(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def write_csv(path, rows, digits=4):
     """Writes a column for each key of any row; numbers get a fixed count of significant digits."""
     columns = list(dict.fromkeys(column for row in rows for column in row))

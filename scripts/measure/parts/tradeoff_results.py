@@ -1,16 +1,11 @@
 """The measured numbers of scripts/measure/tradeoff, and which settings another one beats."""
-import csv
+from parts.measuring import read_csv
 
 COST_COLUMNS = ("cpu_seconds", "wall_seconds", "instructions", "bytes", "mib")
 TIMES = ("cpu_seconds", "wall_seconds")
 ERROR_COLUMNS = ("vertex_error_pixels", "flipped_pixels", "wrong_pixels", "neighbor_pixels",
                  "off_center_pixels", "depth_error_median", "depth_error_max")
 TOLERANCE = dict.fromkeys(COST_COLUMNS, 0.03)  # smaller differences are none
-
-
-def read_csv(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
 
 
 class Results:
