@@ -2,4 +2,5 @@
 import pathlib
 import sys
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2]))  # lib is in scripts
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2]
+sys.path += [str(SCRIPTS), str(SCRIPTS.parent / "tests/scripts")]  # lib is in scripts, display in tests

@@ -9,8 +9,8 @@ import subprocess
 import sys
 import tempfile
 
+from display import display_or_none
 from parts.measuring import machine, run_pipe
-from parts.yardsticks import display
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2]
 SIZE = (800, 600)
@@ -41,12 +41,10 @@ def rows(tools, rounds, quick):
     reason."""
     has_f3d = shutil.which("f3d") is not None
     found, reason = [], None
-    with tempfile.TemporaryDirectory() as name, display() as screen:
+    with tempfile.TemporaryDirectory() as name, display_or_none() as screen:
         folder = pathlib.Path(name)
         if not has_f3d or not screen:
             reason = "f3d: " + ("no Xvfb (Debian: xvfb)" if has_f3d else "not installed (Debian: f3d)")
-        else:
-            os.environ["DISPLAY"] = screen
         os.environ["BIN"] = str(tools)
         for model in models(folder, (2, 3) if quick else (32, 101)):
             commands = {

@@ -7,7 +7,6 @@ misses at the memory's bandwidth (counted by Valgrind's model of a processor, on
 share is what limits the row.
 """
 import collections
-import contextlib
 import dataclasses
 import os
 import pathlib
@@ -16,8 +15,8 @@ import shutil
 import statistics
 import subprocess
 import tempfile
-import time
 
+from display import display_or_none
 from parts.instructions import no_count_at_all
 from parts.measuring import run_pipe
 from parts.tradeoff_cost_scenes import cost_scenes
@@ -124,28 +123,6 @@ def cost_of(row, folder):
 
 # Programs that are not always there
 
-@contextlib.contextmanager
-def display():
-    """An X server's display, or None."""
-    if not shutil.which("Xvfb"):
-        yield None
-        return
-    with tempfile.TemporaryFile() as number:
-        server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(number.fileno()), "-nolisten", "tcp"], pass_fds=[number.fileno()],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        try:
-            for _ in range(100):
-                number.seek(0)
-                if found := number.read().strip():
-                    break
-                time.sleep(0.1)
-            yield f":{found.decode()}" if found else None
-        finally:
-            server.terminate()
-            server.wait()
-
-
 def write_obj(scene_text, path):
     """The lit scene as a model file: each vertex once."""
     numbers, points, normals, faces = {}, [], [], []
@@ -215,7 +192,7 @@ def bandwidth(baselines, quick):
 def measured(tools, baselines, rounds, quick):
     """Rows for yardsticks.csv, and the reasons why some are missing."""
     scenes, missing, runs, speeds = {scene.name: scene for scene in cost_scenes(quick)}, [], {}, []
-    with tempfile.TemporaryDirectory() as name, display() as screen:
+    with tempfile.TemporaryDirectory() as name, display_or_none() as screen:
         folder = pathlib.Path(name)
         rows = list(rows_of(tools, baselines, folder, scenes, 1))
         if not (baselines / "draw_osmesa").exists():
@@ -224,7 +201,6 @@ def measured(tools, baselines, rounds, quick):
             missing.append("f3d: " + (
                 "no Xvfb (Debian: xvfb)" if shutil.which("f3d") else "not installed (Debian: f3d)"))
         else:
-            os.environ["DISPLAY"] = screen
             rows.append(f3d_row(folder, scenes["normals"]))
         for _ in range(rounds):
             speeds.append(bandwidth(baselines, quick))
