@@ -4,6 +4,7 @@
 usage: scripts_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import ast
+import itertools
 import os
 import pathlib
 import re
@@ -32,19 +33,12 @@ class Help(ToolTest):
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 self.assertRegex(done.stdout, rf"\Ausage: {command.name}\b")
 
-
     def test_help_that_cannot_be_written_is_a_failure(self):
-        for i, command in enumerate(commands()):
-            channel, reason = (("> /dev/full", "No space left on device"), (">&-", "Bad file descriptor"))[
-                i % 2
-            ]
+        ways = ("> /dev/full", "No space left on device"), (">&-", "Bad file descriptor")
+        for command, (channel, reason) in zip(commands(), itertools.cycle(ways)):
             with self.subTest(command.relative_to(SOURCE), channel=channel):
-                done = subprocess.run(
-                    ["sh", "-c", f'"$0" --help {channel}', command],
-                    capture_output=True,
-                    text=True,
-                    timeout=60,
-                )
+                done = subprocess.run(["sh", "-c", f'"$0" --help {channel}', command], capture_output=True,
+                                      text=True, timeout=60)
                 self.assertRegex(done.stderr, rf"\A({command.name}|cat): .*{reason}\n\Z")
                 self.assertEqual(done.returncode, 2 if "failure_status=2" in command.read_text() else 1)
 
@@ -80,40 +74,24 @@ class Writing(ToolTest):
         "playground/make-root": "the folder build of the source tree",
         "playground/run_command.py": "files in the memory of a browser",
     }
-    ROOMS_OF_DEVELOPERS = (
-        "measure",
-        "maintain",
-        "package",
-    )  # they write into the source tree, build, or the folder that --out names
+    # They write into the source tree, build, or the folder that --out names.
+    ROOMS_OF_DEVELOPERS = ("measure", "maintain", "package")
 
     def test_no_command_does_it_by_itself(self):
         found = set()
         for path in (SOURCE / "scripts").rglob("*"):
             name = path.relative_to(SOURCE / "scripts")
-            if (
-                path.is_file()
-                and name.parts[0] not in self.ROOMS_OF_DEVELOPERS
-                and path.suffix in ("", ".py")
-            ):
+            if (path.is_file() and name.parts[0] not in self.ROOMS_OF_DEVELOPERS
+                    and path.suffix in ("", ".py")):
                 code = re.sub(r'"""[\s\S]*?"""', "", re.sub(r"(^|\s)#.*", "", path.read_text()))
                 if self.BY_ITSELF.search(code):
                     found.add(str(name))
         self.assertEqual(found, set(self.REASONS))
 
     def test_each_way_would_be_found(self):
-        for line in (
-            "os.mkdir(x)",
-            "path.unlink()",
-            "shutil.rmtree(x)",
-            "os.replace(a, b)",
-            'open(x, "w")',
-            "open(path / 'a', 'wb')",
-            'open(os.path.join(a, "b"), "ab")',
-            'open(x, "x")',
-            "p.write_text(s)",
-            "shutil.copy(a, b)",
-            "rm -rf x",
-        ):
+        for line in ("os.mkdir(x)", "path.unlink()", "shutil.rmtree(x)", "os.replace(a, b)", 'open(x, "w")',
+                     "open(path / 'a', 'wb')", 'open(os.path.join(a, "b"), "ab")', 'open(x, "x")',
+                     "p.write_text(s)", "shutil.copy(a, b)", "rm -rf x"):
             self.assertRegex(line, self.BY_ITSELF)
         for line in ('open(x, "rb")', "open(x)", "remove_files(x)", "firm"):
             self.assertNotRegex(line, self.BY_ITSELF)
@@ -157,9 +135,8 @@ class OldPython(ToolTest):
             ast.parse(path.read_text(), str(path), feature_version=(3, 10))
 
     def test_an_older_python_is_refused(self):
-        for version, status, message in (((3, 8, 18), 1,
-                                          "explain: Python 3.9 or newer is needed, found 3.8\n"), ((3, 9, 0),
-                                                                                                   0, "")):
+        refusal = "explain: Python 3.9 or newer is needed, found 3.8\n"
+        for version, status, message in (((3, 8, 18), 1, refusal), ((3, 9, 0), 0, "")):
             line = (f"import sys; sys.version_info = {version}; sys.argv = ['some/explain']; "
                     f"sys.path.insert(0, {str(SOURCE / 'scripts')!r}); import lib.rim.command")
             done = subprocess.run([sys.executable, "-B", "-c", line], capture_output=True, text=True)

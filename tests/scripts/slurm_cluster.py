@@ -172,7 +172,3 @@ class Cluster:
             except ProcessLookupError:
                 pass
         self.nodes[node].wait()
-
-    def revive_node(self, node):
-        self.nodes[node] = self.start("slurmd", "-D", "-N", node)
-        self.wait(lambda: self.output("sinfo", "-h", "-n", node, "-o", "%t") == "idle", f"{node} to be idle")

@@ -60,14 +60,9 @@ def measured(zbuf, folder, rounds, quick):
                     write_large(triangles, count)
                 words = [zbuf, config, triangles, "--image", "/dev/null", "--z-buffer", "/dev/null"]
                 costs = [run_pipe([words], folder) for _ in range(rounds)]
-                yield {
-                    "kind": kind,
-                    "triangles": count,
-                    "size": size,
-                    "cpu_seconds": min(c.cpu_seconds for c in costs),
-                    "mib": max(cost.mib for cost in costs),
-                    "machine": machine(),
-                }
+                yield {"kind": kind, "triangles": count, "size": size,
+                       "cpu_seconds": min(c.cpu_seconds for c in costs),
+                       "mib": max(cost.mib for cost in costs), "machine": machine()}
 
 
 def rows_of(table):
