@@ -8,7 +8,7 @@ from lib.rim.command import CommandFailure
 from lib.rim.input_file import name_of, read_input
 from lib.text.projection import line_of
 from lib.text.square import note_on_squares
-from lib.text.stage_text import text_of
+from lib.text.stage_text import header_of, text_of
 from lib.maths.vectors import cross, moved, normalized
 
 
@@ -22,10 +22,7 @@ class Scene:
                                       stdin=read_input(path) if path == "-" else b"")
             self.stats = dict(line.split() for line in stats.read_text().splitlines())
         self.config = config
-        header = {}
-        for line in self.world.split(b"\n\n", 1)[0].decode(errors="replace").splitlines():
-            keyword, _, rest = line.partition(" ")
-            header.setdefault(keyword, rest.split())
+        header = header_of(self.world)
         if self.stats.get("triangles") == "0" or not {"eye", "look", "up"} <= set(header):
             raise CommandFailure(f"expected a scene with triangles, found none in {name_of(path)}")
         eye, look, up = (tuple(map(float, header[name])) for name in ("eye", "look", "up"))

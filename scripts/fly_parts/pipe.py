@@ -11,6 +11,7 @@ from fly_parts.framing import Ball
 from lib.rim.child import cpu_seconds, finished
 from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.text.projection import line_of
+from lib.text.stage_text import header_of
 
 RASTERIZING = ("model", "view", "project", "zbuf")
 TRACING = ("model", "view", "trace")
@@ -141,13 +142,7 @@ class FramePipe:
 
     def header(self, keyword):
         """The words behind a header keyword, None if it is not there."""
-        for line in self.stages["model"].output.read().split(b"\n"):
-            words = line.decode().split()
-            if words[:1] == [keyword]:
-                return words[1:]
-            if not words or not words[0].isalpha():
-                return None
-        return None
+        return header_of(self.stages["model"].output.read()).get(keyword)
 
     def ball(self):
         """The Ball around the scene; None if it has no triangles."""

@@ -1,5 +1,6 @@
 """Stage text as numbers, each with its line."""
 import codecs
+import io
 import itertools
 import re
 
@@ -60,6 +61,15 @@ def parse_stage_text(text, path, may_have_spheres=False):
         return plain_stage_text.read(text, name_of(path), may_have_spheres)
     except plain_stage_text.StageTextError as error:
         raise (scene if begins_with_a_camera(text) else StageTextError(shown(str(error)))) from None
+
+
+def header_of(data):
+    """{keyword: words} of the lines that a tool's text begins with; of several with one keyword the first."""
+    header = {}
+    for line in itertools.takewhile(lambda line: line[:1].isalpha(), io.BytesIO(data)):
+        keyword, *words = line.decode(errors="replace").split()
+        header.setdefault(keyword, words)
+    return header
 
 
 def triangle_lines(lines):
