@@ -8,12 +8,17 @@
 namespace pipeline {
 namespace {
 
+/// Adds color, normals and material of entry `index` to others.
+void copy_attributes(const AttributeArrays& from, std::size_t index, AttributeArrays& to) {
+  if (!from.colors.empty()) to.colors.push_back(from.colors[index]);
+  if (!from.normals.empty()) to.normals.push_back(from.normals[index]);
+  if (!from.materials.empty()) to.materials.push_back(from.materials[index]);
+}
+
 /// Adds triangle `index` of one batch to another, without its place in the text.
 void copy_triangle(const TriangleBatch& from, std::size_t index, TriangleBatch& to) {
   to.add(from.triangles[index], from.numbers[index], from.locations[index]);
-  if (!from.attributes.colors.empty()) to.attributes.colors.push_back(from.attributes.colors[index]);
-  if (!from.attributes.normals.empty()) to.attributes.normals.push_back(from.attributes.normals[index]);
-  if (!from.attributes.materials.empty()) to.attributes.materials.push_back(from.attributes.materials[index]);
+  copy_attributes(from.attributes, index, to.attributes);
 }
 
 }  // namespace
@@ -34,10 +39,7 @@ void TracedTriangles::add_whole(const TriangleBatch& p_view, std::size_t index) 
   p_view_.push_back(p_view.triangles[index]);
   numbers_.push_back(p_view.numbers[index]);
   if (!pieces_.empty()) pieces_.push_back(kWhole);
-  if (!p_view.attributes.colors.empty()) attributes_.colors.push_back(p_view.attributes.colors[index]);
-  if (!p_view.attributes.normals.empty()) attributes_.normals.push_back(p_view.attributes.normals[index]);
-  if (!p_view.attributes.materials.empty())
-    attributes_.materials.push_back(p_view.attributes.materials[index]);
+  copy_attributes(p_view.attributes, index, attributes_);
 }
 
 void TracedTriangles::add(
@@ -101,9 +103,7 @@ void TracedTriangles::add_triangles(
 
 void TracedTriangles::copy(Id id, TriangleBatch& p_view) const {
   p_view.add(p_view_[id], numbers_[id], {});
-  if (!attributes_.colors.empty()) p_view.attributes.colors.push_back(attributes_.colors[id]);
-  if (!attributes_.normals.empty()) p_view.attributes.normals.push_back(attributes_.normals[id]);
-  if (!attributes_.materials.empty()) p_view.attributes.materials.push_back(attributes_.materials[id]);
+  copy_attributes(attributes_, id, p_view.attributes);
 }
 
 bool TracedSpheres::add(const TriangleBatch& p_view, std::size_t entry) {
