@@ -22,6 +22,11 @@ constexpr double kSteepestWithWorldUp = 85;
 /// A light that shines from afar stands so many times as far away as the eye.
 constexpr double kFar = 1000;
 
+/// Orthogonal unit vectors of a camera, in the model's space; `back` points from the model to the eye.
+struct ViewAxes {
+  Vec3 right, up, back;
+};
+
 /// A point given in the axes of a camera, from the middle of the model, in distances of the eye.
 Vec3 beside(const FramingCamera& camera, const ViewAxes& axes, const Vec3& offset) {
   return sum(camera.look, scaled(sum(sum(scaled(axes.right, offset.x), scaled(axes.up, offset.y)),
@@ -91,12 +96,12 @@ constexpr double kDepthMargin = 0.5;
 /// A depth buffer tells little apart if far is more than this many times near.
 constexpr double kMostDepth = 10000;
 
-}  // namespace
-
 Vec3 unit_vector_of(UpAxis axis) {
   return {axis == UpAxis::x ? 1.0 : 0.0, axis == UpAxis::y ? 1.0 : 0.0, axis == UpAxis::z ? 1.0 : 0.0};
 }
 
+/// Seen from the front, the model's -z direction (with z up: y), turned by `azimuth` degrees about the up
+/// axis to the right and by `elevation` degrees, -90 to 90, upwards.
 ViewAxes view_axes(UpAxis up_axis, double azimuth_degrees, double elevation_degrees) {
   const Vec3 up = unit_vector_of(up_axis);
   const Vec3 front = up_axis == UpAxis::z ? Vec3{0, -1, 0} : Vec3{0, 0, 1};
@@ -109,53 +114,63 @@ ViewAxes view_axes(UpAxis up_axis, double azimuth_degrees, double elevation_degr
   return {right, cross(back, right), back};
 }
 
-Framing::Framing(const ViewAxes& axes, double fov_y_degrees, double aspect, double share)
-    : axes_(axes),
-      slope_x_(share * aspect * tangent(fov_y_degrees / 2)),
-      slope_y_(share * tangent(fov_y_degrees / 2)),
-      right_(-kInfinity),
-      left_(-kInfinity),
-      top_(-kInfinity),
-      bottom_(-kInfinity),
-      nearest_(-kInfinity),
-      farthest_(kInfinity) {}
+/// The largest values that decide a framing, over all points added: how far each side of a view volume of the
+/// slopes given has to be moved out to hold them all.
+class Framing {
+ public:
+  /// The picture shows angles of `fov_y_degrees` upwards; `aspect` is width / height. The points fill `share`
+  /// of its width or of its height, and at most so much of the other.
+  Framing(const ViewAxes& axes, double fov_y_degrees, double aspect, double share)
+      : axes_(axes),
+        slope_x_(share * aspect * tangent(fov_y_degrees / 2)),
+        slope_y_(share * tangent(fov_y_degrees / 2)) {}
 
-void Framing::add(const Vec3& p) {
-  const double a = dot(p, axes_.right), b = dot(p, axes_.up), c = dot(p, axes_.back);
-  right_ = std::max(right_, a + slope_x_ * c);
-  left_ = std::max(left_, -a + slope_x_ * c);
-  top_ = std::max(top_, b + slope_y_ * c);
-  bottom_ = std::max(bottom_, -b + slope_y_ * c);
-  nearest_ = std::max(nearest_, c);
-  farthest_ = std::min(farthest_, c);
-}
-
-// An eye at (x, y, z) sees a point (a, b, c) within the share if |a - x| <= slope_x (z - c) and |b - y| <=
-// slope_y (z - c): a + slope_x c <= x + slope_x z and -a + slope_x c <= -x + slope_x z. Added up, they give
-// the least z.
-FramingCamera Framing::camera(const std::optional<Vec3>& at, double zoom) const {
-  const double x = (right_ - left_) / 2, y = (top_ - bottom_) / 2;
-  const double z = std::max((right_ + left_) / (2 * slope_x_), (top_ + bottom_) / (2 * slope_y_));
-  const double middle = nearest_ + (farthest_ - nearest_) / 2;
-  const auto on_axis = [&](double depth) {
-    return sum(sum(scaled(axes_.right, x), scaled(axes_.up, y)), scaled(axes_.back, depth));
-  };
-  FramingCamera camera;
-  camera.eye = on_axis(z);
-  camera.look = on_axis(middle);
-  camera.up = axes_.up;
-  camera.distance = z - middle;
-  double eye_depth = z;
-  if (at || zoom != 1) {
-    if (at) camera.look = *at;
-    camera.distance /= zoom;
-    camera.eye = sum(camera.look, scaled(axes_.back, camera.distance));
-    eye_depth = dot(camera.eye, axes_.back);
+  void add(const Vec3& p) {
+    const double a = dot(p, axes_.right), b = dot(p, axes_.up), c = dot(p, axes_.back);
+    right_ = std::max(right_, a + slope_x_ * c);
+    left_ = std::max(left_, -a + slope_x_ * c);
+    top_ = std::max(top_, b + slope_y_ * c);
+    bottom_ = std::max(bottom_, -b + slope_y_ * c);
+    nearest_ = std::max(nearest_, c);
+    farthest_ = std::min(farthest_, c);
   }
-  camera.far = (eye_depth - farthest_) + kDepthMargin * camera.distance;
-  camera.near = std::max((eye_depth - nearest_) * kDepthMargin, camera.far / kMostDepth);
-  return camera;
-}
+  /// For points that do not all coincide. With `at`, it looks there instead; `zoom` divides its distance.
+  [[nodiscard]] FramingCamera camera(const std::optional<Vec3>& at, double zoom) const {
+    // An eye at (x, y, z) sees a point (a, b, c) within the share if |a - x| <= slope_x (z - c) and |b - y|
+    // <= slope_y (z - c): a + slope_x c <= x + slope_x z and -a + slope_x c <= -x + slope_x z. Added up, they
+    // give the least z.
+    const double x = (right_ - left_) / 2, y = (top_ - bottom_) / 2;
+    const double z = std::max((right_ + left_) / (2 * slope_x_), (top_ + bottom_) / (2 * slope_y_));
+    const double middle = nearest_ + (farthest_ - nearest_) / 2;
+    const auto on_axis = [&](double depth) {
+      return sum(sum(scaled(axes_.right, x), scaled(axes_.up, y)), scaled(axes_.back, depth));
+    };
+    FramingCamera camera;
+    camera.eye = on_axis(z);
+    camera.look = on_axis(middle);
+    camera.up = axes_.up;
+    camera.distance = z - middle;
+    double eye_depth = z;
+    if (at || zoom != 1) {
+      if (at) camera.look = *at;
+      camera.distance /= zoom;
+      camera.eye = sum(camera.look, scaled(axes_.back, camera.distance));
+      eye_depth = dot(camera.eye, axes_.back);
+    }
+    camera.far = (eye_depth - farthest_) + kDepthMargin * camera.distance;
+    camera.near = std::max((eye_depth - nearest_) * kDepthMargin, camera.far / kMostDepth);
+    return camera;
+  }
+
+ private:
+  ViewAxes axes_;
+  double slope_x_, slope_y_;
+  // The largest a + slope c and -a + slope c of points (a, b, c), the same for b.
+  double right_ = -kInfinity, left_ = -kInfinity, top_ = -kInfinity, bottom_ = -kInfinity;
+  double nearest_ = -kInfinity, farthest_ = kInfinity;  // the largest and the smallest c
+};
+
+}  // namespace
 
 SceneSetting framed_setting(const ImportedModel& model, const ViewChoice& view) {
   Framing framing(view_axes(view.up, view.azimuth_degrees, view.elevation_degrees), view.fov_y_degrees,
