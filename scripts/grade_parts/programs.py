@@ -9,7 +9,7 @@ import tempfile
 
 from lib.judging.hand_in import KINDS
 from lib.judging.judge import HandIn as Judge
-from lib.judging.program import ProgramError, confined, hand_in, outcome, run_program
+from lib.judging.program import ProgramError, confined, expect_repetition, hand_in, outcome, run_program
 from lib.judging.reference import kinds_of
 from lib.judging.verdict import WRONG, Cause, FileVerdict, Verdict
 from grade_parts.assignment import SECONDS_OF_BUILD, SECONDS_OF_RUN
@@ -180,8 +180,9 @@ def verdicts(contents, tests, limits):
                 reason = f"the program failed: {error}"
                 yield {}, failure(test, reason), f"{test.name}: {reason}"
                 continue
-            judge = Judge(files, test.reference, kinds_of(test.reference.config))
-            yield files, Verdict(judge.judge().of(program.stage)), ""
+            verdict = Judge(files, test.reference, kinds_of(test.reference.config)).judge()
+            expect_repetition(program.stage, verdict, files, lambda test=test: built.files(test))
+            yield files, Verdict(verdict.of(program.stage)), ""
 
 
 def failure(test, reason):

@@ -529,6 +529,12 @@ class Shared(unittest.TestCase):
                               stdout=subprocess.PIPE, text=True)
         self.assertRegex(done.stdout, r"\A.+\n.+\n\n\d+ of \d+ wrong numbers: x and z are negated\n")
 
+    def test_a_random_output_is_told(self):
+        random = "$(od -An -N3 -tu4 /dev/urandom | tr -d ' ')"
+        program = sh(f"{BIN}/model --bare | awk -v t={random} 'NF {{$1 = t * NR * NR}} 1'")
+        done = conform("--stage", "model", "--assignment", "--only", "translate-*", "--", *program)
+        self.assertRegex(done.stdout, r"\n# Its output is random: two runs on model/translate-[a-z-]+ differ.\n")
+
     def test_a_guess_names_the_mistake_whose_cases_fail(self):
         program = sh(f"sed '/^up/s/.*/up 0 2 0/' | {BIN}/view")
         done = conform("--stage", "view", "--basic", "--without", "syntax", "--only", "[lru]*", "--",

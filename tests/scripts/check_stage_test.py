@@ -14,7 +14,7 @@ from toolbox import BIN, SOURCE, ToolTest
 
 SCENE = ("3 4 7\n0.3 -0.2 0.1\n0.2 1 0.1\n50 1.3 1 50\ntriangle\n0 0 0\n1 0 0.3\n0 1 0\ntriangle\n0.5 0.2 "
          "-1\n1 0.7 0\n0 -1 0\nend\n")
-SAMPLES = ("worked-example", "one-triangle", "two-triangles", "nested-transforms", "tilted-camera", "torus")
+SCENES = ("1-one-triangle", "2-camera", "3-transforms", "4-push-and-pop", "5-window", "6-hidden-surfaces")
 
 
 def check(*words):
@@ -49,22 +49,23 @@ class Program(ToolTest):
         for stage in ("model", "view", "project", "zbuf"):
             self.assertEqual(self.told(stage, f'exec "$BIN/{stage}" "$@"', status=0), "scene: right\n")
 
-    def test_ours_are_right_on_the_samples(self):
-        done = check("view", "--", BIN / "view")
-        *tried, others = done.stdout.splitlines()
-        self.assertEqual((tried, done.returncode), ([f"{name}: right" for name in SAMPLES], 0))
-        self.assertRegex(others, "^not tried: ")
-        self.assertEqual({path.parent.name
-                          for path in (SOURCE / "samples").glob("*/scene.txt")},
-                         {*SAMPLES, *re.findall(r"[a-z]+(?:-[a-z]+)*(?=,| \()", others)})
+    def test_ours_are_right_on_the_six_scenes(self):
+        for stage in ("model", "zbuf"):
+            *tried, others = check(stage, "--", BIN / stage).stdout.splitlines()
+            self.assertEqual(tried, [f"{name}: right" for name in SCENES])
+            self.assertRegex(others, "^not tried: parallel projections, ")
+
+    def test_limits_that_are_ignored_are_found(self):
+        for lines, ignored, words in ("2,3", "-1", "window's"), ("4", "-1 1", "depth"):
+            program = f"sed '{lines}s/.*/{ignored}/' {{config}} > mine; exec {BIN}/zbuf mine"
+            self.assertIn(f"  cause: The {words} limits are -1 and 1 in place of those of the config\n",
+                          check("zbuf", "--", "sh", "-c", program).stdout)
 
     def test_comments_are_taken_out_unless_asked_for(self):
-        text = 'tee scene.txt | "$BIN/model"; ! grep -q "#" scene.txt {scene}'
-        done = check("model", "--", "sh", "-c", f"BIN={BIN}; {text}")
-        self.assertEqual((done.returncode, done.stdout.count(": right")), (0, len(SAMPLES)), done.stdout)
-        done = check("model", "--comments", "--", "sh", "-c", f"BIN={BIN}; {text}")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("wrong: its exit status is 1", done.stdout)
+        pathlib.Path("scene").write_text("# a camera\n" + SCENE)
+        words = "--scene", "scene", "--", "sh", "-c", f"tee text | {BIN}/model; ! grep -q '#' text {{scene}}"
+        self.assertEqual(check("model", *words).stdout, "scene: right\n")
+        self.assertIn("wrong: its exit status is 1", check("model", "--comments", *words).stdout)
 
     def test_watch_runs_again_when_the_program_has_changed(self):
         words = [SOURCE / "scripts/check-stage", "--read", BIN, "view", "--scene", "scene", "--watch", "--",
@@ -129,35 +130,19 @@ class Program(ToolTest):
             "scene: wrong: its numbers are right, but project refuses it: ",
             self.told("view", talk.replace('/project"', f'/view" --bare --scene "{scene}"'), "--bare"))
 
-    def test_a_program_that_knows_perspectives_alone_gets_past_the_parallel_samples(self):
-        path = script("""tee text | grep -q ^ortho && { echo "no such camera" >&2; exit 1; }
-            exec "$BIN/project" text""")
-        done = check("project", "--", path)
-        *tried, others = done.stdout.splitlines()
-        left_out = "left out: its projection is ortho, on which its exit status is 1 (no such camera)"
-        self.assertEqual((tried, done.returncode), ([
-            "worked-example: right", f"one-triangle: {left_out}", f"two-triangles: {left_out}",
-            "nested-transforms: right", "tilted-camera: right", "tilted-camera with aspect 1.25: right",
-            "torus: right"], 0))
-
-        script("""tee text | sed -n "s/^ortho.*/nan nan nan/p" | grep . || exec "$BIN/project" text""")
-        told = check("project", "--", path).stdout
-        self.assertIn("one-triangle: left out: its projection is ortho, on which it wrote nan\n", told)
-        self.assertIn("torus: right\n", told)
-
     def test_the_aspect_of_opengl_is_right_where_a_scene_says_so(self):
         program = script("""exec "$BIN/project" --aspect ratio""")
         done = check("project", "--", program)
         self.assertRegex(
             done.stdout,
-            "\ntilted-camera with aspect 1.25: wrong\n(?:  .*\n)*  if your course takes the aspect as width "
+            "\n2-camera: wrong\n(?:  .*\n)*  if your course takes the aspect as width "
             "/ height, as OpenGL does, this is right: "
         )
         pathlib.Path("scene").write_text(SCENE.replace("50 1.3 1 50", "50 1.3 1 50 ratio"))
         done = check("project", "--scene", "scene", "--", program)
         self.assertEqual((done.stdout, done.returncode), ("scene: right\n", 0))
 
-    def test_a_parallel_scene_that_was_asked_for_is_not_left_out(self):
+    def test_a_program_that_fails_is_told_of_a_parallel_projection(self):
         pathlib.Path("scene").write_text(SCENE.replace("50 1.3 1 50", "ortho -2 2 -2 2 1 50"))
         told = self.told("project", "echo no such camera >&2; exit 1")
         self.assertEqual(told, "scene: wrong: its exit status is 1\n  its stderr:\n    no such camera\n"
@@ -166,7 +151,7 @@ class Program(ToolTest):
     def test_an_aspect_that_is_ignored_is_found(self):
         ignoring = """sed 's/^\\(perspective [^ ]*\\) [^ ]*/\\1 1/' | "$BIN/project\""""
         done = check("project", "--", script(ignoring))
-        self.assertIn("tilted-camera: right\ntilted-camera with aspect 1.25: wrong\n", done.stdout)
+        self.assertIn("1-one-triangle: right\n2-camera: wrong\n", done.stdout)
         self.assertIn("  cause: The horizontal angle of view is the vertical one: the aspect is ignored\n",
                       done.stdout)
         self.assertEqual(done.returncode, 1)

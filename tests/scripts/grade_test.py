@@ -355,6 +355,17 @@ class Results(ClassTest):
                               timeout=120, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual((done.returncode, self.scores()), (0, {"anna": 6.0}), done.stderr)
 
+    @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
+    def test_a_program_whose_runs_differ_is_told(self):
+        pathlib.Path("tests/assignment.txt").write_text("program view\nrun python3 view.py\n")
+        os.mkdir("hand-ins/anna")
+        pathlib.Path("hand-ins/anna/view.py").write_text(
+            "import random\nfor line in open(0):\n    words = line.split()\n    if len(words) == 3:\n"
+            "        print(random.random(), random.random(), words[2])\n")
+        self.grade()
+        self.assertEqual(self.scores(), {"anna": 0.0})
+        self.assertIn("Some numbers are random: two runs of the program on the same text differ", self.page(1))
+
     def test_each_mistake_has_its_fix(self):
         self.assertEqual(list(sentences("fixes.txt")), list(sentences()))
 

@@ -1,4 +1,5 @@
 """A program in the place of a stage: what it is fed, how it is run, and what it hands in."""
+import contextlib
 import os
 import re
 import resource
@@ -7,6 +8,7 @@ import tempfile
 
 from lib.judging.hand_in import KINDS, File, fitting_names
 from lib.rim.places import place
+from lib.judging.verdict import WRONG, Cause, cause_of
 from lib.rim.command import shown
 from lib.rim.input_file import InputError
 from lib.running.pipe_tools import OPAQUE_NOTE, opaque_background, with_opaque_background
@@ -17,6 +19,7 @@ from conform_parts.workers import spread  # noqa: E402
 
 STAGES = {"model": None, "view": "stage1", "project": "stage2",
           "zbuf": "stage3"}  # with the kind of file that each reads
+RANDOM = "Some numbers are random: two runs of the program on the same text differ"
 WRITES = {"model": "stage1", "view": "stage2", "project": "stage3", "zbuf": "depths"}
 
 
@@ -96,6 +99,18 @@ def hand_in(stage, output, before, folder):
     return {
         **files, "picture": written["picture"],
         "depths": written["depths"] if written["depths"].data else File("stdout", output)}
+
+
+def expect_repetition(stage, verdict, files, run):
+    """Gives wrong files without a known cause the one that another run writes something else. `run` gives the
+    Files of another run."""
+    wrong = [file for file in verdict.of(stage) if file.verdict == WRONG]
+    if not wrong or any(file.causes for file in wrong):
+        return
+    with contextlib.suppress(ProgramError):
+        if run()[WRITES[stage]].data != files[WRITES[stage]].data:
+            for file in wrong:
+                file.causes = [cause_of("zbuf/random-pixels") if stage == "zbuf" else Cause("", RANDOM)]
 
 
 def read_file(name, folder, others):

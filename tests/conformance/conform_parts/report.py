@@ -85,6 +85,12 @@ def cases_by_mistake(results):
     return caught_by
 
 
+def without_a_mistake(results):
+    """Those whose wrong output no mistake explains."""
+    return [result for heading in headings(results) if not heading.names for result in heading.results
+            if not result.difference.is_failure]
+
+
 def most_like(heading, results):
     """The mistakes whose cases are most nearly those that fail for no mistake of the list: a guess, or
     none."""
@@ -105,11 +111,12 @@ def shared_by_most(results):
     return shared.sentence([point for difference in wrong for point in difference.points])
 
 
-def table(results, mistakes):
+def table(results, mistakes, chance):
     """The failing cases by mistake, each with the one of the shortest input, its reason, and what it expected
-    and found."""
-    sentence = shared_by_most(results)
-    lines = ["#", f"# {sentence}"] if sentence else []
+    and found; before them, what most share, and the sentence `chance`."""
+    lines = []
+    for sentence in filter(None, (chance, shared_by_most(results))):
+        lines += ["#", f"# {sentence}"]
     wrong = [result.difference.other_rule for result in results if result.state == "wrong"]
     if wrong and wrong[0] and wrong.count(wrong[0]) == len(wrong):
         lines += ["#", f"# By --rule {wrong[0]} all of these are right."]
@@ -118,7 +125,8 @@ def table(results, mistakes):
         count = f"{len(heading.results)} case{'s' * (len(heading.results) > 1)}"
         lines += ["#", "# " + " or ".join(heading.names or [heading.title]) + ": " + count]
         lines += ["#   " + mistakes[name] for name in heading.names]
-        lines += [f"#   most like {name}: {mistakes[name]}" for name in most_like(heading, results)]
+        names = [] if chance else most_like(heading, results)
+        lines += [f"#   most like {name}: {mistakes[name]}" for name in names]
         lines += [f"#   first, by length: {first.case.name}", paragraph_line(first.case),
                   f"#   why: {first.case.why}", *difference_lines(first.difference),
                   *other_lines(heading.results, first)]
@@ -170,10 +178,10 @@ def verdict(results):
     return f"WRONG: {wrong} of {counted}" if wrong else f"RIGHT: all of {counted}"
 
 
-def for_people(results, mistakes, note):
+def for_people(results, mistakes, chance, note):
     """The verdict and a note, what explains it, and the verdict again, since the beginning of a long text is
     soon out of sight."""
-    why = [line[2:] for line in [*table(results, mistakes), *group_lines(results)]]
+    why = [line[2:] for line in [*table(results, mistakes, chance), *group_lines(results)]]
     return [verdict(results), note, *why, "", verdict(results)] if why else [verdict(results), note]
 
 
