@@ -70,6 +70,9 @@ PngWriter::PngWriter(int descriptor, const std::string& path, PixelBytes pixels,
     png_set_write_fn(s.png, &s.sink, write_bytes, nullptr);
     png_set_IHDR(s.png, s.info, static_cast<png_uint_32>(columns), static_cast<png_uint_32>(rows), bits, type,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    // libpng's own choice, every filter tried at level 6, takes twice as long for 5 % fewer bytes.
+    png_set_filter(s.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_compression_level(s.png, 4);
     png_write_info(s.png, s.info);
   });
 }
