@@ -193,7 +193,7 @@ def read_test(folder, name, settings):
     config, weight = (optional(os.path.join(folder, file)) for file in ("config.txt", "weight.txt"))
     program = settings.program
     try:
-        reference = Reference(scene, config, Tools())
+        reference = Reference(scene, config, Tools(has_many_pipes=True))
     except JudgeError as error:
         raise CommandFailure(f"{shown(folder)}: {error}") from None
     try:

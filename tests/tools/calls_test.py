@@ -7,13 +7,12 @@ usage: tools/calls_test.py BIN_DIR FAULT_SHIM [UNITTEST ARGUMENT...]
 import errno
 import os
 import pathlib
-import resource
 import sys
 import tempfile
 import unittest
 
 from older_files import OLD_IMAGE, OlderImageTest
-from toolbox import DRAWING, run, tool_inputs
+from toolbox import CAMERA, DRAWING, TRIANGLE, run, stage_texts, tool_inputs
 
 SHIM = str(pathlib.Path(sys.argv.pop(1)).resolve())
 
@@ -146,17 +145,30 @@ class Faults(FaultTest):
                 self.assertEqual((done.returncode, done.stdout), (0, good), which)
 
     def test_threads_the_system_refuses_are_done_without(self):
-        def leave_no_room_for_stacks():
-            resource.setrlimit(resource.RLIMIT_STACK, (1 << 32, resource.getrlimit(resource.RLIMIT_STACK)[1]))
-            resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
-
-        for tool, operands, text in tool_inputs():
+        for tool, operands, text in tool_inputs()[-2:]:
             good, image = self.good_run(tool, operands, text)
-            done = run(tool, *operands, *(["--threads", 8] if tool in DRAWING else []), stdin=text,
-                       preexec_fn=leave_no_room_for_stacks)
-            self.assert_quiet_success(done)
-            self.assertEqual(done.stdout, good)
-            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool in DRAWING else OLD_IMAGE)
+            for number in (1, 3):
+                done, was_reached = self.run_with_fault("thread", number, errno.EAGAIN, tool,
+                                                        [*operands, "--threads", 8], text)
+                self.assertTrue(was_reached)
+                self.assert_quiet_success(done)
+                self.assertEqual((done.stdout, pathlib.Path("out.bmp").read_bytes()), (good, image))
+
+    @unittest.skipIf(len(os.sched_getaffinity(0)) == 1, "there is one core")
+    def test_threads_start_where_a_picture_is_worth_two(self):
+        """A thread takes 2^21 samples; a sample counts one and four for each light, a ray or a triangle
+        counts 256."""
+        *_, (zbuf, _, ndc), (trace, _, view) = tool_inputs()
+        lit = stage_texts(CAMERA + "light 1 2 3 1 1 1\nlight 3 2 1 1 1 1\n" + TRIANGLE + "end\n")[2]
+        for tool, text, options, size, expected in (
+            (zbuf, ndc, [], "2048x2047", False), (zbuf, ndc, [], "2048x2048", True),
+            (zbuf, ndc, ["--samples", 2], "1024x1024", True), (zbuf, lit, [], "682x683", False),
+            (zbuf, lit, [], "683x683", True), (zbuf, lit, ["--threads", 1], "683x683", False),
+            (zbuf, lit, ["--shading", "none"], "683x683", False), (trace, view, [], "126x130", False),
+            (trace, view, [], "128x128", True), (trace, view, ["--samples", 2], "64x64", True)):
+            done, was_started = self.run_with_fault("thread", 1, errno.EAGAIN, tool, [
+                "--size", size, "--z-buffer", "none", *options], text)
+            self.assertEqual((done.returncode, was_started), (0, expected), (tool, options, size))
 
     def test_a_link_or_rename_that_fails_leaves_the_old_image(self):
         tool, operands, text = tool_inputs()[3]

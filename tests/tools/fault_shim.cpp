@@ -2,7 +2,7 @@
 // short.
 //
 //   FAULT_CALL   malloc (any allocation), write, read, seek, close, close of stdout, close of data (of
-//                a file that was written to), access, link or rename
+//                a file that was written to), access, link, rename or thread
 //   FAULT_AT     the number of the call that fails, from 1
 //   FAULT_ERRNO  its errno
 //   FAULT_MARK   a file that is created when it fails
@@ -10,6 +10,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -106,6 +107,11 @@ int linkat(int from_folder, const char* from, int to_folder, const char* to, int
 int access(const char* path, int mode) noexcept {
   static const auto next = next_one<int (*)(const char*, int)>("access");
   return fails("access") ? -1 : next(path, mode);
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*work)(void*), void* data) {
+  static const auto next = next_one<decltype(&pthread_create)>("pthread_create");
+  return fails("thread") ? errno : next(thread, attributes, work, data);
 }
 
 int rename(const char* from, const char* to) noexcept {

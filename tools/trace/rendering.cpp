@@ -35,6 +35,13 @@ PictureRays rays_of(const TraceOptions& chosen) {
           .counts_covered = chosen.summarizes};
 }
 
+/// A ray, or a triangle of the hierarchy, takes as long as 256 samples that zbuf draws.
+int threads_for(const TraceOptions& chosen, const Viewport& screen, std::size_t triangle_count) {
+  const auto samples = static_cast<std::size_t>(chosen.sample_count);
+  const auto pixels = static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.rows);
+  return chosen.threads_for(256 * (pixels * samples * samples + triangle_count));
+}
+
 /// Why triangles do not show: the notes of `project` and of `zbuf`.
 std::optional<std::string> unseen_triangles_note(const TracedScene& scene) {
   if (auto note = scene.view().note()) return note;
@@ -81,7 +88,7 @@ class Rendering {
   }
 
   TracedPicture cast() {
-    ThreadPool pool(chosen_.thread_count);
+    ThreadPool pool(threads_for(chosen_, screen_, tool_.timing().triangle_count));
     auto last = std::chrono::steady_clock::now();
     const auto lap = [&] {
       const auto now = std::chrono::steady_clock::now();

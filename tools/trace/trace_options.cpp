@@ -1,9 +1,7 @@
 #include "tools/trace/trace_options.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
-#include <thread>
 
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/text/error.h"
@@ -11,7 +9,6 @@
 namespace pipeline {
 namespace {
 
-constexpr int kMaxThreads = 256;
 constexpr int kSamplesOfSampling = 5;
 
 constexpr std::array kSamplings = {"basic", "regular", "jittered", "adaptive"};  // by Sampling
@@ -51,7 +48,7 @@ void TraceOptions::add_pixels(CommandLine& options) {
       "With --sampling adaptive: the first samples of a pixel are alike if no channel differs by "
       "this much; 0 takes all samples; N");
   options.add_whole("--threads", thread_count, 0, kMaxThreads,
-                    "How many threads trace rays, 0 for one on every core");
+                    "How many threads trace rays, 0 for as many as pay");
 }
 
 void TraceOptions::add_color_and_light(CommandLine& options) {
@@ -82,8 +79,6 @@ void TraceOptions::complete(const CommandLine& options, bool is_terminal) {
         "--threshold: " +
         expected_but_found("--sampling adaptive, which alone has one",
                            sampling ? kSamplings[static_cast<std::size_t>(*sampling)] : "no --sampling"));
-  if (thread_count == 0)
-    thread_count = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
 }
 
 }  // namespace pipeline

@@ -16,7 +16,6 @@ struct TraceOptions : PictureOptions {
   ProjectionOptions projection;
   std::optional<Sampling> sampling;  // none: regular
   int threshold = 8;                 // of adaptive sampling: the difference of colors, in levels of 255
-  int thread_count = 0;              // 0: as `complete` chooses, one on every core
   bool without_shadows = false;
   bool without_recursion = false;
   double min_contribution = 1.0 / 510;

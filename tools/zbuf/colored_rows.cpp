@@ -1,5 +1,7 @@
 #include "tools/zbuf/colored_rows.h"
 
+#include <utility>
+
 namespace pipeline {
 namespace {
 
@@ -16,6 +18,7 @@ ColoredRows::ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& sha
       row_(first_row),
       pool_(shader ? thread_count : 1) {
   waiting_.resize(static_cast<std::size_t>(kRowsOfThread * pool_.size()));
+  colored_.resize(waiting_.size());
   if (shader) shader->set_workers(pool_.size());
 }
 
@@ -28,20 +31,25 @@ void ColoredRows::add(std::span<const PixelTag> tags) {
   const int row = row_ + static_cast<int>(count_);
   if (edges_ != nullptr) tags = edges_->row(row, *shader_->setup().wireframe);
   waiting_[count_].tags.assign(tags.begin(), tags.end());
-  if (++count_ == waiting_.size()) finish();
+  if (++count_ == waiting_.size()) color();
 }
 
-void ColoredRows::finish() {
-  if (count_ == 0) return;
+void ColoredRows::color() {
   pool_.start(static_cast<int>(count_), [this](int number, int worker) {
     Row& row = waiting_[static_cast<std::size_t>(number)];
     const auto colors = shader_->shade(row_ + number, row.tags, worker);
     row.colors.assign(colors.begin(), colors.end());
   });
+  for (std::size_t i = 0; i < colored_count_; ++i) outputs_.write_colors(colored_[i].colors);
   pool_.finish();
-  for (std::size_t i = 0; i < count_; ++i) outputs_.write_colors(waiting_[i].colors);
   row_ += static_cast<int>(count_);
-  count_ = 0;
+  waiting_.swap(colored_);
+  colored_count_ = std::exchange(count_, 0);
+}
+
+void ColoredRows::finish() {
+  color();
+  color();
 }
 
 }  // namespace pipeline

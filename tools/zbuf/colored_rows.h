@@ -14,7 +14,7 @@
 namespace pipeline {
 
 /// Colors the rows of an image, of pixels or of samples, by their tags; where surfaces are shaded, some rows
-/// at a time on threads.
+/// at a time on threads, while those before them are written.
 class ColoredRows {
  public:
   /// Without a shader, the store knows the colors; `edges` may be null.
@@ -23,7 +23,7 @@ class ColoredRows {
 
   /// Takes the next row.
   void add(std::span<const PixelTag> tags);
-  /// Writes the rows that wait.
+  /// Colors and writes the rows that wait.
   void finish();
 
  private:
@@ -31,15 +31,16 @@ class ColoredRows {
     std::vector<PixelTag> tags;
     std::vector<Color> colors;
   };
+  void color();
 
   TriangleStore& store_;
   std::optional<SurfaceShader>& shader_;
   AllEdges* edges_;
   PictureOutputs& outputs_;
   std::vector<Color> colors_;  // without a shader
-  int row_;                    // the first that is not written
-  std::vector<Row> waiting_;
-  std::size_t count_ = 0;  // of the rows that wait
+  int row_;                    // the first that is not colored
+  std::vector<Row> waiting_, colored_;
+  std::size_t count_ = 0, colored_count_ = 0;  // of those rows
   ThreadPool pool_;
 };
 

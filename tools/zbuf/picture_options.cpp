@@ -1,6 +1,8 @@
 #include "tools/zbuf/picture_options.h"
 
+#include <algorithm>
 #include <string_view>
+#include <thread>
 
 #include "libpipeline/picture/depth_image.h"
 #include "libpipeline/picture/image_file.h"
@@ -117,6 +119,13 @@ void PictureOptions::complete(bool is_terminal, bool writes_seen) {
     throw UsageError(
         (depth_array_path.empty() ? "--triangle-array: " : "--depth-array: ") +
         expected_but_found("--samples 1 with it", pipeline::quoted(std::to_string(sample_count))));
+}
+
+int PictureOptions::threads_for(std::size_t samples) const {
+  const std::size_t worth = samples >> 21;
+  if (thread_count > 0 || worth < 2) return std::max(thread_count, 1);
+  const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1U, unsigned{kMaxThreads});
+  return static_cast<int>(std::min<std::size_t>(worth, cores));
 }
 
 std::vector<NamedFile> outputs_of(const PictureOptions& chosen, const std::vector<NamedFile>& others,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "tools/rim/statistics.h"
 
 namespace pipeline {
+
+constexpr int kMaxThreads = 256;
 
 /// The options that `zbuf` and `trace` share, as members with their defaults.
 struct PictureOptions {
@@ -26,6 +29,7 @@ struct PictureOptions {
   std::string depth_array_path;         // empty: none
   std::string triangle_array_path;      // empty: none
   int sample_count = 1;                 // along each side of a pixel, for the image alone
+  int thread_count = 0;                 // 0: as threads_for() chooses
   std::optional<ShadingModel> shading;  // none: as the text's header implies
   std::string background;               // "RRGGBB[AA]"; empty: that of the text
   std::vector<std::string> probes;      // "COLUMN,ROW" each
@@ -39,6 +43,9 @@ struct PictureOptions {
   /// Chooses the options that depend on others, and on whether standard output is a terminal; without an
   /// image and depths by default where `writes_seen`. A UsageError if options exclude each other.
   void complete(bool is_terminal, bool writes_seen);
+  /// How many threads work: --threads or else one for each 2 million samples that are drawn, up to one on
+  /// every core; `samples` of them, or what takes as long.
+  [[nodiscard]] int threads_for(std::size_t samples) const;
   /// Whether an image is written, once the options are complete.
   [[nodiscard]] bool has_image() const { return !image_path.empty(); }
 

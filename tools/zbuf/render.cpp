@@ -26,6 +26,10 @@
 namespace pipeline {
 namespace {
 
+std::size_t pixel_count(const Viewport& screen) {
+  return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.drawn_row_count());
+}
+
 /// Reads the triangles into `batch()`, batch by batch, hands each to the report and calls `draw()`.
 template <typename Source, typename Batch, typename Draw>
 void for_each_batch(Tool& tool, Source& source, DrawingReport& report, Batch&& batch, Draw&& draw) {
@@ -44,7 +48,7 @@ template <typename CoverageRule, typename Depth>
 void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, TriangleStore& store,
               DrawingReport& report, SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   visible.set_depth_epsilon(chosen.rules.depth_epsilon);
-  ThreadPool pool(chosen.thread_count);
+  ThreadPool pool(chosen.threads_for(pixel_count(visible.screen)));
   SampledDrawing drawing(visible, store, pool);
   SeenDrawing<CoverageRule, Depth> seen(visible, store, chosen.rules.depth_epsilon);
   const auto draw = [&] {
@@ -86,9 +90,11 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Sampled
                const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader,
                AllEdges* edges) {
   const Viewport& screen = visible.center_screen;
+  // To light a sample by one light takes as long as to draw four.
+  const std::size_t cost = shader ? 1 + 4 * shader->setup().lighting.lights.size() : 0;
   outputs.open(screen, chosen.sample_count, store.background_color(), chosen.seen_path);
   ColoredRows colors(store, shader, edges, chosen.sample_count * screen.drawn_rows().first,
-                     chosen.thread_count, outputs);
+                     chosen.threads_for(cost * pixel_count(visible.screen)), outputs);
   std::vector<std::int64_t> numbers;
   KeptIds seen(store.id_count());
   const auto mark = [&](std::span<const PixelTag> tags) {

@@ -69,7 +69,8 @@ void ZbufOptions::add_pixels(CommandLine& options) {
   options.add_whole("--samples", sample_count, 1, kMaxSamples,
                     "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
                     "of its center; N");
-  options.add_whole("--threads", thread_count, 1, 256, "How many threads draw with the z-buffer and shade");
+  options.add_whole("--threads", thread_count, 0, kMaxThreads,
+                    "How many threads draw with the z-buffer and shade, 0 for as many as pay");
 }
 
 void ZbufOptions::complete(bool is_terminal) {

@@ -28,7 +28,6 @@ struct ZbufOptions : PictureOptions {
 
   PixelRules rules;
   Algorithm algorithm = Algorithm::zbuffer;
-  int thread_count = 1;
   std::string seen_path;  // "-": standard output; empty: no file
   std::string rows;       // "A:B", if the option is given
   bool wireframe = false;

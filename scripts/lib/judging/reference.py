@@ -129,7 +129,7 @@ class Reference:
 @functools.lru_cache(maxsize=16)
 def reference(scene, config):
     """The Reference for the bytes of a scene and of a config, or None for a config."""
-    return Reference(scene, config, Tools())
+    return Reference(scene, config, Tools(has_many_pipes=True))
 
 
 def kinds_of(config):

@@ -159,7 +159,7 @@ class Pipe:
         files = {"model": [scene or self.scene], "zbuf": output, "trace": output}
         tools = TRACING_TOOLS if setting.is_traced else TOOLS
         for tool in tools:
-            words = [self.tools.folder / tool, *self.words(tool, setting), *files.get(tool, [])]
+            words = self.tools.command(tool, [*self.words(tool, setting), *files.get(tool, [])])
             processes.append(
                 subprocess.Popen(words, stdin=source or subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                  stdout=subprocess.DEVNULL if tool == tools[-1] else subprocess.PIPE))

@@ -62,18 +62,22 @@ def checked(done, tool):
 
 
 class Tools:
-    """The tools in a folder, by default $BIN, else those that belong to the command that runs."""
+    """The tools in a folder, by default $BIN, else those that belong to the command that runs. For a command
+    of many pipes, zbuf and trace draw on one thread each."""
 
-    def __init__(self, folder=None):
+    def __init__(self, folder=None, has_many_pipes=False):
+        self.one_thread = ["--threads", "1"] if has_many_pipes else []
         # Absolute, since a bare name would be looked up on the PATH, where `view` is an editor.
         self.folder = pathlib.Path(folder or os.environ.get("BIN") or default_folder()).absolute()
         if not os.access(self.folder / "zbuf", os.X_OK):
             raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
 
+    def command(self, tool, words):
+        return [self.folder / tool, *(self.one_thread if tool in ("zbuf", "trace") else []), *map(str, words)]
+
     def run(self, tool, *words, stdin=b""):
         """A finished run with the bytes `stdin` as input, its stdout and stderr as bytes."""
-        return checked(
-            subprocess.run([self.folder / tool, *map(str, words)], input=stdin, capture_output=True), tool)
+        return checked(subprocess.run(self.command(tool, words), input=stdin, capture_output=True), tool)
 
     def output(self, tool, *words, stdin=b""):
         return self.run(tool, *words, stdin=stdin).stdout
@@ -87,8 +91,8 @@ class Tools:
     def write(self, path, tool, *words):
         """Runs a tool with its stdout in a file; its notes."""
         with open(path, "wb") as file:
-            done = subprocess.run([self.folder / tool, *map(str, words)], stdin=subprocess.DEVNULL,
-                                  stdout=file, stderr=subprocess.PIPE)
+            done = subprocess.run(self.command(tool, words), stdin=subprocess.DEVNULL, stdout=file,
+                                  stderr=subprocess.PIPE)
         return checked(done, tool).stderr.decode(errors="replace").splitlines()
 
     @staticmethod

@@ -41,7 +41,7 @@ def measured(job):
         scene, config = pathlib.Path(folder, "scene.txt"), pathlib.Path(folder, "config.txt")
         scene.write_text(text)
         config.write_text(f"{SIZE} {SIZE}\n")
-        pipe = Pipe(Tools(bin_dir), scene, config, [], folder)
+        pipe = Pipe(Tools(bin_dir, has_many_pipes=True), scene, config, [], folder)
         lossless = list(pipe.owners(centered(Setting("exact"))))
         return [{
             "axis":

@@ -206,7 +206,7 @@ ROWS = [
     Row("zbuf: flat", f"zbuf narrow.txt lit-screen.txt {NO_IMAGE} --shading flat"),
     Row("zbuf: gouraud", f"zbuf narrow.txt lit-screen.txt {NO_IMAGE} --shading gouraud"),
     Row("zbuf: phong", f"zbuf narrow.txt lit-screen.txt {NO_IMAGE} --shading phong"),
-    Row("zbuf: phong, small, 3 x 3 samples", f"zbuf narrow.txt small-lit-screen.txt {NO_IMAGE} --samples 3"),
+    Row("zbuf: phong, small, 3 x 3 samples", f"zbuf narrow.txt small-lit-screen.txt {NO_IMAGE} --samples 3 --threads 1"),
     Row("zbuf: 2 x 2 samples", f"zbuf config.txt few-large.txt {NO_IMAGE} --samples 2"),
     Row("zbuf: float depths", f"zbuf config.txt large.txt {NO_IMAGE} --depth f32"),
     Row("zbuf: 24-bit depths", f"zbuf config.txt large.txt {NO_IMAGE} --depth u24"),

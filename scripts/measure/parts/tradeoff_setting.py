@@ -6,7 +6,7 @@ TRACING_TOOLS = ("model", "view", "trace")
 TOOLS_WITH = {
     "--digits": TOOLS[:3], "--precision": TOOLS[:3], "--clip": ("project", ), "--cull": ("project", ),
     "--coverage": ("zbuf", ), "--depth": ("zbuf", ), "--depth-epsilon": ("zbuf", ), "--shading":
-        ("zbuf", "trace"), "--samples": ("zbuf", "trace"), "--threads": ("trace", ), }
+        ("zbuf", "trace"), "--samples": ("zbuf", "trace"), "--threads": ("zbuf", "trace"), }
 DEFAULTS = {"--digits": "7", "--precision": "extended", "--coverage": "nearest", "--depth": "f64"}
 
 
@@ -32,7 +32,7 @@ class Setting:
 
     def words_for(self, tool):
         """The options that the tool has."""
-        options = {"--threads": "1", **self.options} if tool == "trace" else self.options
+        options = {"--threads": "1", **self.options} if tool in ("zbuf", "trace") else self.options
         return [word for option, value in options.items() if tool in TOOLS_WITH[option]
                 for word in (option, value)]
 
