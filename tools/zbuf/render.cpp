@@ -148,8 +148,7 @@ TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, 
   return {.keeps_text = !chosen.seen_path.empty(),
           .keeps_numbers = !chosen.triangle_array_path.empty(),
           .background = background_color(reader.header().appearance, parse_color(chosen.background)),
-          .pixel_count = static_cast<std::size_t>(of_samples.columns) *
-                         static_cast<std::size_t>(of_samples.drawn_row_count()),
+          .pixel_count = pixel_count(of_samples),
           .edges = edges};
 }
 
