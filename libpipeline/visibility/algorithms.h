@@ -61,7 +61,7 @@ class ZBufferAlgorithm {
     }
     /// Draws the triangle now or later, at the latest in finish(); until then its coordinates must stay in
     /// memory.
-    void draw(const ExactTriangle& triangle, PixelTag tag) {
+    [[gnu::always_inline]] void draw(const ExactTriangle& triangle, PixelTag tag) {
       triangles_.push_back({triangle, tag});
       if (!is_low_) is_any_high_ |= !(height_of(triangle.p_ndc) < algorithm_.most_height_);
       if (triangles_.size() == kTriangles) make_spans();
