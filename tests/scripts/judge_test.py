@@ -399,14 +399,17 @@ class Wrong(HandIn):
         for one, other in (("view/eye-added", "view/l-not-negated"), ("view/up-is-0-1-0", "view/r-not-unit"),
                            ("project/fovx-equals-fovy", "project/missing-two"),
                            ("model/push-of-the-identity", "model/angle-in-radians"),
-                           ("zbuf/shifted-by-a-row", "zbuf/flat-depth")):
+                           ("zbuf/shifted-by-a-row", "zbuf/flat-depth"),
+                           ("zbuf/shifted-by-a-column", "zbuf/width-minus-one"),
+                           ("zbuf/last-wins", "zbuf/text-upside-down")):
             with self.subTest(one, other=other):
                 stage = one.split("/")[0]
                 pathlib.Path("scene.txt").write_text(self.scene)
                 pathlib.Path("config.txt").write_text(self.config)
                 subprocess.run([student.STUDENT, "all", "scene.txt", "config.txt", "--folder", ".",
                                 "--mistake", one, "--mistake", other], check=True)
-                file = next(file for file in self.verdict().files if file.stage == stage)
+                files = self.verdict().of(stage)
+                file = files[-1]  # of zbuf the picture, which is wrong, too
                 self.assertEqual([cause.name for cause in file.causes], [f"{one} and {other}"])
                 self.assertEqual(mistakes.fix(file.causes[0].name),
                                  f"{mistakes.fix(one)} {mistakes.fix(other)}")

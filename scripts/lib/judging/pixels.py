@@ -1,6 +1,7 @@
 """Stage 4 of a hand-in: under which rules, or with which mistake, its pixels are exactly what its triangles
 give."""
 import collections
+import dataclasses
 import itertools
 import math
 
@@ -71,8 +72,10 @@ class PixelJudge:
                 both = self.compare(found.mismatch.reading, found.mismatch.rule)
                 return found if self.shows_each_triangle(both) else finding
             rules = (Rule(), Rule(**CENTER)) if finding.verdict == "mistake" else self.all_open_rules()
-            return next(filter(None, (alone.exact(alone.compare(reading, rule, limit=0))
-                                      for rule in rules for reading in self.readings)), finding)
+            found = (alone.exact(alone.compare(reading, rule, limit=0))
+                     for rule in rules for reading in self.readings)
+            return next((one for one in found  # a picture of one color may be that of a mistake found
+                         if one and (one.verdict == "exact" or finding.verdict != "mistake")), finding)
         except TooMuch:
             return finding
 
@@ -302,23 +305,37 @@ class PixelJudge:
         for names, changes in MISTAKES if least >= LEAST_NEARLY else ():
             for ends in ({}, CENTER):
                 rule, most = Rule(**{**ends, **changes}), least // NEARLY
-                if not self.is_void(changes) and count(rule, most) <= most:
+                if not (self.is_void(changes) or self.is_torn(rule)) and count(rule, most) <= most:
                     mismatch = self.compare(self.first, rule)
                     if mismatch.drawn and NEARLY * len(mismatch.pixels) <= len(best.pixels):
                         found.setdefault(names, mismatch)
         return self.mistake(found) if found else None
+
+    def is_torn(self, rule):
+        """Whether the text, flipped back, has another number of depths in a row than the picture."""
+        pixels = self.shown.pixels(rule.picture_flip, rule.text_flip)
+        return bool(rule.text_flip and pixels.listed) and (
+            not any(pixels.listed) or bool(pixels.drawn) and None in pixels.depths)
 
     def mistake(self, found):
         """The Finding of {names: Mismatch}."""
         if any(len(names) == 1 for names in found):  # several at once only if no single one will do
             found = {names: mismatch for names, mismatch in found.items() if len(names) == 1}
         mismatch = next(iter(found.values()))
-        flips = mismatch.rule.picture_flip, mismatch.rule.text_flip
-        touches = ("picture", ) if flips[0] and not flips[1] and self.shown.depths else (
-            "depths", ) if flips[1] and not flips[0] else ("depths", "picture")
         return Finding("mistake", mismatch, in_words(mismatch.rule),
-                       [cause_of_all("zbuf", names) for names in found], touches,
+                       [cause_of_all("zbuf", names) for names in found], self.touched(mismatch),
                        total=mismatch.drawn)
+
+    def touched(self, mismatch):
+        """The files that a mistake spoils: one of them if it only turns its rows."""
+        rule = mismatch.rule
+        is_turn = dataclasses.replace(rule, picture_flip="", text_flip="") in self.all_open_rules()
+        if is_turn and not mismatch.pixels and not (rule.picture_flip and rule.text_flip):
+            if rule.picture_flip and self.shown.depths:
+                return ("picture", )
+            if rule.text_flip:
+                return ("depths", )
+        return "depths", "picture"
 
     def is_void(self, changes):
         """Whether a change cannot matter here."""
