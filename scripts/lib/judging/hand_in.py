@@ -74,7 +74,10 @@ def find_files(folder):
 
 
 def read_file(folder, name, others=()):
+    path, top = os.path.join(folder, name), os.path.realpath(folder)
     try:
-        return File(shown(name), read_input(os.path.join(folder, name), only_regular=True), None, others)
+        if os.path.commonpath((top, os.path.realpath(path))) != top:
+            raise InputError(path, "a link that leads out of the hand-in")
+        return File(shown(name), read_input(path, only_regular=True), None, others)
     except InputError as error:
         return File(shown(name), None, error, others)
