@@ -86,9 +86,9 @@ def cases_by_mistake(results):
 
 
 def without_a_mistake(results):
-    """Those whose wrong output no mistake explains."""
+    """Those whose wrong output no mistake explains; no refusals, whose messages may name folders."""
     return [result for heading in headings(results) if not heading.names for result in heading.results
-            if not result.difference.is_failure]
+            if not result.difference.is_failure and result.case.refused_line is None]
 
 
 def most_like(heading, results):
