@@ -82,6 +82,11 @@ def causes_of_order(theirs, expected, digits):
     return [Cause("", text) for text in [next(filter(None, texts), "")] if text]
 
 
+def used_digits(theirs):
+    """Mistakes are not named by numbers that show too few digits."""
+    return EXACT if theirs.digits.are_too_few else theirs.digits
+
+
 def triangles_of(points):
     points = list(points)
     return [points[i:i + 3] for i in range(0, len(points), 3)]
@@ -110,36 +115,32 @@ class StageJudge:
     def model(self, name, theirs):
         """The Outcome for Points."""
         scene, count = self.scene, len(self.scene.triangle_lines)
-        digits = EXACT if theirs.digits.are_too_few else theirs.digits
+        digits = used_digits(theirs)
         if len(theirs) != 3 * count:
             return Outcome(count_verdict("model", name, theirs, [scene.world()], digits,
                                          scene.triangle_lines))
-        slacks = [slacks for _, slacks in scene.world()]
-        if not differs(theirs.points, digits, zip(self.exact_world, slacks)):
+        right = [(p, slacks) for p, (_, slacks) in zip(self.exact_world, scene.world())]
+        if not differs(theirs.points, digits, right):
             return Outcome(right_verdict("model", name, theirs), self.exact_world)
         for pi in ROUGH_PIS:
             habit = Habit(turn=turned_with(pi))
             if not differs(theirs.points, digits, scene.world(habit)):
                 return Outcome(right_verdict("model", name, theirs, f"pi is taken as {pi:.8g}"),
                                [p for p, _ in scene.world(habit)])
-        found = self.model_mistakes(theirs.points, digits)
-        untouched = self.scene.untouched()
+        found, untouched = self.model_mistakes(theirs.points, digits), scene.untouched()
+        result = difference(theirs.points, digits, right)
+        verdict = self.wrong("model", name, theirs, result)
         if not found and not differs(theirs.points, digits, ((p, NO_UNITS) for p in untouched)):
-            verdict = self.wrong("model", name, theirs,
-                                 difference(theirs.points, digits, zip(self.exact_world, slacks)))
             verdict.causes = [
                 Cause("", "The points are those of the scene: no transformation is carried out")]
             return Outcome(verdict, untouched)
         if not found and theirs.digits.are_too_few:
-            return self.outcome_of_few_digits("model", name, theirs, [zip(self.exact_world, slacks)])
-        result = difference(theirs.points, digits, zip(self.exact_world, slacks))
-        verdict = self.wrong("model", name, theirs, result)
+            return self.outcome_of_few_digits("model", name, theirs, [right])
         place = self.place_of(result.first_triangle)
         verdict.causes = [
             cause_of("model/" + mistake, place if i == len(found) - 1 else "")
             for i, mistake in enumerate(found)]
         if not found:
-            right = list(zip(self.exact_world, slacks))
             verdict.causes = causes_of_order(theirs, [right], digits) or self.two_of_model(
                 theirs.points, digits) or some_vertices.causes(
                 result, count, lambda part: not differs(theirs.points[part], digits, right[part]),
@@ -192,7 +193,7 @@ class StageJudge:
         right = [("", self.scene.of_project(), True)]
         if self.scene.projection.kind == "perspective":
             right += [(f"pi is taken as {pi:.8g}", self.scene.of_project(pi=pi), True) for pi in ROUGH_PIS]
-        digits = EXACT if theirs.digits.are_too_few else theirs.digits
+        digits = used_digits(theirs)
         for points in reversed(others):  # the exact ones are what the program may have in memory
             if len(points) == len(theirs) and not differs(theirs.points, digits,
                                                           ((p, NO_UNITS) for p in points)):
@@ -202,25 +203,32 @@ class StageJudge:
     def by_matrix(self, stage, name, theirs, readings, right):
         """The Outcome of a stage that is one matrix for all points. `right` has (rule in words, matrix,
         whether it divides)."""
-        given = readings
-        readings = [reading for reading in given if len(reading.points) == len(theirs)]
-        digits = EXACT if theirs.digits.are_too_few else theirs.digits
-        reach = math.hypot(*self.scene.eye) if stage == "view" else 0.0
-        if not readings and given:
-            return Outcome(
-                count_verdict(stage, name, theirs, [
-                    matrix_images(m, is_divided, reading, reach)
-                    for reading in given
-                    for _, m, is_divided in right], digits))
         if not readings:
             return undecided_outcome(stage, name)
-        memory = readings[-1].points
+        fitting = [reading for reading in readings if len(reading.points) == len(theirs)]
+        if fitting:
+            return self.by_images(stage, name, theirs, fitting, right)
+        return Outcome(
+            count_verdict(stage, name, theirs, [
+                matrix_images(m, is_divided, reading, self.reach(stage))
+                for reading in readings
+                for _, m, is_divided in right], used_digits(theirs)))
+
+    def reach(self, stage):
+        return math.hypot(*self.scene.eye) if stage == "view" else 0.0
+
+    def by_images(self, stage, name, theirs, readings, right):
+        """The same of a text that has as many points as the readings."""
+        digits, reach, memory = used_digits(theirs), self.reach(stage), readings[-1].points
 
         def is_by(m, is_divided, parts=ALL_VERTICES):
             return any(not any(
                 differs(theirs.points[part], digits, matrix_images(m, is_divided, reading.at(part), reach))
                 for part in parts)
                        for reading in readings)
+
+        def images(m, is_divided):
+            return [matrix_images(m, is_divided, reading, reach) for reading in readings]
 
         for rule, m, is_divided in right:
             if is_by(m, is_divided):
@@ -229,23 +237,20 @@ class StageJudge:
         causes = self.causes_of_matrices(stage, (ours, divides), is_by)
         found = causes.of_the_list()
         if not found and theirs.digits.are_too_few:
-            return self.outcome_of_few_digits(stage, name, theirs, [
-                matrix_images(m, is_divided, reading, reach)
-                for reading in readings
-                for _, m, is_divided in right])
-        result = min((difference(theirs.points, digits, matrix_images(ours, divides, reading, reach))
-                      for reading in readings), key=lambda result: result.differing)
+            return self.outcome_of_few_digits(stage, name, theirs,
+                                              [points for _, *way in right for points in images(*way)])
+        result = min((difference(theirs.points, digits, points) for points in images(ours, divides)),
+                     key=lambda result: result.differing)
         verdict = self.wrong(stage, name, theirs, result)
         found = found or causes.of_the_form() or causes.of_an_element() or causes.of_two()
         verdict.causes = [dataclasses.replace(cause, detail=self.detail(cause.name)) for cause, *_ in found]
-        verdict.causes = verdict.causes or causes_of_order(theirs, [
-            matrix_images(ours, divides, reading, reach)
-            for reading in readings], digits) or some_vertices.causes(
-                result,
-                len(theirs) // 3,
+        count = len(theirs) // 3
+        verdict.causes = verdict.causes or causes_of_order(
+            theirs, images(ours, divides), digits) or some_vertices.causes(
+                result, count,
                 lambda part: any(is_by(m, is_divided, [part]) for _, m, is_divided in right),
                 lambda parts: [cause for cause, *_ in causes.of_the_list(parts) or causes.of_the_form(parts)])
-        verdict.remarks += some_vertices.few_triangles(result, len(theirs) // 3) if not verdict.causes else []
+        verdict.remarks += some_vertices.few_triangles(result, count) if not verdict.causes else []
         verdict.matrices = fit.compare(readings[0].points, theirs.points, theirs.units, ours, divides)
         verdict.causes = verdict.causes or fit.cause_of_one_element(verdict.matrices)
         verdict.remarks += fit.known_rows(verdict, self.scene.directions() if stage == "view" else ())
