@@ -44,9 +44,11 @@ void for_each_batch(Tool& tool, Source& source, DrawingReport& report, Batch&& b
   }
 }
 
+// Not inlined: in a function of their own, the compiler inlines more of what the loops call.
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, TriangleStore& store,
-              DrawingReport& report, SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
+[[gnu::noinline]] void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader,
+                                TriangleStore& store, DrawingReport& report,
+                                SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   visible.set_depth_epsilon(chosen.rules.depth_epsilon);
   ThreadPool pool(chosen.threads_for(pixel_count(visible.screen)));
   SampledDrawing drawing(visible, store, pool);
@@ -70,8 +72,9 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, Triang
 }
 
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore& store,
-              DrawingReport& report, SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
+[[gnu::noinline]] void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore& store,
+                                DrawingReport& report,
+                                SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
     if (store.keeps_text()) store.add_texts(p_ndc, store.next_id(), {}, {});
@@ -86,9 +89,10 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore
 }
 
 template <VisibilityAlgorithm Visible>
-void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
-               const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader,
-               AllEdges* edges) {
+[[gnu::noinline]] void write_all(PictureOutputs& outputs, const ZbufOptions& chosen,
+                                 const SampledVisible<Visible>& visible, const StageReader& reader,
+                                 TriangleStore& store, std::optional<SurfaceShader>& shader,
+                                 AllEdges* edges) {
   const Viewport& screen = visible.center_screen;
   // To light a sample by one light takes as long as to draw four.
   const std::size_t cost = shader ? 1 + 4 * shader->setup().lighting.lights.size() : 0;

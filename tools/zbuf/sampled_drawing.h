@@ -48,7 +48,9 @@ class SampledDrawing {
   /// True if draw_batch() draws that batch at once, and leaves it where it is.
   [[nodiscard]] bool draws_at_once() const { return !samples_ && centers_.draws_at_once(); }
   void draw_batch() {
-    const auto tag_of = [this](const TriangleBatch& p_ndc, std::size_t i) { return store_.tag_of(p_ndc, i); };
+    const auto tag_of = [&store = store_](const TriangleBatch& p_ndc, std::size_t i) {
+      return store.tag_of(p_ndc, i);
+    };
     if (!samples_) return centers_.draw_batch(tag_of);
     TriangleBatch& batch = samples_->next_batch() = centers_.next_batch();
     tags_.clear();
