@@ -16,6 +16,13 @@ using namespace pipeline;
 
 namespace {
 
+constexpr ToolDescription kDescription = {
+    "view",
+    "Reads triangles in world space and writes them in view space.",
+    "The output of model (or stage1.txt)",
+    {"model scene.txt | view --eye 4 3 9 | project | zbuf config.txt > z_buffer.txt",
+     "view --bare --scene scene.txt stage1.txt > stage2.txt"}};
+
 /// The view transform of a camera, which needs all three parts.
 ViewTransform view_of(const CameraParameters& camera, const StageReader& reader) {
   std::vector<std::string> missing;
@@ -39,49 +46,35 @@ Appearance in_view_space(Appearance appearance, const LightOption& added, const 
   return appearance;
 }
 
-struct ViewOptions {
-  explicit ViewOptions(CommandLine& options)
-      : numbers(options), cameras(options, CameraOptions::Parts::position_and_projection), light(options) {
-    options.begin_group("Output");
-    options.add_flag("--bare", bare, "Write the triangles alone (stage2.txt)");
-  }
-
-  NumberOptions numbers;
-  CameraOptions cameras;
-  LightOption light;
-  bool bare = false;
-};
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool({"view",
-             "Reads triangles in world space and writes them in view space.",
-             "The output of model (or stage1.txt)",
-             {"model scene.txt | view --eye 4 3 9 | project | zbuf config.txt > z_buffer.txt",
-              "view --bare --scene scene.txt stage1.txt > stage2.txt"}},
-            OutputKind::stage_text);
-  ViewOptions chosen(tool.options());
+  Tool tool(kDescription, OutputKind::stage_text);
+  NumberOptions numbers(tool.options());
+  CameraOptions cameras(tool.options(), CameraOptions::Parts::position_and_projection);
+  const LightOption light(tool.options());
+  bool bare = false;
+  tool.options().begin_group("Output");
+  tool.options().add_flag("--bare", bare, "Write the triangles alone (stage2.txt)");
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
-    if (chosen.bare && chosen.light.is_given())
-      throw UsageError(expected_but_found("--bare or --light", "both"));
-    tool.expect_separate({kStandardOutput, statistics.output()}, {chosen.cameras.scene()});
+    if (bare && light.is_given()) throw UsageError(expected_but_found("--bare or --light", "both"));
+    tool.expect_separate({kStandardOutput, statistics.output()}, {cameras.scene()});
     expect_kind(tool.input(), TextKind::world);
     StageReader reader(tool.input());
     expect_header(reader, TextKind::world);
-    if (!chosen.bare) reader.accept_spheres();
-    const CameraParameters camera = chosen.cameras.camera(reader.header().camera, tool);
+    if (!bare) reader.accept_spheres();
+    const CameraParameters camera = cameras.camera(reader.header().camera, tool);
     const ViewTransform view = view_of(camera, reader);
     const VertexTransform to_view(view);
     const NormalTransform normal_to_view(view);
-    StageWriter writer(tool.output(), chosen.numbers.format(), chosen.bare);
+    StageWriter writer(tool.output(), numbers.format(), bare);
     UncertainDigits uncertain_lights;
     writer.write_header({reader.header().framed, without_position(camera),
-                         in_view_space(reader.header().appearance, chosen.light, view, uncertain_lights)});
+                         in_view_space(reader.header().appearance, light, view, uncertain_lights)});
 
-    CoordinateRounder rounder = chosen.numbers.rounder(tool.input().file());
+    CoordinateRounder rounder = numbers.rounder(tool.input().file());
     const auto transform = [&](TriangleBatch& batch) {
       for (auto& normals : batch.attributes.normals)
         for (Vec3& normal : normals) normal = normal_to_view(normal);
@@ -90,6 +83,6 @@ int main(int argc, char** argv) {
     StageLoop loop(tool, writer, rounder, statistics);
     loop.run(reader, transform, uncertain_lights);
     loop.note_if_no_triangle_came();
-    loop.write_statistics(chosen.numbers.format());
+    loop.write_statistics(numbers.format());
   });
 }
