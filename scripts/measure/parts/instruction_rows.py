@@ -86,17 +86,52 @@ def header(space, columns):
     }[space] + names + (LIGHTS if columns else "")
 
 
-def lit(space, make, count, repeats=1):
-    columns = ("w",) * (space == "screen") + ("color", "normal")
+def lit(space, make, count, repeats=1, columns=("color", "normal")):
+    columns = ("w",) * (space == "screen") + columns
     return header(space, columns) + make(count, columns=columns) * repeats
 
 
-def scene(stage_text, before_each="", after_each="", columns=()):
+def small_and_lit(*columns):
+    """Without w, which of three random corners would differ as it does in no model."""
+    return header("screen", columns) + small_on_screen(8000, columns=columns)
+
+
+PLY = """ply
+format ascii 1.0
+element vertex {}
+property float x
+property float y
+property float z
+element face {}
+property list uchar int vertex_indices
+end_header
+"""
+
+
+def model_file(form, side):
+    """A terrain of two triangles for each of side x side squares, as the text of a model file."""
+    integers, across = Integers(), side + 1
+    points = [" ".join(map(decimal, (x * UNIT, integers.within(UNIT), y * UNIT))) + "\n"
+              for y in range(across) for x in range(across)]
+    corners = [y * across + x for y in range(side) for x in range(side)]
+    faces = [face for i in corners for face in ((i, i + across, i + 1), (i + 1, i + across, i + across + 1))]
+    if form == "stl":
+        facets = ("vertex ".join(["", *(points[i] for i in face)]) for face in faces)
+        around = "facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n".format
+        return "solid terrain\n" + "".join(map(around, facets)) + "endsolid terrain\n"
+    if form == "obj":
+        return "".join(f"v {point}" for point in points) + "".join(
+            "f {} {} {}\n".format(*(i + 1 for i in face)) for face in faces)
+    return PLY.format(len(points), len(faces)) + "".join(points) + "".join(
+        "3 {} {} {}\n".format(*face) for face in faces)
+
+
+def scene(stage_text, before_each="", after_each="", columns=(), head=""):
     """A scene with the triangles of a bare stage text, and commands around each."""
     camera = "".join(line.split(" ", 1)[1] + "\n" for line in (CAMERA + PROJECTION).splitlines())
     body = "".join(f"{before_each}triangle\n{triangle}\n{after_each}" for triangle in stage_text.split("\n\n")
                    if triangle)
-    return camera + header("scene", columns) + body + "end\n"
+    return camera + head + header("scene", columns) + body + "end\n"
 
 
 def odd_numbers(stage_text):
@@ -145,6 +180,12 @@ TEXTS = {
 }
 
 TEXTS |= {
+    "one-color-scene.txt": lambda: scene(in_world(2000) * 8, head="color 200 190 170\n" + LIGHTS),
+    "one-color-world.txt": lambda: lit("world", in_world, 2000, 8, ("color",)),
+    "one-color-view.txt": lambda: lit("view", in_view, 2000, 8, ("color",)),
+    "one-color-screen.txt": lambda: small_and_lit("color"),
+    "colored-screen.txt": lambda: small_and_lit("color", "normal"),
+    **{f"terrain.{form}": lambda form=form: model_file(form, 60) for form in ("obj", "stl", "ply")},
     "material-world.txt": lambda: with_materials(2000, 6),
     "crlf-world.txt": lambda: TEXTS["short-world.txt"]().replace("\n", "\r\n"),
 }
@@ -175,6 +216,13 @@ ROWS = [
     Row("project: plain", "project view.txt"),
     Row("model: transforms", "model turned-scene.txt"),
     Row("model: exponents and 16 digits", "model odd-scene.txt"),
+    Row("model: one color and light", "model one-color-scene.txt"),
+    Row("view: one color and light", "view one-color-world.txt"),
+    Row("project: one color and light", "project one-color-view.txt"),
+    Row("zbuf: one color and light", f"zbuf config.txt one-color-screen.txt {NO_IMAGE}"),
+    Row("zbuf: normals and colors", f"zbuf config.txt colored-screen.txt {NO_IMAGE}"),
+    *(Row(f"mesh2scene: {form.upper()}", f"mesh2scene terrain.{form}")
+      for form in ("obj", "stl", "ply")),
     Row("model: lit", "model lit-scene.txt"),
     Row("view: lit", "view lit-world.txt"),
     Row("project: lit", "project lit-view.txt"),
@@ -206,7 +254,8 @@ ROWS = [
     Row("zbuf: flat", f"zbuf narrow.txt lit-screen.txt {NO_IMAGE} --shading flat"),
     Row("zbuf: gouraud", f"zbuf narrow.txt lit-screen.txt {NO_IMAGE} --shading gouraud"),
     Row("zbuf: phong", f"zbuf narrow.txt lit-screen.txt {NO_IMAGE} --shading phong"),
-    Row("zbuf: phong, small, 3 x 3 samples", f"zbuf narrow.txt small-lit-screen.txt {NO_IMAGE} --samples 3 --threads 1"),
+    Row("zbuf: phong, small, 3 x 3 samples",
+        f"zbuf narrow.txt small-lit-screen.txt {NO_IMAGE} --samples 3 --threads 1"),
     Row("zbuf: 2 x 2 samples", f"zbuf config.txt few-large.txt {NO_IMAGE} --samples 2"),
     Row("zbuf: float depths", f"zbuf config.txt large.txt {NO_IMAGE} --depth f32"),
     Row("zbuf: 24-bit depths", f"zbuf config.txt large.txt {NO_IMAGE} --depth u24"),
