@@ -105,8 +105,8 @@ void set_once(std::optional<Located<T>>& part, std::string_view keyword,
 }  // namespace
 
 std::span<const std::string_view> appearance_keywords() {
-  static constexpr std::array<std::string_view, 7> kKeywords = {
-      "attributes", "background", "ambient", "material", "absorption", "attenuation", "light"};
+  static constexpr std::array<std::string_view, 8> kKeywords = {
+      "attributes", "background", "ambient", "material", "absorption", "paint", "attenuation", "light"};
   return kKeywords;
 }
 
@@ -126,14 +126,20 @@ void read_appearance_part(std::string_view keyword, const SourceLocation& keywor
   } else if (keyword == "material") {
     const SourceLocation location = line.location();
     appearance.materials.push_back({read_material(line), location});
-    appearance.last_absorption.reset();
-  } else if (keyword == "absorption") {
+    appearance.last_absorption = appearance.last_paint = std::nullopt;
+  } else if (keyword == "absorption" || keyword == "paint") {
     if (appearance.materials.empty())
-      throw InputError(keyword_location, expected_but_found("'material' before 'absorption'", "none"));
-    if (appearance.last_absorption)
-      throw given_twice(quoted(keyword), *appearance.last_absorption, keyword_location);
-    appearance.last_absorption = line.location();
-    appearance.materials.back().value.absorption = read_intensity(line, "the absorption");
+      throw InputError(keyword_location, expected_but_found("'material' before " + quoted(keyword), "none"));
+    auto& last = keyword == "paint" ? appearance.last_paint : appearance.last_absorption;
+    if (last) throw given_twice(quoted(keyword), *last, keyword_location);
+    last = line.location();
+    Material& material = appearance.materials.back().value;
+    if (keyword == "absorption") {
+      material.absorption = read_intensity(line, "the absorption");
+    } else {
+      material.paint = read_color(line, "the paint");
+      line.expect_end("the blue of the paint");
+    }
   } else if (keyword == "attenuation") {
     set(appearance.attenuation, [&] { return read_attenuation(line); });
   } else {

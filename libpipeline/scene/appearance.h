@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,10 +28,11 @@ struct Material {
   double diffuse = 1;
   double specular = 0;
   std::uint64_t shininess = 1;
-  double reflectance = 0;  // the part of the light that is mirrored, from 0 to 1
-  double index = 1;        // of refraction, from 0.01 to 100
-  double alpha = 1;        // the opaque part, from 0 (clear) to 1
-  Vec3 absorption = {};    // inside, per unit length of view space: red, green, blue, each at least 0
+  double reflectance = 0;          // the part of the light that is mirrored, from 0 to 1
+  double index = 1;                // of refraction, from 0.01 to 100
+  double alpha = 1;                // the opaque part, from 0 (clear) to 1
+  Vec3 absorption = {};            // inside, per unit length of view space: red, green, blue, each at least 0
+  std::optional<Vec3> paint = {};  // the color of triangles without one, red, green, blue from 0 to 255
 
   /// Whether rays go on from the surface.
   [[nodiscard]] bool sends_rays() const { return reflectance != 0 || alpha != 1; }
@@ -55,26 +57,33 @@ struct Background {
 struct Appearance {
   std::optional<Located<AttributeSet>> attributes;
   std::optional<Located<Background>> background;
-  std::optional<Located<Vec3>> ambient;           // intensities, each at least 0
-  std::vector<Located<Material>> materials;       // numbered from 0
-  std::optional<SourceLocation> last_absorption;  // of the last material, if it was given
+  std::optional<Located<Vec3>> ambient;                       // intensities, each at least 0
+  std::vector<Located<Material>> materials;                   // numbered from 0
+  std::optional<SourceLocation> last_absorption, last_paint;  // of the last material, if they were given
   std::optional<Located<Attenuation>> attenuation;
   std::vector<Located<Light>> lights;
 
   /// The columns of the vertex lines besides x y z.
   [[nodiscard]] AttributeSet columns() const { return attributes ? attributes->value : AttributeSet{}; }
+  /// Whether triangles have the colors of their materials: one has a paint, and there is no column.
+  [[nodiscard]] bool is_painted() const {
+    return !columns().color && std::ranges::any_of(materials, [](const auto& material) {
+      return material.value.paint.has_value();
+    });
+  }
 };
 
 /// Where a line `attributes` stands: a scene may not name w, which the project stage adds.
 enum class AttributeSource { scene, stage_text };
 
-/// `attributes`, `background`, `ambient`, `material`, `absorption`, `attenuation` and `light`.
+/// `attributes`, `background`, `ambient`, `material`, `absorption`, `paint`, `attenuation` and `light`.
 std::span<const std::string_view> appearance_keywords();
 bool is_appearance_keyword(std::string_view keyword);
 
 /// Reads the arguments of such a keyword, to the end of the line, and adds them to `appearance`. An
 /// InputError if a number is missing or out of range, and, at `keyword_location`, if the part was given
-/// before; only lights and materials may be given more than once, and an absorption for each material.
+/// before; only lights and materials may be given more than once, and an absorption and a paint for each
+/// material.
 void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                           AttributeSource source, Appearance& appearance);
 

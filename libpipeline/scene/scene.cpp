@@ -12,10 +12,10 @@
 namespace pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 17> kCommands = {
-    "triangle", "sphere",   "translate",  "scale",       "rotate",     "push",
-    "pop",      "end",      "color",      "attributes",  "background", "light",
-    "ambient",  "material", "absorption", "attenuation", "use"};
+constexpr std::array<std::string_view, 18> kCommands = {
+    "triangle", "sphere",   "translate",  "scale",      "rotate",      "push",
+    "pop",      "end",      "color",      "attributes", "background",  "light",
+    "ambient",  "material", "absorption", "paint",      "attenuation", "use"};
 
 }  // namespace
 
@@ -118,7 +118,7 @@ std::string SceneReader::expected_commands() const {
     others += (others.empty() ? "; also " : " and ") + std::string(command);
   };
   if (has_triangle_ && appearance_.columns().color) add("color");
-  if (!has_triangle_ && !appearance_.materials.empty()) add("absorption");
+  if (!has_triangle_ && !appearance_.materials.empty()) add("absorption and paint");
   if (appearance_.materials.size() > 1) add("use");
   return commands + others + ")";
 }

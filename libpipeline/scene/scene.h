@@ -61,6 +61,7 @@ using Command = std::variant<TriangleCommand, SphereCommand, TranslateCommand, S
 ///     background r g b [a] | ambient r g b | light x y z r g b
 ///     material ambient diffuse specular shininess [reflectance index alpha]
 ///     absorption r g b             of the last material, inside, per unit length
+///     paint r g b                  of the last material: its triangles' color where there is no other
 ///     attenuation constant linear quadratic
 ///
 /// Materials may repeat and are numbered from 0; `use K`, anywhere, gives the triangles that follow material

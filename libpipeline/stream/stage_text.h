@@ -14,14 +14,15 @@ namespace pipeline {
 
 // Stage text flows in the pipes between the tools:
 //
-//   header lines   a keyword and its numbers, each at most once but material, absorption and light, before
-//   the first triangle:
+//   header lines   a keyword and its numbers, each at most once but material, absorption, paint and light,
+//   before the first triangle:
 //                    framed | eye X Y Z | look X Y Z | up X Y Z |
 //                    perspective FOVY ASPECT NEAR FAR | frustum L R B T N F | ortho L R B T N F |
 //                    projected frustum L R B T N F | projected ortho L R B T N F |
 //                    attributes [w] [color] [normal] [material] | background R G B [A] | ambient R G B |
 //                    material AMBIENT DIFFUSE SPECULAR SHININESS [REFLECTANCE INDEX ALPHA] (any number,
-//                    numbered from 0) | absorption R G B (of the material above, at most once each) |
+//                    numbered from 0) | absorption R G B | paint R G B (of the material above, at most
+//                    once each) |
 //                    attenuation CONSTANT LINEAR QUADRATIC | light X Y Z R G B (any number)
 //   triangle N     optional: the next triangle is triangle N of the scene; counting goes on from there
 //   clipped        optional, in projected texts with lights: three vertex lines in clip space (X Y Z W and

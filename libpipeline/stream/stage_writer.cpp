@@ -103,6 +103,7 @@ void print_appearance(TextWriter& text, const Appearance& appearance) {
     text.append("\n");
     if (m.absorption != Vec3{})
       print_header_numbers(text, "absorption", {m.absorption.x, m.absorption.y, m.absorption.z});
+    if (m.paint) print_header_numbers(text, "paint", {m.paint->x, m.paint->y, m.paint->z});
   }
   if (appearance.attenuation) {
     const Attenuation& a = appearance.attenuation->value;

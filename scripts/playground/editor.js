@@ -9,7 +9,7 @@ import {EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers} fro
 import {tags} from "@lezer/highlight";
 
 const COMMANDS = ["triangle", "sphere", "translate", "scale", "rotate", "push", "pop", "end", "color", "attributes", "background", "light", "ambient", "material",
-  "absorption", "attenuation", "use", "ortho", "frustum", "ratio"];
+  "absorption", "paint", "attenuation", "use", "ortho", "frustum", "ratio"];
 
 const scenes = StreamLanguage.define({
   token(stream) {

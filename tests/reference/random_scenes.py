@@ -74,6 +74,8 @@ def looks(rng, has_light):
                 ("1", "1.5", "0.75")), rng.choice(("1", "0", "0.5")))
         if rng.random() < 0.2:
             lines[i] += "\nabsorption " + positive(rng, 3, 2)
+        if rng.random() < 0.3:
+            lines[i] += "\npaint " + positive(rng, 3, 255)
     return lines, columns, has_color
 
 

@@ -95,12 +95,12 @@ ARGUMENTS = {
     "color": [CHANNEL] * 3, "background": [CHANNEL] * 3,  # and perhaps an alpha, in read_part
     "ambient": [NOT_NEGATIVE] * 3, "light": [ANY] * 3 + [NOT_NEGATIVE] * 3,
     "material": [NOT_NEGATIVE] * 3,  # and the rest, in read_part
-    "absorption": [NOT_NEGATIVE] * 3,
+    "absorption": [NOT_NEGATIVE] * 3, "paint": [CHANNEL] * 3,
     "attenuation": [NOT_NEGATIVE] * 2 + [lambda x, *before: x >= 0 and any((x, *before))]}
 COLUMNS = {"w": [POSITIVE], "color": [CHANNEL] * 3, "normal": [ANY] * 3}  # and the material, in read_vertex
 POSITION, PROJECTIONS = ("eye", "look", "up"), ("perspective", "frustum", "ortho")
 OPTICS = [lambda x: 0 <= x <= 1, lambda x, *before: Fraction(0.01) <= x <= 100, lambda x, *before: 0 <= x <= 1]
-ONCE, REPEATED = ("background", "ambient", "attenuation"), ("material", "light", "absorption")
+ONCE, REPEATED = ("background", "ambient", "attenuation"), ("material", "light", "absorption", "paint")
 
 def read_part(line, keyword):  # S6 to S8, S12, S17 to S21, T2 to T6a: the rest of a line, behind the keyword if it is there
     numbers = line.reals(*ARGUMENTS[keyword])
@@ -113,11 +113,11 @@ def read_part(line, keyword):  # S6 to S8, S12, S17 to S21, T2 to T6a: the rest 
     line.end()
     return Part(line.number, keyword, numbers, rule)
 
-def absorb(header, part, at):  # S19c: of the material above
-    materials = header.get("material") or [Part(at, "none", (), True)]
-    if materials[-1].rule:
-        raise Refused(at, "an absorption without a material of its own")
-    materials[-1] = materials[-1]._replace(rule=part)
+def add_to_material(header, part, at):  # S19c, S19e: the one above
+    above = header.get("material", [Part(at, "none", (), {part.kind: part})])[-1]
+    if part.kind in (above.rule or {}):
+        raise Refused(at, f"{part.kind}: without a material of its own")
+    header["material"][-1] = above._replace(rule={**(above.rule or {}), part.kind: part})
 
 def check_camera(camera):  # S9: of the parts that are there
     eye, look, up = (camera.get(name) for name in POSITION)
@@ -161,8 +161,8 @@ def read_commands(text, header):  # S10 to S17, S23: yields keyword, line and ar
         elif keyword in ARGUMENTS:
             arguments = read_part(line, keyword)
             at, color = line.number, arguments.numbers if keyword == "color" else color
-            if keyword == "absorption":
-                absorb(header, arguments, at)
+            if keyword in ("absorption", "paint"):
+                add_to_material(header, arguments, at)
             header.update({keyword: arguments} if keyword in ONCE else {keyword: header.get(keyword, []) + [arguments]} if keyword == "material" else {})
         header["attributes"] = [name for name in ("color", "normal") if name in columns or name == "color" and color]
         header["attributes"] += ["material"] * (len(header.get("material", ())) > 1)
@@ -250,8 +250,8 @@ class Stage:  # T1 to T16: a stage text as `reader` reads it; `header` has its p
         elif keyword:
             kind = line.take("frustum", "ortho") or line.refuse("frustum or ortho") if keyword == "projected" else keyword
             part = read_part(line, kind)
-            if name == "absorption":
-                absorb(self.header, part, line.number)
+            if name in ("absorption", "paint"):
+                add_to_material(self.header, part, line.number)
             else:
                 self.header[name] = self.header.get(name, []) + [part] if name in REPEATED else part
         return bool(keyword)
@@ -348,8 +348,9 @@ class Writer:  # T17 to T20: the lines of a stage text
         for part in sum((header.get(name, []) if name in REPEATED else [header[name]] for name in WRITTEN if name in header), []):
             words = [*map(shortest, part.numbers[:3]), *map(str if part.kind == "material" else shortest, part.numbers[3:4]), *map(shortest, part.numbers[4:])]
             yield " ".join([part.kind, *(words[:4] if part.kind == "material" and part.numbers[4:] == (0, 1, 1) else words)])
-            if part.kind == "material" and part.rule and any(part.rule.numbers):
-                yield " ".join(["absorption", *map(shortest, part.rule.numbers)])
+            for name in [name for name in ("absorption", "paint") if part.kind == "material" and name in (part.rule or {})]:
+                if name == "paint" or any(part.rule[name].numbers):
+                    yield " ".join([name, *map(shortest, part.rule[name].numbers)])
 
     def add(self, triangle):  # T8 to T10, T11a, T18, T26
         if triangle.number != self.next and not self.is_bare:
@@ -663,8 +664,8 @@ def shading_model(stage, chosen):  # L1, T15, Z11
         raise Refused(stage.end_of_header, "--shading without a light")
     return chosen or ("phong" if is_lit and has_normals else "flat" if is_lit else "none")
 
-def surface_of(triangle, volume, model_name):  # L2, L4
-    corners, clip, positions = triangle.whole or triangle.corners, [], []
+def surface_of(triangle, volume, model_name, paints):  # L2, L4, Z10
+    corners, clip, positions, material = triangle.whole or triangle.corners, [], [], triangle.corners[0].material or 0
     for corner in corners:
         (x, y, z), w = corner.position, corner.w
         if w is None:
@@ -672,9 +673,10 @@ def surface_of(triangle, volume, model_name):  # L2, L4
         x, y, z, w = in_decimals((x, y, z, w) if triangle.whole else (x * w, y * w, z * w, w))
         clip.append((x, y, w))
         positions.append(to_view_space((x, y, z), w, volume))
-    face, own = cross(minus(positions[1], positions[0]), minus(positions[2], positions[0])), generated_color(triangle.number)
+    face = cross(minus(positions[1], positions[0]), minus(positions[2], positions[0]))
+    own = (paints[material] or (255, 255, 255)) if any(paints) else generated_color(triangle.number)
     return Surface(clip, positions, [in_decimals(c.normal) if c.normal and model_name != "flat" else face for c in corners],
-                   [in_decimals(c.color or own) for c in corners], triangle.corners[0].material or 0)
+                   [in_decimals(c.color or own) for c in corners], material)
 
 def to_view_space(p, w, volume):  # L2: P3, solved for the point
     if not volume:
@@ -719,13 +721,14 @@ def shade(seen, header, config, model_name):  # L1 to L5, Z10: the picture, in c
     defaults = {"background": (0, 0, 0), "ambient": (0, 0, 0), "attenuation": (1, 0, 0)}
     background, *looks = (in_decimals(header[name].numbers[:3] if name in header else default) for name, default in defaults.items())
     materials = [in_decimals(part.numbers[:4]) for part in header.get("material", ())] or [in_decimals((1, 1, 0, 1))]
+    paints = ["paint" in (part.rule or {}) and part.rule["paint"].numbers for part in header.get("material", ())]
     lights = [in_decimals(light.numbers) for light in header.get("light", ())]
     lightings = [Lighting(*looks, lights, volume and volume.is_ortho, material) for material in materials]
     left, bottom = in_decimals((config.left, config.bottom))
     surfaces, picture = {}, [[background] * config.width for _ in seen]
     for row, column in [(row, column) for row, line in enumerate(seen) for column, triangle in enumerate(line) if triangle]:
         triangle = seen[row][column]
-        surface = surfaces.get(id(triangle)) or surfaces.setdefault(id(triangle), surface_of(triangle, volume, model_name))
+        surface = surfaces.get(id(triangle)) or surfaces.setdefault(id(triangle), surface_of(triangle, volume, model_name, paints))
         x, y = left - left * (2 * column + 1) / config.width, bottom * (2 * row + 1) / config.height - bottom
         picture[row][column] = shaded(surface, model_name, lightings[surface.material], weights_at(surface.clip, x, y))
     return picture

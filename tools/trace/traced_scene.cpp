@@ -9,6 +9,7 @@
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/vertex/projection.h"
+#include "tools/zbuf/surface_shading.h"
 
 namespace pipeline {
 namespace {
@@ -105,7 +106,9 @@ TracedScene::TracedScene(Tool& tool, const TraceOptions& chosen, const Viewport&
 
 void TracedScene::read(bool keeps_dropped) {
   if (keeps_dropped) triangles_.keep_dropped();
+  const bool is_painted = header_.appearance.is_painted();
   for (TriangleBatch p_view; reader_.read(p_view);) {
+    if (is_painted) add_material_colors(header_.appearance, p_view);
     tool_.timing().triangle_count += p_view.object_count();
     spheres_.add(p_view);
     triangles_.add(p_view, exact_, [&](const TriangleBatch& part, const TriangleBatch& p_ndc) {

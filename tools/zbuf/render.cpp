@@ -32,9 +32,12 @@ std::size_t pixel_count(const Viewport& screen) {
 
 /// Reads the triangles into `batch()`, batch by batch, hands each to the report and calls `draw()`.
 template <typename Source, typename Batch, typename Draw>
-void for_each_batch(Tool& tool, Source& source, DrawingReport& report, Batch&& batch, Draw&& draw) {
+void for_each_batch(Tool& tool, Source& source, const Appearance& appearance, DrawingReport& report,
+                    Batch&& batch, Draw&& draw) {
   Progress progress("zbuf");
+  const bool is_painted = appearance.is_painted();
   while (source.read(batch())) {
+    if (is_painted) add_material_colors(appearance, batch());
     tool.timing().triangle_count += batch().size();
     tool.timing().lap(&Timing::read_seconds);
     report.add(batch());
@@ -67,7 +70,8 @@ template <typename CoverageRule, typename Depth>
   };
   ReadAhead ahead(reader, pool);
   for_each_batch(
-      tool, ahead, report, [&]() -> TriangleBatch& { return drawing.next_batch(); }, draw);
+      tool, ahead, reader.header().appearance, report,
+      [&]() -> TriangleBatch& { return drawing.next_batch(); }, draw);
   drawing.finish();
 }
 
@@ -85,7 +89,7 @@ template <typename CoverageRule, typename Depth>
     }
   };
   for_each_batch(
-      tool, reader, report, [&]() -> TriangleBatch& { return p_ndc; }, draw);
+      tool, reader, reader.header().appearance, report, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
 template <VisibilityAlgorithm Visible>

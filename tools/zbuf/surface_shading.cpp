@@ -34,6 +34,20 @@ std::vector<Material> materials_of(const Appearance& appearance) {
   return materials;
 }
 
+void add_material_colors(const Appearance& appearance, TriangleBatch& batch) {
+  AttributeArrays& attributes = batch.attributes;
+  attributes.colors.clear();
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const std::size_t material = attributes.materials.empty() ? 0 : attributes.materials[i];
+    const Vec3 color = appearance.materials[material].value.paint.value_or(Vec3{255, 255, 255});
+    attributes.colors.push_back({color, color, color});
+    if (batch.unclipped_of(i) == nullptr) continue;
+    ClipTriangle whole = *batch.unclipped_of(i);
+    for (VertexLine& corner : whole) corner.color = color;
+    batch.unclipped[i] = std::make_shared<ClipTriangle>(whole);
+  }
+}
+
 ShadingModel shading_model(const Appearance& appearance, std::optional<ShadingModel> chosen) {
   if (chosen) return *chosen;
   if (appearance.lights.empty()) return ShadingModel::none;
@@ -65,7 +79,7 @@ std::optional<SurfaceShader> surface_shader(const StageHeader& header, const Sou
   setup.says_what_was_clipped = !appearance.lights.empty();
   if (chosen.wireframe) setup.wireframe.emplace(*chosen.wireframe);
   if (setup.model == ShadingModel::none) {
-    if (!appearance.columns().color && !chosen.wireframe) return std::nullopt;
+    if (!appearance.columns().color && !appearance.is_painted() && !chosen.wireframe) return std::nullopt;
     return SurfaceShader(screen, std::move(setup));
   }
   if (appearance.lights.empty())

@@ -6,6 +6,7 @@
 #include "libpipeline/picture/shading.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/stream/stage_text.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "tools/zbuf/picture_options.h"
 
 namespace pipeline {
@@ -32,6 +33,9 @@ Lighting lighting_of(const Appearance& appearance, bool is_perspective);
 
 /// By their numbers; without a line, the one material is the default.
 std::vector<Material> materials_of(const Appearance& appearance);
+
+/// Gives the triangles of a painted text the colors of their materials, white without a paint.
+void add_material_colors(const Appearance& appearance, TriangleBatch& batch);
 
 /// Where they are lit, unless a model is chosen: nowhere without lights, at every pixel with lights and
 /// normals, once per triangle with lights alone.

@@ -5,8 +5,8 @@ from lib.text.plain_stage_text import KEYWORD, NO_KEYWORDS, real
 
 WORDS = {
     "eye", "look", "up", "perspective", "ortho", "frustum", "projected", "attributes", "background", "light",
-    "ambient", "material", "absorption", "attenuation", "framed", "end", "triangle", "clipped", "error",
-    "sphere"}
+    "ambient", "material", "absorption", "paint", "attenuation", "framed", "end", "triangle", "clipped",
+    "error", "sphere"}
 LONGEST = 40  # characters of a line, as shown
 
 

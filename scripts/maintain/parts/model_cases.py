@@ -347,7 +347,9 @@ def extensions():
          "S19b S19c T6a T17", "material 1 0.5 0.25 16 0 1 1\nabsorption 0 0 0\n" + TRIANGLE),
         ("absorption-of-the-material-above", "Each absorption follows its own material.", "S19c T17",
          "material 1 1 0 1\n" + glass + "light 1 2 3 1 1 1\n" + "material 0 0 0 1 1 1 1\n" +
-         "background 1 2 3\nabsorption 1e-3 0.25 1\nuse 1\n" + TRIANGLE)):
+         "background 1 2 3\nabsorption 1e-3 0.25 1\nuse 1\n" + TRIANGLE),
+        ("paint", "A paint follows what its material absorbs, and gives no column.", "S19e T5 T17",
+         "material 1 1 0 1\n" + glass.replace("abs", "paint 255 0.5 0\nabs") + TRIANGLE)):
         yield case(name, why, paragraphs, words,
                    needs="optics" if "use" not in words else "lights materials optics")
     yield case("framed", "--framed announces the end, and writes it.", "M9 T13", TRIANGLE, options="--framed",

@@ -288,7 +288,8 @@ def extensions():
                "0 0 -2 1\n1 0 -3 1\n0 1 -4 1\n\n0 0 -2 0\n1 0 -3 0\n0 1 -4 0\n\n", materials,
                needs="materials")
     yield case("glass", "What a material does to rays is passed on.", "T6 T17", "60 1 1 10",
-               "0 0 -2\n1 0 -3\n0 1 -4\n\n", "material 1 0.5 0.25 16 0.125 1.5 0.25\nabsorption 0.5 0 2\n",
+               "0 0 -2\n1 0 -3\n0 1 -4\n\n", "material 1 0.5 0.25 16 0.125 1.5 0.25\n"
+               "absorption 0.5 0 2\npaint 9.5 0 255\n",
                needs="optics")
     yield case("light-and-cut-with-a-material", "The whole triangle and all its pieces have its material.",
                "P9 P11 T11a", "90 1 1 10", "0 0 2 1\n1 0 -3 1\n0 1 -4 1\n\n", materials + light,

@@ -208,7 +208,8 @@ def extensions():
          "0.5 0.25\n")):
         yield case(name, why, eye, look, up, POINTS, "V2 T6 T17", PERSPECTIVE + rest, needs="lights")
     yield case("glass", "What a material does to rays is passed on.", eye, look, up, POINTS, "T6 T17",
-        PERSPECTIVE + "material 1 0.5 0.25 16 0.125 1.5 0.25\nabsorption 0.5 0 2\n", needs="optics")
+        PERSPECTIVE + "material 1 0.5 0.25 16 0.125 1.5 0.25\n"
+        "absorption 0.5 0 2\npaint 9.5 0 255\n", needs="optics")
 
 
 GRIDS = (straight_ahead, along_the_axes, directions, up_directions, points, lines, digits, extensions)

@@ -106,8 +106,8 @@ def extensions():
     yield case("rows", "Some rows alone are drawn.", "Z13", usual + two, options="--rows 2:5")
     colored = "attributes color\n-0.83 -0.77 0.1 255 0 0\n0.87 -0.31 0.5 0 255 0\n-0.13 0.91 0.9 0 0 255\n"
     for name, why, paragraphs, text in (
-        ("one-color", "A triangle has the color of its corners.", "L4a",
-         "attributes color\n" + usual.replace("\n", " 200 100 50\n", 3)),
+        ("one-color", "A triangle has the color of its corners, not a paint.", "L4a Z10",
+         "attributes color\nmaterial 1 1 0 1\npaint 1 2 3\n" + usual.replace("\n", " 200 100 50\n", 3)),
         ("three-colors", "Between corners of different colors the color is their mean.", "L3 L4a",
          colored), ("colors-with-w", "With w the mean is taken in space, not on the screen.", "L2 L3",
                     colored.replace("attributes", "attributes w").replace("0.1 255", "0.1 1 255").replace(
@@ -139,6 +139,12 @@ def extensions():
         yield case(f"lit-materials-{shading}", f"--shading {shading} on triangles of two materials.",
                    "L4a L5 T9", two, needs="lights materials", options=f"--shading {shading}")
     plain_lit = lit[0].format("") + "\n".join(lit[1:]) + "\n"
+    painted = two.replace("material 1 0.8 0.5 8\n", "material 1 0.8 0.5 8\npaint 200 100.5 0\n")
+    yield case("lit-paint", "The color of a triangle is its material's paint, and white without one.",
+               "Z10 L4a L5", painted, needs="lights materials")
+    yield case("paint", "So it is without light.", "Z10 L4a",
+               "".join(line + "\n" for line in painted.splitlines() if line.split()[0] not in
+                       ("light", "ambient", "projected")), needs="materials")
     yield case(
         "lit-glass", "Glass is drawn as if it were none.", "S19d L5",
         plain_lit.replace("material 1 0.8 0.5 8\n", "material 1 0.8 0.5 8 0.5 1.5 0.25\nabsorption 1 2 3\n"),
