@@ -12,11 +12,19 @@
 namespace pipeline {
 namespace {
 
+bool is_exponent(char c) {
+  return c == 'e' || c == 'E';
+}
+
 bool loses_digits(std::string_view word) {
+  // A float below 10 is within 2^-21.
+  const std::size_t digit = word.starts_with('-') ? 1 : 0;
+  if (word.size() > digit + 1 && word[digit + 1] == '.' && std::ranges::none_of(word, is_exponent))
+    return false;
   const double value = parse_number(word).value, held = static_cast<float>(value);
   const double lost = std::abs(value - held);
   if (!(lost > 0.49e-6) || std::isinf(lost)) return false;
-  const std::size_t end = std::min(word.find_first_of("eE"), word.size());
+  const std::size_t end = static_cast<std::size_t>(std::ranges::find_if(word, is_exponent) - word.begin());
   const std::size_t decimal_count = end - 1 - std::min(word.find('.'), end - 1);
   const double exponent = end < word.size() ? parse_number(word.substr(end + 1)).value : 0;
   const double units = std::pow(10, std::min(static_cast<double>(decimal_count) - exponent, 6.0));
@@ -27,11 +35,11 @@ bool loses_digits(std::string_view word) {
 
 /// Takes the next word between blanks; empty at the end.
 std::string_view next_word(std::string_view& text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-  const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
-  text.remove_prefix(word.size());
-  return word;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  const auto begin = std::ranges::find_if_not(text, is_blank);
+  const auto end = std::find_if(begin, text.end(), is_blank);
+  text = {end, text.end()};
+  return {begin, end};
 }
 
 bool is_vertex_keyword(std::string_view word) {

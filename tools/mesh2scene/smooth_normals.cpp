@@ -127,11 +127,13 @@ class Smoothing {
       return dot(share.direction, mean) >= half_way_cosine_;
     };
     const bool are_all_near = std::all_of(shares_.begin(), shares_.end(), is_near_mean);
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      set(corners[i], are_all_near               ? all
-                      : corners.size() <= kMany  ? mean_beside(shares_[i])
-                      : is_near_mean(shares_[i]) ? all
-                                                 : shares_[i].direction);
+    const auto normal_of_all = unit_normal(all);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const bool is_few = corners.size() <= kMany;
+      normals_[corners[i]] = are_all_near || (!is_few && is_near_mean(shares_[i]))
+                                 ? normal_of_all
+                                 : unit_normal(is_few ? mean_beside(shares_[i]) : shares_[i].direction);
+    }
   }
 
   CornerNormals take() { return std::move(normals_); }
@@ -149,9 +151,9 @@ class Smoothing {
     return total;
   }
 
-  void set(std::size_t corner, const Vec3& normal) {
+  static CornerNormals::value_type unit_normal(const Vec3& normal) {
     const Vec3 n = unit_vector(normal);
-    normals_[corner] = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
+    return {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
   }
 
   const aiMesh& mesh_;
