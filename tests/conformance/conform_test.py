@@ -533,7 +533,7 @@ class Shared(unittest.TestCase):
         random = "$(od -An -N3 -tu4 /dev/urandom | tr -d ' ')"
         program = sh(f"{BIN}/model --bare | awk -v t={random} 'NF {{$1 = t * NR * NR}} 1'")
         done = conform("--stage", "model", "--assignment", "--only", "translate-*", "--", *program)
-        self.assertRegex(done.stdout, r"\n# Its output is random: two runs on model/translate-[a-z-]+ differ.\n")
+        self.assertRegex(done.stdout, r"\n# Its output is random: two runs on model/translate-\S+ differ.\n")
 
     def test_a_guess_names_the_mistake_whose_cases_fail(self):
         program = sh(f"sed '/^up/s/.*/up 0 2 0/' | {BIN}/view")
