@@ -17,7 +17,7 @@ PRESETS = ("release", "asan", "fuzz", "tsan", "clang")
 STUBS = ("scripts/install-packages", "scripts/build-release", "scripts/build-playground", "scripts/check",
          "scripts/measure/bench", "scripts/maintain/fuzz", "scripts/maintain/tidy",
          "scripts/maintain/compare-builds", "bin/cmake", "bin/git", "bin/clang-format")
-LIB = [str(path.relative_to(SOURCE)) for path in (SOURCE / "scripts/lib").glob("*.py")]
+LIB = [str(path.relative_to(SOURCE)) for path in (SOURCE / "scripts/lib").glob("**/*.py")]
 # The folder of a preset's tests, in this tree.
 CTEST = f"""#!/bin/sh
 [ "$1" = --preset ] || exit 99

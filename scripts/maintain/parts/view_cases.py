@@ -112,8 +112,8 @@ def lines():
     for name, why, paragraphs, changed in (
         ("carriage-returns", "Lines may end in CR LF.", "S1b", usual.replace("\n", "\r\n")),
         ("comments",
-         "Comments and the lines that hold nothing else do not count, nor do they part a triangle.", "S1b S1c T8",
-         "# c\n" + usual.replace("\n", " # c\n")),
+         "Comments and the lines that hold nothing else do not count, nor do they part a triangle.",
+         "S1b S1c T8", "# c\n" + usual.replace("\n", " # c\n")),
         ("no-blank-lines", "No blank line need stand between triangles.", "T8",
          text((1, 2, 3), (0, 0, 0), (0, 1, 0),
               (POINTS * 2).replace("\n\n", "\n"))), ("several-blank-lines", "More than one may.", "S1c T8",
