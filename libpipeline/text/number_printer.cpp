@@ -12,6 +12,7 @@
 #include "libpipeline/numbers/shortest_decimal.h"
 #include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/scaled_number.h"
+#include "libpipeline/text/wide_decimal.h"
 
 namespace pipeline {
 namespace {

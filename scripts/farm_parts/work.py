@@ -11,8 +11,8 @@ from lib.rim.command import CommandFailure
 from lib.rim.input_file import input_errors, read_input
 from lib.rim.output_file import OutputFile
 from lib.rim.parallel import Job, run_parallel
-from lib.running.pipe_tools import checked
 from lib.rim.work_folder import WorkFolder
+from lib.running.pipe_tools import checked
 
 RETRIES = 3
 RETRIES_OVER_SSH = 6  # one a bad host, and some for the job's own bad luck

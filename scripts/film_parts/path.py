@@ -3,9 +3,9 @@ import math
 from dataclasses import dataclass
 from typing import Optional
 
+from lib.maths.vectors import cross, normalized
 from lib.rim.command import CommandFailure
 from lib.rim.input_file import name_of
-from lib.maths.vectors import cross, normalized
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,12 @@ import pathlib
 import tempfile
 
 from film_parts.path import Camera
+from lib.maths.vectors import cross, moved, normalized
 from lib.rim.command import CommandFailure
 from lib.rim.input_file import name_of, read_input
 from lib.text.projection import line_of
 from lib.text.square import note_on_squares
 from lib.text.stage_text import header_of, text_of
-from lib.maths.vectors import cross, moved, normalized
 
 
 class Scene:

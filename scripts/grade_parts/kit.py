@@ -10,11 +10,11 @@ from grade_parts.assignment import SETTINGS, optional, read_tests
 from grade_parts.graders import Limits, grade_all
 from grade_parts.hand_ins import HandIn
 from grade_parts.programs import expect_protection
-from lib.rim.places import HERE, place
 from lib.rim.input_file import read_input
 from lib.rim.output_file import write_file
-from lib.running.pipe_tools import SOURCE, Tools
+from lib.rim.places import HERE, place
 from lib.rim.work_folder import WorkFolder
+from lib.running.pipe_tools import SOURCE, Tools
 
 TOP = "pipeline"      # the folder of a kit with what all kinds share, in the order of the source tree
 ROOMS = ("grade_parts", "lib")

@@ -7,14 +7,14 @@ import shutil
 import subprocess
 import tempfile
 
+from grade_parts.assignment import SECONDS_OF_BUILD, SECONDS_OF_RUN
 from lib.judging.hand_in import KINDS
 from lib.judging.judge import HandIn as Judge
 from lib.judging.program import ProgramError, confined, expect_repetition, hand_in, outcome, run_program
 from lib.judging.reference import kinds_of
 from lib.judging.verdict import WRONG, Cause, FileVerdict, Verdict
-from grade_parts.assignment import SECONDS_OF_BUILD, SECONDS_OF_RUN
-from lib.rim.places import place
 from lib.rim.command import CommandFailure, shown
+from lib.rim.places import place
 from lib.running.pipe_tools import Tools
 
 NOBODY = 65534

@@ -6,22 +6,20 @@ const REASONS = ["kept", "behind", "equal", "before", "beyond", "nearer"];  // a
 export function fragmentsOf(text, columns, pixelCount) {
   const lines = text.split("\n");
   lines.pop();
-  const count = lines.length, pixels = new Int32Array(count), begins = new Int32Array(pixelCount + 1);
-  const found = {triangles: new Int32Array(count), depths: new Float64Array(count), fates: new Uint8Array(count)};
-  const sorted = {triangles: new Int32Array(count), depths: new Float64Array(count), fates: new Uint8Array(count)};
-  lines.forEach((line, i) => {  // COLUMN,ROW: triangle N, depth D: kept | COLUMN,ROW: triangle N, depth D: lost, behind triangle M
-    const [place, , name, , depth, fate, why] = line.split(" "), [column, row] = place.split(",");
-    pixels[i] = parseInt(row, 10) * columns + Number(column);
-    ++begins[pixels[i] + 1];
-    found.triangles[i] = parseInt(name, 10);
-    found.depths[i] = parseFloat(depth);
-    found.fates[i] = REASONS.indexOf(why || fate);
+  const count = lines.length, begins = new Int32Array(pixelCount + 1);
+  const triangles = new Int32Array(count), depths = new Float64Array(count), fates = new Uint8Array(count);
+  const pixels = Int32Array.from(lines, line => {
+    const [column, row] = line.split(",", 2);
+    return parseInt(row, 10) * columns + Number(column);
   });
+  for (const p of pixels) ++begins[p + 1];
   for (let p = 0; p < pixelCount; ++p) begins[p + 1] += begins[p];
   const next = begins.slice();
-  for (let i = 0; i < count; ++i) {
-    const at = next[pixels[i]]++;
-    for (const key in sorted) sorted[key][at] = found[key][i];
-  }
-  return {begins, ...sorted};
+  lines.forEach((line, i) => {  // COLUMN,ROW: triangle N, depth D: kept | COLUMN,ROW: triangle N, depth D: lost, behind triangle M
+    const [, , name, , depth, fate, why] = line.split(" "), at = next[pixels[i]]++;
+    triangles[at] = parseInt(name, 10);
+    depths[at] = parseFloat(depth);
+    fates[at] = REASONS.indexOf(why || fate);
+  });
+  return {begins, triangles, depths, fates};
 }

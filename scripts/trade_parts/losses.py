@@ -8,10 +8,10 @@ import sys
 
 from lib.rim.command import CommandFailure
 from lib.running.owners import NOBODY
+from lib.running.pipe import DEFAULT, exact
 from lib.running.pipe_tools import ToolFailure, without_inner_location
 from lib.text.projection import KEYWORDS, window_of
 from lib.text.stage_text import triangle_lines
-from lib.running.pipe import DEFAULT, exact
 
 SAMPLES_OF_TRUTH = "8"
 

@@ -4,8 +4,8 @@ import random
 import statistics
 import time
 
-from lib.showing.figures import quartiles
 from lib.running.pipe import DEFAULT
+from lib.showing.figures import quartiles
 
 SECONDS = 30  # for all rounds together, if their number is not given
 LEAST_ROUNDS, MOST_ROUNDS = 8, 25

@@ -1,4 +1,4 @@
-#include "libpipeline/text/scaled_number.h"
+#include "libpipeline/text/wide_decimal.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,6 @@
 #include "tools/trace/ray_report.h"
 
-#include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/raytracing/ray_log.h"
@@ -35,32 +33,6 @@ std::string to_text(const RayLog::Entry& entry) {
 }
 
 }  // namespace
-
-std::string to_text(const TraceWork& work) {
-  const auto millions = [](std::uint64_t count) { return static_cast<double>(count) / 1e6; };
-  const double seconds = std::max(work.cast_seconds, 1e-9);
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "build %.3f s, %.3g million primary rays at %.3g million a second, %.3g million exactly",
-                work.build_seconds, millions(work.primary_rays), millions(work.primary_rays) / seconds,
-                millions(work.exact_decisions));
-  std::string all = text;
-  const auto add = [&](const char* kind, std::uint64_t count) {
-    if (count == 0) return;
-    std::snprintf(text, sizeof text, ", %.3g million %s rays at %.3g million a second", millions(count), kind,
-                  millions(count) / seconds);
-    all += text;
-  };
-  add("shadow", work.rays.shadow);
-  add("mirrored", work.rays.mirrored);
-  add("refracted", work.rays.refracted);
-  if (work.rays.cut > 0) {
-    std::snprintf(text, sizeof text, ", %.3g million rays cut, at most %.3g of a pixel's color",
-                  millions(work.rays.cut), work.rays.largest_cut_weight);
-    all += text;
-  }
-  return all;
-}
 
 std::vector<std::string> ray_lines(const Pixel& pixel, const RayCaster& caster,
                                    const LightTransport& transport, const PixelRays& rays) {

@@ -14,6 +14,7 @@
 #include "tools/rim/empty_picture_note.h"
 #include "tools/trace/ray_report.h"
 #include "tools/trace/sample_colors.h"
+#include "tools/trace/trace_work.h"
 #include "tools/trace/traced_picture.h"
 #include "tools/trace/traced_scene.h"
 #include "tools/zbuf/fragment_report.h"

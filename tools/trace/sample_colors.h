@@ -11,8 +11,8 @@
 #include "libpipeline/raytracing/traced_triangles.h"
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/color.h"
-#include "tools/trace/ray_report.h"
 #include "tools/trace/trace_options.h"
+#include "tools/trace/trace_work.h"
 #include "tools/trace/traced_scene.h"
 
 namespace pipeline {

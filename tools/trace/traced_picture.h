@@ -11,8 +11,8 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/thread_pool.h"
-#include "tools/trace/ray_report.h"
 #include "tools/trace/sample_colors.h"
+#include "tools/trace/trace_work.h"
 #include "tools/trace/traced_scene.h"
 
 namespace pipeline {

@@ -7,8 +7,9 @@ import dataclasses
 import math
 import random
 
-from lib.judging.matrices import dot, image, product
+from lib.judging.matrices import image, product
 from lib.judging.verdict import Cause
+from lib.maths.vectors import dot
 
 MOST_POINTS = 60
 TRIALS = 3

@@ -7,11 +7,11 @@ combination of what the assignment leaves open; else wrong by the mistake that r
 """
 from types import SimpleNamespace
 
+from lib.judging.digits import of_one_program
 from lib.judging.hand_in import STAGE_OF, File
+from lib.judging.matrices import image
 from lib.judging.pixel_stage import PixelStage, pixel_readings
 from lib.judging.points import holds_enough, read_points
-from lib.judging.digits import of_one_program
-from lib.judging.matrices import image
 from lib.judging.reference import kinds_of, reference
 from lib.judging.shown import read_colors, read_depths
 from lib.judging.stage_judge import Outcome, Reading, StageJudge, undecided_outcome

@@ -2,17 +2,13 @@
 mistake."""
 import math
 
-from lib.maths.vectors import cross
+from lib.maths.vectors import cross, dot, normalized
 
 IDENTITY = tuple(tuple(float(i == j) for j in range(4)) for i in range(4))
 UNDEFINED = (math.nan,) * 3
 DIVIDES_X_AND_Y = "x and y"  # in place of True: z is not divided by w
 TWICE, Z_TWICE = "twice", "z twice"
 ROUNDING = 1e-13  # of sums and products in doubles, with some to spare
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
 
 
 def product(a, b):
@@ -30,11 +26,6 @@ def affine(rows, offset=(0.0, 0.0, 0.0)):
 
 def negative(v):
     return tuple(-x for x in v)
-
-
-def unit(v):
-    size = math.hypot(*v)
-    return tuple(x / size for x in v)
 
 
 def image(m, p, is_divided=True):
@@ -97,15 +88,15 @@ def view_matrix(eye, look, up, mistake="", spelling=0):
     l = tuple(look) if "look-is-a-direction" in mistakes else tuple(b - a for a, b in zip(eye, look))
     l = negative(l) if "l-is-eye-minus-look" in mistakes else l
     if "l-not-unit" not in mistakes:
-        l = unit(l)
+        l = normalized(l)
     r = cross(up, l) if "r-is-up-cross-l" in mistakes else cross(l, up)
     if "r-not-unit" not in mistakes:
-        r = unit(r)
+        r = normalized(r)
     u = cross(l, r) if "u-is-l-cross-r" in mistakes else cross(r, l)
     if "up-as-given" in mistakes:
-        u = unit(up) if spelling else tuple(up)
+        u = normalized(up) if spelling else tuple(up)
     elif spelling:
-        u = unit(u)
+        u = normalized(u)
     back = l if "l-not-negated" in mistakes else negative(l)
     turn = affine([r, u, back])
     if "rotation-transposed" in mistakes:

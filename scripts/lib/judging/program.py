@@ -7,10 +7,10 @@ import sys
 import tempfile
 
 from lib.judging.hand_in import KINDS, File, fitting_names
-from lib.rim.places import place
 from lib.judging.verdict import WRONG, Cause, cause_of
 from lib.rim.command import shown
 from lib.rim.input_file import InputError
+from lib.rim.places import place
 from lib.running.pipe_tools import OPAQUE_NOTE, opaque_background, with_opaque_background
 
 sys.path.append(str(place("tests/conformance", "share/pipeline/conformance")))

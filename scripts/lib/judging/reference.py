@@ -4,13 +4,13 @@ import math
 import os
 import re
 
-from lib.maths.window import Window
 from lib.judging.hand_in import KINDS
 from lib.judging.old_format import without_old_lines
 from lib.judging.scene import Scene
+from lib.maths.window import Window
 from lib.rim.command import CommandFailure
-from lib.showing.pictures import read_picture
 from lib.running.pipe_tools import ToolFailure, Tools, opaque_background
+from lib.showing.pictures import read_picture
 from lib.text.stage_text import parse_stage_text, text_of
 
 EXACT = ("--digits", "exact")

@@ -5,13 +5,13 @@ import dataclasses
 import itertools
 import math
 
-from lib.maths.matrices import Projection
-from lib.text.scene import commands
-from lib.judging.mistakes import sentences
 from lib.judging.matrices import (DIVIDES_X_AND_Y, IDENTITY, TWICE, VIEW_SPELLINGS, Z_TWICE, affine,
                                   image, negative, perspective_matrix, product, projection_matrix, rotation,
-                                  scaling, slack, transposed, translation, unit, view_matrix)
-from lib.maths.vectors import cross
+                                  scaling, slack, transposed, translation, view_matrix)
+from lib.judging.mistakes import sentences
+from lib.maths.matrices import Projection
+from lib.maths.vectors import cross, normalized
+from lib.text.scene import commands
 
 NO_UNITS = (0.0, 0.0, 0.0)
 DIVISIONS = {"no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
@@ -43,11 +43,11 @@ class Habit:
 
 
 def turned(degrees, axis, *factors):
-    return rotation(math.radians(degrees), unit(axis), *factors)
+    return rotation(math.radians(degrees), normalized(axis), *factors)
 
 
 def turned_with(pi):
-    return lambda degrees, axis: rotation(degrees * pi / 180, unit(axis))
+    return lambda degrees, axis: rotation(degrees * pi / 180, normalized(axis))
 
 
 def with_wrong_element(m, row):
@@ -68,7 +68,7 @@ MODEL_MISTAKES = {
         for empty in ("stay", "identity")] + [Habit(stack="one count")],
     "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")],
     "axis-not-normalized": [Habit(turn=lambda degrees, axis: rotation(math.radians(degrees), axis))],
-    "angle-in-radians": [Habit(turn=lambda degrees, axis: rotation(degrees, unit(axis)))],
+    "angle-in-radians": [Habit(turn=lambda degrees, axis: rotation(degrees, normalized(axis)))],
     "rotation-transposed": [Habit(turn=lambda degrees, axis: transposed(turned(degrees, axis)))],
     "rotation-element-from-the-wrong-column": [
         Habit(turn=lambda degrees, axis, row=row: with_wrong_element(turned(degrees, axis), row))
@@ -206,14 +206,14 @@ class Scene:
         """(name, vector) of what may stand in a row of the matrix of view."""
         l = tuple(b - a for a, b in zip(self.eye, self.look))
         named = [("the scene's up", self.up), ("the scene's eye", self.eye), ("the scene's look", self.look),
-                 ("look - eye", l), ("l x up", cross(unit(l), self.up))]
+                 ("look - eye", l), ("l x up", cross(normalized(l), self.up))]
         r, u, back = (row[:3] for row in self.of_view()[:3])
         named += ("r", r), ("u", u), ("l", negative(back))
         for name, v in named:
             yield name, v
             yield f"-{name}" if len(name) == 1 else f"-({name})", negative(v)
             if any(v) and len(name) > 1:
-                yield f"{name}, divided by its length", unit(v)
+                yield f"{name}, divided by its length", normalized(v)
 
     def view_pairs(self):
         """((name, name), matrix, whether it divides) for each two mistakes of view."""
