@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Commands that start many pipes let zbuf and trace draw on one thread each; a run alone has one, too, until
-its picture is worth more.
+"""Commands that start many pipes let zbuf and trace draw on one thread each.
 
 usage: threads_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -8,11 +7,9 @@ import os
 import pathlib
 import shutil
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, DRAWING, SOURCE, ToolTest  # noqa: E402
+from toolbox import BIN, DRAWING, SOURCE, ToolTest
 
 SCENE = """3 1 6
 0 0 0
