@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The rooms of libpipeline, tools and scripts and the arrows between them match the maps: README.md in each.
+"""The rooms of libpipeline, tools, scripts and tests, and the arrows between them, match the maps: README.md in
+each.
 
 usage: rooms_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
 """
@@ -155,6 +156,16 @@ class ScriptRooms(unittest.TestCase):
 
     def test_arrows_make_no_circle(self):
         self.assertIsNone(circle(arrows_of(SCRIPTS_MAP)))
+
+
+class Tests(unittest.TestCase):
+    """The map of tests."""
+
+    def test_the_map_names_every_folder_and_no_other(self):
+        table = (SOURCE / "tests/README.md").read_text().split("\n\n")[2]
+        named = re.findall(r"`(\w+)`", "".join(row.split("|")[1] for row in table.splitlines()))
+        folders = [path.name for path in SOURCE.glob("tests/*") if path.is_dir() and path.name[0] not in "_."]
+        self.assertEqual(sorted(named), sorted(folders))
 
 
 class Invariants(unittest.TestCase):

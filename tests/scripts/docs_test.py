@@ -30,7 +30,7 @@ UPKEEP = SOURCE / "CONTRIBUTING.md"
 PAGES = [README, SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))]
 OTHER_PAGES = [
     SOURCE / "CHANGELOG.md",
-    *(SOURCE / room / "README.md" for room in ("libpipeline", "scripts", "tests/proofs", "tools"))]
+    *(SOURCE / room / "README.md" for room in ("libpipeline", "scripts", "tests", "tests/proofs", "tools"))]
 SPECIFICATION = ("scene", "stage-text", "stages")
 BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 
