@@ -79,6 +79,7 @@ def grade(path, tests, level, limits):
         graded.remarks += [remark] * bool(remark)
         shown = pictures(test, files, verdict) if gives(level, "stage") else []
         for kind, file in zip(test.kinds, verdict.files):
+            file.worth = test.settings.another_rule
             file.places = []  # the pictures have them; there may be millions
             if file.verdict == WRONG and (data := kind in files and files[kind].data):
                 graded.wrong[test.name, KINDS[kind][0]] = hashlib.sha256(data).digest()

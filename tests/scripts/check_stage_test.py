@@ -176,8 +176,9 @@ class Program(ToolTest):
         self.assertEqual([row.count("*") for row in rows], [0, 1, 0, 0])
 
     def test_a_zbuf_gets_its_config_and_writes_its_picture(self):
-        self.assertIn("the center rule", self.told("zbuf", 'exec "$BIN/zbuf" --coverage center "$1"',
-                                                   status=0))
+        told = self.told("zbuf", 'exec "$BIN/zbuf" --coverage center "$1"', status=0)
+        self.assertRegex(told, r"^scene: right by another rule: the center rule\n  that counts as right: .*\n"
+                               r"  first difference: row \d+, column \d+: .* \(counted from 0\)\n$")
         self.assertEqual(self.told("zbuf", '"$BIN/zbuf" "$1" --image output.bmp > zBuffer.txt', status=0),
                          "scene: right\n")
         self.assertIn("(out.bmp)", self.told("zbuf", 'exec "$BIN/zbuf" "$1" --image none.bmp'))

@@ -278,10 +278,11 @@ class Results(ClassTest):
         words = ["--z-buffer", "hand-ins/anna/z_buffer.txt", "-o", "hand-ins/anna/out.bmp"]
         subprocess.run([BIN / "zbuf", "tests/square/config.txt", "hand-ins/anna/stage3.txt", "--coverage",
                         "center", *words], check=True)
-        for share, score in (("1", 1.0), ("0.5", 0.8)):
+        for share, score, words in (("1", 1.0, "counts as right"), ("0.5", 0.8, "earns 50 % of the points")):
             pathlib.Path("tests/assignment.txt").write_text(f"another-rule {share}\n")
             self.grade()
             self.assertEqual(self.scores(), {"anna": score})
+            self.assertEqual(self.page(1).count(words), 3)  # in the sentence, and for each file
 
     def test_the_teacher_has_the_last_word(self):
         self.add("anna", mistake=True)

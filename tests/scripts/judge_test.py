@@ -53,6 +53,11 @@ def line_of_triangle(number, scene=SCENE):
             if line.split("#")[0].strip() == "triangle"][number]
 
 
+def first_difference(one, other):
+    """The row and column of the first pixel in which two pictures differ."""
+    return next((r, c) for r, row in enumerate(one) for c, color in enumerate(row) if color != other[r][c])
+
+
 def tool(name, *words, stdin=b""):
     return subprocess.run([BIN / name, *map(str, words)], input=stdin, capture_output=True, check=True).stdout
 
@@ -233,9 +238,14 @@ class Right(HandIn):
 
 class AnotherRule(HandIn):
     def test_the_center_rule_and_a_file_name_of_the_assignment(self):
-        self.hand_in("--coverage", "center")
+        self.hand_in()
+        right = Pixels().colors
+        self.draw("--coverage", "center")
+        row, column = first_difference(right, Pixels().colors)
         os.rename("z_buffer.txt", "zBuffer.txt")
         verdict = self.assert_verdicts(self.RULE, 0)
+        self.assertTrue(sentence(verdict).endswith(": the center rule; that counts as right"))
+        self.assertTrue(verdict.files[4].first.startswith(f"row {row}, column {column}: a pixel that "))
         self.assertEqual((verdict.files[3].rule, verdict.files[3].file), ("the center rule", "zBuffer.txt"))
 
     def test_colors_of_the_scene_by_the_center_rule(self):
@@ -367,13 +377,20 @@ class Wrong(HandIn):
         pathlib.Path("config.txt").write_text(self.config)
         subprocess.run([student.STUDENT, "zbuf", "config.txt", "--folder", ".", "--mistake",
                         "zbuf/no-half-pixel-in-x"], input=pathlib.Path("stage3.txt").read_bytes(), check=True)
-        pixels = Pixels()
-        for place in pixels.ends()[20:50:10]:
+        pixels, mistaken = Pixels(), Pixels().colors
+        cleared = pixels.ends()[0:30:10]
+        for place in cleared:
             pixels.clear(*place)
         pixels.write()
         verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
-        self.assertEqual(([cause.name for cause in verdict.files[4].causes], verdict.files[4].differing),
-                         (["zbuf/no-half-pixel-in-x"], 3))
+        file = verdict.files[4]
+        self.assertEqual(([cause.name for cause in file.causes], file.differing, file.remarks),
+                         (["zbuf/no-half-pixel-in-x"], 3,
+                          ["3 pixels are not explained by the cause, the first in row {}, column {}".format(
+                              *cleared[0])]))
+        self.draw()
+        row, column = first_difference(Pixels().colors, mistaken)
+        self.assertTrue(file.first.startswith(f"row {row}, column {column}: a pixel that "), file.first)
 
     def test_rows_for_columns_of_a_picture_that_is_not_square(self):
         self.hand_in()

@@ -42,13 +42,10 @@ class Mismatch:
         return pixels.drawn[row][column] and self.owners.get(place, -1) not in self.of_color(
             pixels.colors[row][column])
 
-    @property
-    def of_picture(self):
-        return [place for place, kind in self.pixels.items() if kind in ("extra", "missing", "other")]
-
-    @property
-    def of_depths(self):
-        return [place for place, kind in self.pixels.items() if kind != "other"]
+    def of(self, kind):
+        """The pixels that differ in the depths or in the picture."""
+        own = "other" if kind == "picture" else "depth"
+        return [place for place, found in self.pixels.items() if found in ("extra", "missing", own)]
 
 
 @dataclasses.dataclass

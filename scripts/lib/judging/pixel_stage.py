@@ -3,7 +3,7 @@ import collections
 import dataclasses
 import itertools
 
-from lib.judging.pixels import PixelJudge
+from lib.judging.pixels import PixelJudge, counted
 from lib.judging.shown import Shown
 from lib.judging.stage_judge import Reading, undecided_outcome
 from lib.judging.verdict import (
@@ -60,6 +60,8 @@ class PixelStage:
         for kind in given:
             best = judge.finding_of(kind, finding) if len(given) == 2 else finding
             verdicts[kind] = self.verdict_of_pixels(kind, best, shown)
+            is_of_both = best is finding and kind == "depths"  # whose pixels the picture tells
+            self.tell_first(verdicts[kind], kind, best, judge if is_of_both else judge.alone(kind))
             is_open = self.thin or verdicts[kind].is_good
             if is_open and shown.is_blank(kind) and not self.ours.draws_nothing:
                 why = f"there is too little in {self.thin}" if self.thin else "nothing is in view"
@@ -108,7 +110,8 @@ class PixelStage:
                       if row[3 * i:3 * i + 3] != color]
             verdicts.append(
                 FileVerdict("zbuf", name, WRONG if places else verdict, "" if places else rule,
-                            differing=len(places), compared=len(ours) * len(colors[0]), places=places))
+                            differing=len(places), compared=len(ours) * len(colors[0]), places=places,
+                            first="row {}, column {}: another color".format(*places[0]) if places else ""))
         if not verdicts:
             return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
         return min(verdicts, key=lambda verdict: verdict.differing)
@@ -118,7 +121,7 @@ class PixelStage:
         mismatch = finding.mismatch
         if mismatch is None:
             return FileVerdict("zbuf", name, UNDECIDED, remarks=finding.remarks)
-        places = (mismatch.of_depths if kind == "depths" else mismatch.of_picture)
+        places = mismatch.of(kind)
         verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places),
                               compared=mismatch.drawn, places=places)
         if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
@@ -131,16 +134,35 @@ class PixelStage:
             is_rear = abs(shown.empty - shown.rear) <= shown.depths.tolerance(shown.rear)
             printed = f"{PRINTED}, too, with " + ("the rear limit" if is_rear else f"{shown.empty:.7g}")
             verdict.rule = f"{verdict.rule}; {printed}" if verdict.rule else printed
-        if places and not verdict.is_good:
-            row, column = min(places)
-            words = KINDS_IN_WORDS[mismatch.pixels[row, column]].format(mismatch.owners.get((row, column)))
-            verdict.first = (f"row {row}, column {column}: {words}" if column < shown.width else
-                             f"row {row}: another number of depths")
         if verdict.rule and verdict.verdict == RIGHT:
             verdict.verdict = ANOTHER_RULE
         if kind == "picture" and verdict.is_good and self.has_other_colors(shown):
             verdict.remarks.append("in other colors")
         return verdict
+
+    def tell_first(self, verdict, kind, finding, judge):
+        """Adds the first pixel that shows why, and which ones a mistake that is named does not explain."""
+        if finding.mismatch is None or verdict.verdict == RIGHT:
+            return
+        rest, told = verdict.places, judge.told(finding, verdict.verdict == WRONG)
+        if verdict.causes and rest:
+            are = "is" if len(rest) == 1 else "are"
+            verdict.remarks.append(f"{counted(len(rest), 'pixel')} {are} not explained by the cause, the "
+                                   f"first in {self.place_in_words(min(rest))}")
+        verdict.places = sorted({*rest, *told.of(kind)})
+        told = told if told.of(kind) else finding.mismatch
+        if verdict.places:
+            place = min(told.of(kind))
+            words = KINDS_IN_WORDS[told.pixels[place]].format(told.owners.get(place))
+            verdict.first = f"{self.place_in_words(place)}: " + (
+                words if self.is_inside(place) else "another number of depths")
+
+    def is_inside(self, place):
+        """Whether a place is a pixel; a column beyond the picture stands for the whole row."""
+        return place[1] < self.ours.window.width
+
+    def place_in_words(self, place):
+        return f"row {place[0]}" + (f", column {place[1]}" if self.is_inside(place) else "")
 
     def has_other_colors(self, shown):
         """Whether most pixels with a triangle have a color that zbuf gives to none of the scene's. Which

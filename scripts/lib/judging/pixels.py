@@ -60,8 +60,7 @@ class PixelJudge:
         is_of_one = len(finding.touches) == 1 and finding.verdict == "mistake"
         if finding.verdict == "exact" or is_of_one or self.is_of_blank(finding):
             return finding
-        alone = PixelJudge(self.readings, self.window, self.shown.only(kind))
-        alone.made, alone.is_of_one = self.made, True
+        alone = self.alone(kind)
         try:
             if finding.verdict == "unknown":
                 found = alone.judge()
@@ -78,6 +77,28 @@ class PixelJudge:
                          if one and (one.verdict == "exact" or finding.verdict != "mistake")), finding)
         except TooMuch:
             return finding
+
+    def alone(self, kind):
+        """The judge of one of the two files."""
+        judge = PixelJudge(self.readings, self.window, self.shown.only(kind))
+        judge.made, judge.is_of_one = self.made, True
+        return judge
+
+    def told(self, finding, is_wrong):
+        """The Mismatch to show for a Finding: what its mistake explains, if `is_wrong` by one, and where its
+        rule is another one than ours, what that changes."""
+        found, rule = finding.mismatch, finding.mismatch.rule
+        is_by_mistake = is_wrong and finding.causes
+        if not (is_by_mistake or finding.rule and not found.pixels):
+            return found
+        try:
+            before = Rule(rule.left, rule.right, rule.depth, rule.clamp) if is_by_mistake else Rule()
+            mismatch = self.compare(found.reading, before)
+        except TooMuch:
+            return found
+        mismatch.pixels = {place: kind for place, kind in mismatch.pixels.items()
+                           if place not in found.pixels}
+        return mismatch
 
     def is_of_blank(self, finding):
         return finding.mismatch is self.plain and self.shown.is_all_blank
@@ -447,8 +468,7 @@ class PixelJudge:
 
     def unknown(self, plain):
         finding = Finding("unknown", plain, total=plain.drawn)
-        finding.touches = tuple(
-            name for name, places in (("depths", plain.of_depths), ("picture", plain.of_picture)) if places)
+        finding.touches = tuple(kind for kind in ("depths", "picture") if plain.of(kind))
         return finding
 
 

@@ -17,7 +17,8 @@ def rows(verdict):
 
 
 def remarks_of(file):
-    return [*([file.cause] if file.cause else []), *([file.rule] if file.rule else []), *file.remarks]
+    rule = f"{file.counts}: {file.rule}" if file.is_good and file.rule else file.rule
+    return [*filter(None, (file.cause, rule)), *file.remarks]
 
 
 def matrices(verdict):
@@ -50,7 +51,8 @@ def sentence(verdict):
         words = "; ".join(
             f"{listed(files)} by {'' if rule.startswith('another rule') else 'another rule: '}{rule}"
             for rule, files in rules.items())
-        return f"all {'five' if len(verdict.files) == 5 else 'three'} files are right, {words}"
+        return (f"all {'five' if len(verdict.files) == 5 else 'three'} files are right, {words}; that "
+                f"{others[0].counts}")
     if all(file.verdict == MISSING for file in failed):
         words = (f"{listed(failed)} {'is' if len(failed) == 1 else 'are'} not handed in; what is there "
                  f"is right")

@@ -55,11 +55,17 @@ class FileVerdict:
     first: str = ""           # the first one
     matrices: object = None   # a lib.judging.fit.Comparison
     places: list = dataclasses.field(default_factory=list)  # (row, column) of the pixels that differ
+    worth: float = 1.0        # what another rule earns, of the points of a right file
 
     @property
     def count_told(self):
         """How many differ, if that says something: a cause that explains every pixel leaves none."""
         return None if self.verdict == WRONG and self.differing == 0 else self.differing
+
+    @property
+    def counts(self):
+        """What another rule earns, in words."""
+        return "counts as right" if self.worth == 1 else f"earns {100 * self.worth:.4g} % of the points"
 
     @property
     def is_good(self):
