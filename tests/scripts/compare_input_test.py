@@ -42,6 +42,11 @@ def write(name, content):
     pathlib.Path(os.fsdecode(name)).write_bytes(content.encode() if isinstance(content, str) else content)
 
 
+def hand_in(scene, config, folder):
+    subprocess.run([SOURCE / "scripts/stages", "--", scene, config, folder], check=True, env=ENVIRONMENT,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
 def bmp_header(width, height, bits=24, offset=54, header_size=40, compression=0):
     return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54, 0, 0, offset, header_size, width, height, 1, bits,
                        compression, 0, 0, 0, 0, 0)
@@ -107,25 +112,12 @@ class Pipes(InputTest):
     def test_scenes_for_hints_and_for_five_come_through_pipes(self):
         write("scene", SCENE)
         write("config", "8 8\n")
-        os.mkdir("theirs")
-        for number, text in enumerate(self.bare_stages(), 1):
-            write(f"theirs/stage{number}.txt", text)
-        subprocess.run([
-            BIN / "zbuf", "config", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt", "--image",
-            "theirs/out.bmp"], check=True)
+        hand_in("scene", "config", "theirs")
         done = shell('"$COMPARE" --hand-in theirs <(cat scene) <(cat config)')
         self.assertEqual((done.stderr.decode(), done.returncode), ("", 0))
         self.assertIn("all five files are right", done.stdout.decode())
         self.assertEqual(shell('"$COMPARE" --hand-in theirs - config < scene').returncode, 0)
         self.assert_differs(shell('"$COMPARE" a b --scene <(cat scene)'), self.PLACE)
-
-    def bare_stages(self):
-        stage1 = subprocess.run([BIN / "model", "--bare", "scene"], check=True, capture_output=True).stdout
-        stage2 = subprocess.run([BIN / "view", "--bare", "--scene", "scene"], input=stage1, check=True,
-                                capture_output=True).stdout
-        stage3 = subprocess.run([BIN / "project", "--scene", "scene"], input=stage2, check=True,
-                                capture_output=True).stdout
-        return stage1, stage2, stage3
 
 
 class Nothing(InputTest):
@@ -414,17 +406,7 @@ class FiveFiles(InputTest):
         super().setUp()
         write("-scene", SCENE)
         write("-config", "8 8\n")
-        os.mkdir("-theirs")
-        stage1 = subprocess.run([BIN / "model", "--bare", "./-scene"], check=True, capture_output=True).stdout
-        stage2 = subprocess.run([BIN / "view", "--bare", "--scene", "./-scene"], input=stage1, check=True,
-                                capture_output=True).stdout
-        stage3 = subprocess.run([BIN / "project", "--scene", "./-scene"], input=stage2, check=True,
-                                capture_output=True).stdout
-        for number, text in enumerate((stage1, stage2, stage3), 1):
-            write(f"-theirs/stage{number}.txt", text)
-        subprocess.run([
-            BIN / "zbuf", "./-config", "./-theirs/stage3.txt", "--z-buffer", "./-theirs/z_buffer.txt",
-            "--image", "./-theirs/out.bmp"], check=True)
+        hand_in("./-scene", "./-config", "./-theirs")
 
     def judged(self, status=1):
         done = compare("--hand-in", "--", "-theirs", "-scene", "-config")
@@ -519,50 +501,6 @@ class Spheres(InputTest):
         os.mkdir("theirs")
         done = compare("--hand-in", "theirs", "scene")
         self.assertEqual((done.returncode, done.stderr.decode()), (2, message))
-
-
-class Causes(InputTest):
-    """Adding the eye instead of subtracting it moves every point by the same vector."""
-    SCENE = "{}\n{}\n0 1 0\n60 1 1 100\ntriangle\n{}\nend\n"
-    FLIPPED = "The third row of the rotation is l, the direction of the look, in place of -l"
-    ADDED = "The eye is added in place of subtracted"
-
-    def causes(self, points, eye="0 0 2", look="0 0 0", added=True):
-        """For a camera that looks down -z: in its view space p becomes p - eye, and p + eye with the
-        error."""
-        write("scene", self.SCENE.format(eye, look, points))
-        p = [list(map(float, line.split())) for line in points.split("\n")]
-        e = list(map(float, eye.split()))
-        right = [[x - y for x, y in zip(point, e)] for point in p]
-        wrong = [
-            [x + y
-             for x, y in zip(point, e)] if added else [point[0] - e[0], point[1] - e[1], e[2] - point[2]]
-            for point in p]
-        for name, numbers in (("a", wrong), ("b", right)):
-            write(name, "\n".join(" ".join(f"{x:.7f}" for x in point) for point in numbers) + "\n")
-        done = compare("a", "b", "--scene", "scene")
-        self.assertEqual((done.stderr.decode(), done.returncode), ("", 1))
-        cause = next(
-            line.split("|")[2].strip()
-            for line in done.stdout.decode().splitlines()
-            if line.startswith("| cause"))
-        return set(cause.removeprefix("either: ").split("; or: "))
-
-    FLAT = "-1 0 0\n1 0 0\n0 1 0"    # in the plane through the origin that the camera looks at
-    DEEP = "-1 0 0\n1 0 -1\n0 1 -2"
-
-    def test_points_that_allow_both_get_both(self):
-        for added in (True, False):
-            self.assertEqual(self.causes(self.FLAT, added=added), {self.ADDED, self.FLIPPED})
-
-    def test_the_points_depths_exclude_the_eye(self):
-        self.assertEqual(self.causes(self.DEEP, added=False), {self.FLIPPED})
-
-    def test_the_scene_excludes_the_eye(self):
-        self.assertEqual(self.causes(self.FLAT, eye="1 0 2", look="1 0 0", added=False), {self.FLIPPED})
-
-    def test_an_added_eye_is_known(self):
-        self.assertEqual(self.causes(self.DEEP, added=True), {self.ADDED})
 
 
 if __name__ == "__main__":

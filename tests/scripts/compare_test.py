@@ -110,25 +110,19 @@ class TwoFiles(ToolTest):
         right = student.texts(SCENE)
         for mistake, stage, words in (("view/l-not-negated", 1,
                                        "x, y and z of A are 1, 1 and -1 times those of B"),
-                                      ("view/eye-added", 1, ""), ("project/fovx-equals-fovy", 2, ""),
-                                      ("project/no-divide", 2, ""), ("project/last-element-is-one", 2, "")):
+                                      ("view/eye-added", 1, ""), ("project/no-divide", 2, ""),
+                                      ("project/last-element-is-one", 2, "")):
             with self.subTest(mistake):
-                table = self.told(
-                    student.texts(SCENE, mistake)[stage], right[stage],
-                    status=int(student.texts(SCENE, mistake)[stage] != right[stage]))
+                table = self.told(student.texts(SCENE, mistake)[stage], right[stage])
                 self.assertEqual((" ".join(cells(table, "hint")), cells(table, "cause")), (words, []))
 
     def test_with_the_scene_the_mistake_is_named(self):
         right = student.texts(WIDE)
-        for name, sentence in sentences().items():
-            stage = ("model", "view", "project", "zbuf").index(name.split("/")[0])
-            if stage == 3:
-                continue
+        for stage, name in enumerate(("model/pop-ignored", "view/eye-added", "project/fov-in-radians")):
             with self.subTest(name):
-                wrong = student.texts(WIDE, name)
-                if wrong[stage] != right[stage]:
-                    self.assertIn(sentence.rstrip("."),
-                                  self.row("cause", wrong[stage], right[stage], "--scene", "wide.txt"))
+                wrong = student.texts(WIDE, name)[stage]
+                self.assertIn(sentences()[name].rstrip("."),
+                              self.row("cause", wrong, right[stage], "--scene", "wide.txt"))
 
     def test_the_matrix_stands_beside_the_right_one(self):
         told = self.told(
@@ -206,17 +200,13 @@ class Five(ToolTest):
         return next(line for line in done.stdout.splitlines() if line.startswith("Verdict: ")), [
             line.split("|")[3].strip() for line in done.stdout.splitlines()[2:7]]
 
-    def test_who_is_right_is_right(self):
-        for in_memory in (True, False):
-            self.hand_in("", in_memory)
-            self.assertEqual(self.verdict(status=0), ("Verdict: all five files are right.", ["right"] * 5))
-
     def test_the_last_line_is_the_command_to_type_next(self):
         files = f"{SAMPLE}/scene.txt {SAMPLE}/config.txt"
         self.hand_in("project/no-divide")
         done = compare("--hand-in", "theirs", *files.split())
         self.assertEqual(done.stdout.splitlines()[-1], f"Next: pipeline explain {files} --triangle 0")
-        self.hand_in()
+        self.hand_in(in_memory=False)
+        self.assertEqual(self.verdict(status=0), ("Verdict: all five files are right.", ["right"] * 5))
         pathlib.Path("theirs/z_buffer.txt").write_text("0.1\t0.234567\n")
         done = compare("--hand-in", "theirs", *files.split())
         self.assertEqual(done.stdout.splitlines()[-1], f"Next: pipeline inspect {files} --theirs theirs")
@@ -234,19 +224,6 @@ class Five(ToolTest):
             pathlib.Path(f"theirs/stage{number}.txt").write_text("\n".join(cut))
         self.draw()
         self.assertEqual(self.verdict(status=0)[1], ["right"] * 5)
-
-    def test_one_mistake_is_counted_once_and_named(self):
-        for mistake in ("model/rotation-transposed", "model/angle-in-radians", "view/rotation-transposed",
-                        "view/up-as-given", "view/l-not-negated", "project/no-divide",
-                        "project/fov-in-radians"):
-            for in_memory in (True, False):
-                with self.subTest(mistake, in_memory=in_memory):
-                    # Some errors move the scene behind the eye, where our project clips and theirs does not.
-                    self.hand_in(mistake, in_memory)
-                    sentence, verdicts = self.verdict()
-                    self.assertIn(f"the first stage that went wrong is {mistake.split('/')[0]} ", sentence)
-                    self.assertIn(sentences()[mistake].rstrip("."), sentence)
-                    self.assertEqual(verdicts.count("wrong"), 1, sentence)
 
     def test_the_aspect_rule_of_the_scene_is_ours_too(self):
         scene = SCENE.replace("\n41 1 2 25 ", "\n41 1.25 2 25 ratio ")
@@ -270,35 +247,6 @@ class Five(ToolTest):
         self.assertIn("the first stage that went wrong is model", sentence)
         self.assertIn("also wrong, by themselves: z_buffer.txt", sentence)
         self.assertEqual(verdicts, ["wrong", "right", "right", "wrong", "right"])
-
-    def test_colors_are_the_students_own(self):
-        self.hand_in()
-        width, height, rows = read_picture("theirs/out.bmp")
-        pathlib.Path("theirs/out.bmp").write_bytes(
-            bmp(width, height, lambda c, r: [rows[r][3 * c + i] ^ 85 for i in range(3)]))
-        self.assertEqual(self.verdict(status=0)[1], ["right"] * 5)
-
-    def test_a_picture_upside_down_is_told(self):
-        self.hand_in()
-        width, height, rows = read_picture("theirs/out.bmp")
-        pathlib.Path("theirs/out.bmp").write_bytes(
-            bmp(width, height, lambda c, r: rows[height - 1 - r][3 * c:3 * c + 3]))
-        self.assertIn(
-            "the first stage that went wrong is zbuf (out.bmp is wrong): The rows are in reverse order",
-            self.verdict()[0])
-
-    def test_missing_files_are_told_and_the_rest_is_judged(self):
-        self.hand_in()
-        pathlib.Path("theirs/stage2.txt").unlink()
-        sentence, verdicts = self.verdict()
-        self.assertIn("stage2.txt is not handed in", sentence)
-        self.assertEqual(verdicts, ["right", "not handed in", "right", "right", "right"])
-
-    def test_a_text_that_cannot_be_read_is_told_with_its_place(self):
-        self.hand_in()
-        pathlib.Path("theirs/stage1.txt").write_text("1 2 3\n4 5 -nan\n")
-        done = compare("--hand-in", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt")
-        self.assertIn("stage1.txt:2: expected numbers, found '4 5 -nan'", done.stdout)
 
     def test_a_wrong_scene_is_a_message(self):
         done = compare("--hand-in", "theirs", "none.txt", SAMPLE / "config.txt")
