@@ -1,8 +1,9 @@
 """Mistakes that no list has, made in the right texts of a student's program: triangles lost or doubled, one
-vertex of three forgotten, and matrices with their rows in another order, transposed, or with other depths.
-They are calculated here from the scene's camera."""
+vertex of three forgotten, and matrices with their rows in another order or with other depths. They are
+calculated here from the scene's camera."""
 import dataclasses
-import math
+
+from vectors import cross, minus, unit
 
 ORDINALS = ("first", "second", "third")
 
@@ -24,46 +25,12 @@ def text_of(points):
     return "".join("%.7f %.7f %.7f\n" % p + "\n" * (i % 3 == 2) for i, p in enumerate(points))
 
 
-def camera(texts):
-    """eye, look, up and the four numbers of the perspective."""
-    return [tuple(map(float, line.split()[:4])) for line in texts[0].split("\n")[:4]]
-
-
-def unit(v):
-    size = math.sqrt(sum(x * x for x in v))
-    return tuple(x / size for x in v)
-
-
-def cross(a, b):
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
 def axes(texts):
     """r, u and -l of the camera."""
-    eye, look, up, _ = camera(texts)
-    l = unit(tuple(b - a for a, b in zip(eye, look)))
-    r = unit(cross(l, up))
-    return r, cross(r, l), tuple(-x for x in l)
-
-
-def turned_back(texts):
-    """The points of stage 1 under the transposed view matrix, without its translation: its columns are r, u
-    and -l."""
-    columns = axes(texts)
-    return [tuple(sum(columns[k][i] * p[k] for k in range(3)) for i in range(3)) for p in points_of(texts[1])]
-
-
-def depth_terms(texts):
-    *_, near, far = camera(texts)[3]
-    return -(far + near) / (far - near), -2 * far * near / (far - near)
-
-
-def transposed_projection(texts):
-    """x / r, y / t, A z - 1 and B z of each point in view space, divided: A and B are the third row's."""
-    (fov_y, aspect, _, _), (a, b) = camera(texts)[3], depth_terms(texts)
-    x_scale, y_scale = (1 / math.tan(math.radians(angle) / 2) for angle in (fov_y * aspect, fov_y))
-    return [(x_scale * x / (b * z), y_scale * y / (b * z), (a * z - 1) / (b * z))
-            for x, y, z in points_of(texts[2])]
+    eye, look, up = (tuple(map(float, line.split())) for line in texts[0].split("\n")[:3])
+    back = unit(minus(eye, look))
+    r = unit(cross(up, back))
+    return r, cross(back, r), back
 
 
 def clip_space(texts):
@@ -162,21 +129,13 @@ CHANGES = [
     Change("view", "y and z exchanged", moved(lambda x, y, z: (x, z, y), ROWS.format(2, 3, "y", "z"))),
     Change("view", "rows in a circle",
            moved(lambda x, y, z: (y, z, x), "The rows of the matrix stand in the order y, z, x")),
-    Change("view", "transposed", of_all(turned_back, "The matrix is transposed")),
     Change("view", "eye at one vertex", at_one_vertex(without_eye, ": The eye is not subtracted")),
     Change("view", "eye at two vertices", at_two_vertices(without_eye, ": The eye is not subtracted")),
     Change("project", "x and y exchanged", moved(lambda x, y, z: (y, x, z), ROWS.format(1, 2, "x", "y"))),
     Change("project", "x and z exchanged", of_all(x_row_for_z, ROWS.format(1, 3, "x", "z"))),
     Change("project", "z and w exchanged", of_all(w_row_for_z, ROWS.format(3, 4, "z", "w"))),
-    Change("project", "transposed", of_all(transposed_projection, "The matrix is transposed")),
-    Change("project", "depth from 0 to 1",
-           moved(lambda x, y, z: (x, y, (z + 1) / 2), "The depth goes from 0 at near to 1 at far")),
     Change("project", "depth from 1 to 0",
            moved(lambda x, y, z: (x, y, (1 - z) / 2), "The depth goes from 1 at near to 0 at far")),
-    Change(
-        "project", "z not divided",
-        of_all(lambda texts: [(x / w, y / w, z) for x, y, z, w in clip_space(texts)],
-               "z is not divided by w")),
     Change("project", "one vertex not divided",
            at_one_vertex(lambda texts: [p[:3] for p in clip_space(texts)], NOT_DIVIDED)),
     Change("project", "two vertices not divided",

@@ -3,6 +3,8 @@ a triangle missing: what is left whole keeps its point, and nothing else gets on
 import itertools
 import struct
 
+import reference
+
 NAMES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
 SUBSETS = [some for count in range(1, 6) for some in itertools.combinations(NAMES, count)]
 HOWS = ("emptied", "blank", "in one place", "cut in half", "of another scene")
@@ -61,11 +63,4 @@ def deep_colors(bmp):
 
 def generated_colors(count):
     """The colors of triangles that have none (docs/stages.md, Z10), blue first, as a BMP has them."""
-    state, colors = 1, []
-    for _ in range(count):
-        channels = []
-        for _ in range(3):
-            state = (214013 * state + 2531011) % 2**32
-            channels.append((state >> 16 & 0x7fff) % 256)
-        colors.append(bytes(channels[::-1]))
-    return colors
+    return [bytes(reference.generated_color(number)[::-1]) for number in range(count)]

@@ -5,11 +5,11 @@ usage: compare_test.py BIN_DIR STUDENT [UNITTEST ARGUMENT...]
 """
 import math
 import pathlib
-import struct
 import subprocess
 import unittest
 
 from toolbox import BIN, SOURCE, ToolTest, run
+import reference
 import student  # takes the word behind toolbox's
 from lib.judging.mistakes import sentences
 from lib.showing.pictures import png, read_picture
@@ -36,12 +36,7 @@ def cells(table, name):
 
 def bmp(width, height, pixels):
     """A BMP whose pixels are a function of column and row."""
-    body = b""
-    for row in reversed(range(height)):
-        line = b"".join(bytes(reversed(pixels(column, row))) for column in range(width))
-        body += line + bytes(-len(line) % 4)
-    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0,
-                       len(body), 0, 0, 0, 0) + body
+    return reference.bmp([[pixels(c, r) for c in range(width)] for r in range(height)])
 
 
 class TwoFiles(ToolTest):

@@ -13,6 +13,7 @@ import subprocess
 import unittest
 
 from toolbox import BIN, ToolTest
+import reference
 import student  # takes the word behind toolbox's
 
 os.environ["BIN"] = str(BIN)
@@ -30,16 +31,6 @@ SCENE = student.SCENE
 CONFIG = "90 80\n-0.6\n-0.5\n-1 1\n"
 OPEN = "could not be judged"
 NAMES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
-
-
-def bmp(rows):
-    """A BMP of rows of colors."""
-    width, height = len(rows[0]), len(rows)
-    body = b"".join(b"".join(bytes(reversed(color))
-                             for color in row) + bytes(-3 * width % 4)
-                    for row in reversed(rows))
-    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0,
-                       len(body), 0, 0, 0, 0) + body
 
 
 def with_rough_pi(scene, pi):
@@ -81,7 +72,7 @@ class Pixels:
                            if z is not None or empty is not None)
 
         pathlib.Path(depths).write_text("".join(line(row) + "\n" for row in self.depths))
-        pathlib.Path(picture).write_bytes(bmp(self.colors))
+        pathlib.Path(picture).write_bytes(reference.bmp(self.colors))
 
     def ends(self):
         """The right ends of the picture: (row, column)."""
@@ -379,7 +370,7 @@ class Wrong(HandIn):
     def test_a_blank_picture_has_no_cause_but_what_would_blank_it(self):
         self.hand_in()
         pathlib.Path("z_buffer.txt").write_text("\n" * 80)
-        pathlib.Path("out.bmp").write_bytes(bmp([[(0, 0, 0)] * 90] * 80))
+        pathlib.Path("out.bmp").write_bytes(reference.bmp([[(0, 0, 0)] * 90] * 80))
         verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
         self.assertEqual((verdict.files[3].cause, verdict.files[3].remarks),
                          ("", ["nothing is drawn, as if: " + mistakes.sentence("zbuf/starts-at-zero")[:-1]]))

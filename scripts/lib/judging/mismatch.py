@@ -57,4 +57,3 @@ class Finding:
     causes: list = dataclasses.field(default_factory=list)
     touches: tuple = ("depths", "picture")  # the files that the mistake spoils
     remarks: list = dataclasses.field(default_factory=list)
-    total: int = 0              # of pixels with a triangle

@@ -237,7 +237,7 @@ class PixelJudge:
         """A Finding if the rule explains everything: that, or all triangles in one color."""
         if mismatch is None or mismatch.pixels:
             return None
-        finding = Finding("exact", mismatch, in_words(mismatch.rule), total=mismatch.drawn)
+        finding = Finding("exact", mismatch, in_words(mismatch.rule))
         if mismatch.reading == "memory":
             finding.remarks.append("by the exact numbers, kept in memory")
         if mismatch.reading.startswith("right"):
@@ -344,8 +344,7 @@ class PixelJudge:
             found = {names: mismatch for names, mismatch in found.items() if len(names) == 1}
         mismatch = next(iter(found.values()))
         return Finding("mistake", mismatch, in_words(mismatch.rule),
-                       [cause_of_all("zbuf", names) for names in found], self.touched(mismatch),
-                       total=mismatch.drawn)
+                       [cause_of_all("zbuf", names) for names in found], self.touched(mismatch))
 
     def touched(self, mismatch):
         """The files that a mistake spoils: one of them if it only turns its rows."""
@@ -389,8 +388,7 @@ class PixelJudge:
             beyond[what] += 1
             if beyond[what] > most[what]:
                 return None
-        return Finding("borders", best, self.at_borders_in_words(best, beyond["other"] + beyond["depth"]),
-                       total=best.drawn)
+        return Finding("borders", best, self.at_borders_in_words(best, beyond["other"] + beyond["depth"]))
 
     def shows_each_triangle(self, mismatch):
         """See shows_each. A triangle whose pixels have the color and the depths of another is not shown."""
@@ -467,7 +465,7 @@ class PixelJudge:
         return finding
 
     def unknown(self, plain):
-        finding = Finding("unknown", plain, total=plain.drawn)
+        finding = Finding("unknown", plain)
         finding.touches = tuple(kind for kind in ("depths", "picture") if plain.of(kind))
         return finding
 
