@@ -305,16 +305,17 @@ class AnotherRule(HandIn):
         self.assert_verdicts(["right"] * 3 + ["wrong", "right"], 1)
 
     def test_a_picture_by_the_center_rule_is_right_whatever_the_depths_are(self):
-        self.hand_in("--coverage", "center")
-        pixels = Pixels()
-        drawn = sum(z is not None for row in pixels.depths for z in row)
-        pixels.depths = [[None if z is None else z - 0.01 for z in row] for row in pixels.depths]
-        pixels.write()
-        verdict = self.assert_verdicts(["right"] * 3 + ["wrong", "right by another rule"], 1)
-        self.assertEqual((verdict.files[4].rule, verdict.files[4].differing), ("the center rule", 0))
-        self.assertEqual((verdict.files[3].differing, verdict.files[3].compared), (drawn, drawn))
-        self.assertRegex(verdict.files[3].first,
-                         r"^row \d+, column \d+: another depth than that of triangle \d$")
+        for self.config in (CONFIG, "90 80\n-0.2\n-0.2\n-1 1\n"):  # which the triangles cover nearly all
+            self.hand_in("--coverage", "center")
+            pixels = Pixels()
+            drawn = sum(z is not None for row in pixels.depths for z in row)
+            pixels.depths = [[None if z is None else z - 0.01 for z in row] for row in pixels.depths]
+            pixels.write()
+            depths, picture = self.assert_verdicts(["right"] * 3 + ["wrong", "right by another rule"],
+                                                   1).of("zbuf")
+            self.assertEqual((picture.rule, picture.differing, depths.cause), ("the center rule", 0, ""))
+            self.assertEqual((depths.differing, depths.compared), (drawn, drawn))
+            self.assertRegex(depths.first, r"^row \d+, column \d+: another depth than that of triangle \d$")
 
     def test_the_background_is_the_color_that_no_triangle_has(self):
         self.config = "90 80\n-0.2\n-0.2\n-1 1\n"  # which the triangles cover nearly all

@@ -316,8 +316,10 @@ class PixelJudge:
         def count(rule, most):
             drawing, pixels = self.drawing(self.first, rule), self.shown.pixels(rule.picture_flip,
                                                                                rule.text_flip)
-            budget = [PIXELS_LOOKED_AT]
-            unexplained = (1 for row in rows for _ in self.row_mismatches(drawing, pixels, row, budget))
+            budget, width = [PIXELS_LOOKED_AT], self.window.width
+            unexplained = (
+                most + 1 if column == width else 1  # another number of depths explains none of the row
+                for row in rows for column, _ in self.row_mismatches(drawing, pixels, row, budget))
             return sum(itertools.islice(unexplained, most + 1))
 
         least, found = 10**9, {}
@@ -328,7 +330,8 @@ class PixelJudge:
                 rule, most = Rule(**{**ends, **changes}), least // NEARLY
                 if not (self.is_void(changes) or self.is_torn(rule)) and count(rule, most) <= most:
                     mismatch = self.compare(self.first, rule)
-                    if mismatch.drawn and NEARLY * len(mismatch.pixels) <= len(best.pixels):
+                    if mismatch.drawn and NEARLY * len(mismatch.pixels) <= len(best.pixels) and not any(
+                            column == self.window.width for _, column in mismatch.pixels):
                         found.setdefault(names, mismatch)
         return self.mistake(found) if found else None
 
