@@ -175,6 +175,13 @@ class Program(ToolTest):
         rows = told.split("| right\n")[1].splitlines()
         self.assertEqual([row.count("*") for row in rows], [0, 1, 0, 0])
 
+    def test_a_scene_without_a_cause_leads_to_one_that_shows_the_matrix(self):
+        mix = """awk '/^[-0-9]/ { print 1.3 * $1 + 0.2 * $2, 0.9 * $2 - 0.1, 1.1 * $3; next } 1'"""
+        told = check("view", "--", script(f'"$BIN/view" | {mix}')).stdout
+        self.assertRegex(told, r"^1-one-triangle: wrong\n(?:  .*\n)*  cause: none of those known\n"
+                               r"2-camera: wrong\n")
+        self.assertEqual([row.count("*") for row in told.split("| right\n")[1].splitlines()[:4]], [4, 4, 4, 0])
+
     def test_a_zbuf_gets_its_config_and_writes_its_picture(self):
         told = self.told("zbuf", 'exec "$BIN/zbuf" --coverage center "$1"', status=0)
         self.assertRegex(told, r"^scene: right by another rule: the center rule\n  that counts as right: .*\n"
