@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import resource
 import signal
 import socket
@@ -416,7 +417,7 @@ class Nodes(ToolTest):
 
     def test_linear_colors_become_those_of_a_screen(self):
         """Half the light is not half the number: 0.5 is 187.516 of 255 (IEC 61966-2-1)."""
-        self.assertEqual(header(scene_of("model.gltf"))["color"], ["255 187.516 0"])
+        self.assertEqual(header(scene_of("model.gltf"))["paint"], ["255 187.516 0"])
 
 
 class Colors(ToolTest):
@@ -435,7 +436,7 @@ class Colors(ToolTest):
         colors = set()
         for suffix, write in FORMATS.items():
             pathlib.Path(f"model.{suffix}").write_bytes(write(vase(1)))
-            colors.add(header(scene_of(f"model.{suffix}"))["color"][0])
+            colors.add(header(scene_of(f"model.{suffix}"))["paint"][0])
         self.assertEqual(len(colors), 1, colors)
 
     def test_of_materials(self):
@@ -443,8 +444,8 @@ class Colors(ToolTest):
         pathlib.Path("model.obj").write_text(
             "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n")
         scene = scene_of("model.obj")
-        self.assertEqual([line for line in scene.splitlines() if line.startswith("color")],
-                         ["color 255 51 0", "color 0 0 153"])
+        self.assertEqual(header(scene)["paint"], ["255 51 0", "0 0 153"])
+        self.assertEqual({len(vertex) for triangle in world_triangles(scene) for vertex in triangle}, {7})
 
 
 STUDIO = "1 1 0.15 20"  # of meshes whose file says nothing of materials
@@ -470,23 +471,28 @@ class Materials(ToolTest):
                                                      for i, name in enumerate(names)))
 
     def lines(self, name, *options):
-        """The lines `material` and the commands of color and material, without the triangles."""
+        """The lines of materials and colors, without the triangles."""
         scene = scene_of(name, *options)
         pipe(["model"], ["view"], ["project"], ["zbuf", "--size", "9x9", "--image", "out.ppm"], stdin=scene)
-        return [line for line in scene.splitlines() if line.split()[:1] in (["material"], ["use"], ["color"])]
+        return [line for line in scene.splitlines() if re.match("(material|paint|use|color) ", line)]
 
     def test_of_colors_become_factors(self):
         self.write_obj("matt", "shiny", "other", "matt")
         self.assertEqual(self.lines("model.obj"), [
-            "material 1 1 0 10", "material 0.5 1 0.6 64", "material " + STUDIO, "color 204 204 204",
-            "color 204 51 0", "use 1", "color 0 0 255", "use 2", "color 204 204 204", "use 0"])
+            "material 1 1 0 10", "paint 204 204 204", "material 0.5 1 0.6 64", "paint 204 51 0",
+            "material " + STUDIO, "paint 0 0 255", "use 1", "use 2", "use 0"])
+        self.assertEqual(self.lines("model.obj", "--color", "ff8000"), [
+            "material 1 1 0 10", "paint 255 128 0", "material 0.5 1 0.6 64", "paint 255 128 0",
+            "material " + STUDIO, "paint 255 128 0", "use 1", "use 2", "use 0"])
 
     def test_one_is_enough_where_all_are_alike(self):
         self.write_obj("shiny", "twin")
-        self.assertEqual(self.lines("model.obj"),
-                         ["material 0.5 1 0.6 64", "color 204 51 0", "color 0 76.5 0"])
+        self.assertEqual(self.lines("model.obj"), [
+            "material 0.5 1 0.6 64", "paint 204 51 0", "material 0.5 1 0.6 64", "paint 0 76.5 0", "use 1"])
+        self.assertEqual(self.lines("model.obj", "--color", "0000ff"),
+                         ["material 0.5 1 0.6 64", "paint 0 0 255"])
         self.write_obj("other")
-        self.assertEqual(self.lines("model.obj"), ["material " + STUDIO, "color 0 0 255"])
+        self.assertEqual(self.lines("model.obj"), ["material " + STUDIO, "paint 0 0 255"])
 
     def test_are_not_those_of_files_without_any(self):
         for suffix, write in FORMATS.items():
@@ -537,6 +543,15 @@ class Materials(ToolTest):
                          [f"material 1 1 0.5 {i + 1}" for i in range(256)])
         self.assertEqual([line for line in lines if line.startswith("use")],
                          [f"use {i}" for i in [*range(1, 256), 0]])
+
+    def test_have_no_paints_where_these_were_too_many(self):
+        self.write_obj(*map(str, range(300)))
+        for color_count, keyword, line_count in ((256, "paint", 256), (257, "color", 300)):
+            pathlib.Path("model.mtl").write_text("".join(
+                f"newmtl {i}\nKd {i % color_count / 300} 0 0\n" for i in range(300)))
+            lines = self.lines("model.obj")
+            self.assertEqual(lines[:2], ["material " + STUDIO, keyword + " 0 0 0"])
+            self.assertEqual(sum(line.startswith(keyword) for line in lines), line_count)
 
     def test_of_no_numbers_are_none(self):
         pathlib.Path("model.mtl").write_text("newmtl odd\nKa -1 nan inf\nKd 1 1 1\nKs 7 7 7\nNs 1e30\n")

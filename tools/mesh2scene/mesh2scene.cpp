@@ -196,7 +196,7 @@ int main(int argc, char** argv) {
     if (setting.has_one_color) setting.color = to_vec3(*parse_color(chosen.color));
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
                         ", by mesh2scene; zbuf --size " + chosen.size};
-    const SceneMaterials materials(model);
+    const SceneMaterials materials(model, setting);
     if (materials.are_too_many())
       tool.note(name + ": it has more than " + counted(SceneMaterials::kMaxCount, "material") +
                 "; from there on meshes have the first");

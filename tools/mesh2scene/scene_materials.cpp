@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libpipeline/text/number_printer.h"
+#include "tools/mesh2scene/scene_text.h"
 
 namespace pipeline {
 namespace {
@@ -78,11 +79,22 @@ std::string line_of(const aiMaterial* material) {
 
 }  // namespace
 
-SceneMaterials::SceneMaterials(const ImportedModel& model) : model_(model) {
-  for (const PlacedMesh& placed : model.meshes()) {
-    const aiMaterial* const material = model.material(*placed.mesh);
+SceneMaterials::SceneMaterials(const ImportedModel& model, const SceneSetting& setting)
+    : model_(model), setting_(setting), have_paints_(setting.has_one_color || !model.has_vertex_colors()) {
+  number_all();
+  if (!have_paints_ || !are_too_many_) return;
+  have_paints_ = are_too_many_ = false;
+  lines_.clear();
+  numbers_.clear();
+  number_all();
+}
+
+void SceneMaterials::number_all() {
+  for (const PlacedMesh& placed : model_.meshes()) {
+    const aiMaterial* const material = model_.material(*placed.mesh);
     if (numbers_.contains(material)) continue;
-    const std::string line = line_of(material);
+    std::string line = "material " + line_of(material);
+    if (have_paints_) line += "\npaint " + text_of(color_of(*placed.mesh));
     const auto number = static_cast<std::size_t>(std::ranges::find(lines_, line) - lines_.begin());
     if (number == lines_.size() && number == kMaxCount) {
       are_too_many_ = true;
@@ -96,6 +108,10 @@ SceneMaterials::SceneMaterials(const ImportedModel& model) : model_(model) {
 
 std::size_t SceneMaterials::number_of(const aiMesh& mesh) const {
   return numbers_.at(model_.material(mesh));
+}
+
+Vec3 SceneMaterials::color_of(const aiMesh& mesh) const {
+  return setting_.has_one_color ? setting_.color : model_.color(mesh).value_or(setting_.color);
 }
 
 }  // namespace pipeline

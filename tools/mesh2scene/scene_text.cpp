@@ -35,16 +35,16 @@ std::string float_text(double value) {
   return {text.data(), print_float(text.data(), static_cast<float>(value))};
 }
 
+std::string text_of(const Vec3& v) {
+  return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
+}
+
 namespace {
 
 using pipeline::float_text;
 
 std::string float_text(const Vec3& v) {
   return float_text(v.x) + " " + float_text(v.y) + " " + float_text(v.z);
-}
-
-std::string text_of(const Vec3& v) {
-  return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
 }
 
 /// The content of a vertex's line.
@@ -201,7 +201,7 @@ class SceneWriter {
          shortest_text(Rounding(camera.far)(camera.far)) + " ratio");
     line("background " + text_of(setting_.background));
     line(has_color_columns_ ? "attributes color normal" : "attributes normal");
-    for (const std::string& material : materials_.lines()) line("material " + material);
+    for (const std::string& material : materials_.lines()) line(material);
     if (setting_.ambient != Vec3{}) line("ambient " + text_of(setting_.ambient));
     for (const ModelLight& light : setting_.lights)
       line("light " + text_of(rounded(light.position)) + " " + text_of(Rounding(0.1)(light.intensity)));
@@ -239,8 +239,9 @@ class SceneWriter {
   void write(const PlacedMesh& placed) {
     const aiMesh& mesh = *placed.mesh;
     if (mesh.mName.length > 0) line("# " + on_one_line(mesh.mName.C_Str()));
-    const Vec3 color = setting_.has_one_color ? setting_.color : model_.color(mesh).value_or(setting_.color);
-    if (!has_color_columns_ && color != color_in_force_) line("color " + text_of(color));
+    const Vec3 color = materials_.color_of(mesh);
+    if (!has_color_columns_ && !materials_.have_paints() && color != color_in_force_)
+      line("color " + text_of(color));
     color_in_force_ = color;
     const std::size_t material = materials_.number_of(mesh);
     if (material != material_in_force_) line("use " + std::to_string(material));

@@ -16,6 +16,8 @@ enum class NodeForm { applied, as_commands };
 
 /// The shortest text that reads back to the same float: the precision of assimp, and of what most files hold.
 std::string float_text(double value);
+/// The shortest texts of the three doubles.
+std::string text_of(const Vec3& v);
 
 /// Writes the model as a scene (docs/scene.md). Numbers of the file have their shortest form; those of a
 /// camera or a light have five digits of the distance between eye and model.
