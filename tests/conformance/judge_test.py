@@ -24,7 +24,7 @@ from collections import namedtuple
 arguments = [sys.argv.pop(1) for _ in sys.argv[1:]]
 student, bin_dir, source = (pathlib.Path(path).resolve() for path in arguments[:3])
 scene_count, share = (int(word) for word in (*arguments[3:], *("20", "4")[len(arguments) - 3:]))
-os.environ["BIN"] = str(bin_dir)
+os.environ |= {"BIN": str(bin_dir), "STUDENT_SEED": "1"}  # of random pixels
 import changes  # noqa: E402
 import course_scenes  # noqa: E402
 import damages  # noqa: E402
@@ -232,8 +232,10 @@ class Judged(unittest.TestCase):
     def test_no_stage_is_accused_but_the_mistakes(self):
         for run in self.of(MISTAKES):
             stage = run.switch.partition("/")[0]
+            before = [*FILES_OF][:[*FILES_OF].index(stage)]
             out_of_view = [[NOTHING_IN_VIEW]] if stage in ("view", "project") else []
             with self.shown(run):
+                self.assertTrue({*before}.isdisjoint(run.differing))
                 self.assertEqual([
                     file.verdict for file in run.files
                     if file.stage != stage and not file.is_good and [file.remarks] != out_of_view], [],

@@ -269,12 +269,6 @@ class Program(ToolTest):
             self.assertEqual((done.returncode, done.stdout, done.stderr),
                              (2, "", f"check-stage: cannot run {word}: {reason}\n"))
 
-    def test_a_scene_that_is_refused_is_a_message(self):
-        pathlib.Path("scene").write_text("1 2\n")
-        done = check("view", "--scene", "scene", "--", "cat")
-        self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("check-stage: the scene is refused: ", done.stderr)
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -16,7 +16,6 @@ import struct
 import subprocess
 import tarfile
 import tempfile
-import time
 import unittest
 import zipfile
 from unittest import mock
@@ -379,12 +378,11 @@ class Hostile(ClassTest):
         self.add("zoe")
 
     def judge(self, *words, status=1):
-        begin = time.monotonic()
         self.before = sorted(os.listdir("."))
         self.grade(*words, status=status)
         self.assertEqual(self.scores()["zoe"], 1.0)
         self.assertEqual(sorted(os.listdir(".")), sorted([*self.before, "graded"]))
-        return {row["hand-in"]: row for row in self.rows()}, time.monotonic() - begin
+        return {row["hand-in"]: row for row in self.rows()}
 
     def test_names(self):
         long = "n" * 250
@@ -395,7 +393,7 @@ class Hostile(ClassTest):
             "\u202etxt", long, "a,b\"c", "%s%n"]
         for name in names:
             self.add(name)
-        rows, _ = self.judge(status=0)
+        rows = self.judge(status=0)
         self.assertEqual(len(rows), len(names) + 1)
         self.assertEqual({float(row["score"]) for row in rows.values()}, {1.0})
         self.assertTrue({*("'" + name for name in formulas)} <= set(rows))
@@ -412,7 +410,7 @@ class Hostile(ClassTest):
         for name in (b"stage1\xff.txt", b"stage 1.txt\n", b"-stage1.txt", b"stage1.txt "):
             with open(b"hand-ins/a/" + name, "wb") as file:
                 file.write((SAMPLE / "stage1.txt").read_bytes())
-        rows, _ = self.judge(status=0)
+        rows = self.judge(status=0)
         self.assertEqual(float(rows["a"]["score"]), 1.0)  # -stage1.txt, with its dash read over, is meant
 
     def members(self, *extra):
@@ -438,7 +436,7 @@ class Hostile(ClassTest):
     def test_what_a_system_adds_to_an_archive_is_no_file_of_the_hand_in(self):
         added = [("__MACOSX/stage1.txt", b"\0\5\26\7"), ("__MACOSX/._stage1.txt", b"")]
         self.zip("zip", added + [("in/" + name, data) for name, data in self.members()])
-        rows, _ = self.judge(status=0)
+        rows = self.judge(status=0)
         self.assertEqual((float(rows["zip"]["score"]), rows["zip"]["remarks"]), (0.8, ""))
 
     def test_archives_that_climb_out(self):
@@ -447,7 +445,7 @@ class Hostile(ClassTest):
             ("../out.bmp", "/tmp/out.bmp", "a/../../out.bmp", "..\\out.bmp", "C:\\out.bmp")):
             self.zip(f"zip{i}", self.members((path, picture)))
             self.tar(f"tar{i}", (), self.members((path, picture)))
-        rows, _ = self.judge(status=0)
+        rows = self.judge(status=0)
         for name, row in rows.items():
             if name != "zoe":
                 self.assertEqual((float(row["score"]), row["remarks"]),
@@ -476,7 +474,7 @@ class Hostile(ClassTest):
         info = zipfile.ZipInfo("stage1.txt")
         info.external_attr = 0o120777 << 16
         self.zip("zip", [(info, secret), *self.members()[1:]])
-        rows, seconds = self.judge()
+        rows = self.judge()
         self.assertEqual({name: float(row["score"])
                           for name, row in rows.items()}, {
                               "zoe": 1.0, "folder": 0.6, "inner": 0.0, "itself": 0.0, "link": 0.0,
@@ -558,7 +556,7 @@ class Hostile(ClassTest):
         header = tarfile.TarInfo("x")
         header.type, header.size = tarfile.XHDTYPE, 1 << 40
         pathlib.Path("hand-ins/pax.tar").write_bytes(header.tobuf() + bytes(1024))
-        rows, _ = self.judge()
+        rows = self.judge()
         self.assertEqual([float(rows[name]["score"]) for name in ("zip", "tar", "claims", "pax")], [0.0] * 4)
         self.assertIn("swells to more than 256 MiB", rows["tar"]["remarks"])
         self.assertIn("more than the scene can need", self.page(4) + self.page(5))
@@ -579,7 +577,7 @@ class Hostile(ClassTest):
         for mark, offset in ((b"PK\3\4", 6), (b"PK\1\2", 8)):
             encrypted[data.index(mark) + offset] |= 1
         pathlib.Path("hand-ins/encrypted.zip").write_bytes(encrypted)
-        rows, _ = self.judge()
+        rows = self.judge()
         self.assertEqual({name: float(row["score"]) for name, row in rows.items()},
                          {"zoe": 1.0, "checksum": 0.6, "encrypted": 0.6, **{str(i): 0.0 for i in range(6)}})
 
@@ -594,7 +592,7 @@ class Hostile(ClassTest):
         self.add("folders")
         pathlib.Path("hand-ins/folders/" + "d/" * 900).mkdir(parents=True)
         self.zip("deeper", [("d/" * 5000 + "stage1.txt", b"1 2 3\n")])
-        rows, _ = self.judge()
+        rows = self.judge()
         self.assertEqual(
             {name: float(row["score"])
              for name, row in rows.items()},
@@ -612,7 +610,7 @@ class Hostile(ClassTest):
              png_size[:16] + struct.pack(">II", 5790, 5790) + png_size[24:])):
             self.add(f"{i}", files=FILES[:4])
             pathlib.Path(f"hand-ins/{i}/out.bmp").write_bytes(data)
-        rows, _ = self.judge(status=0)
+        rows = self.judge(status=0)
         self.assertEqual([float(rows[f"{i}"]["score"]) for i in range(6)], [0.8] * 6)
         # By its header alone: there is nothing to unpack.
         self.assertIn("expected 10 x 10 pixels, found 5790 x 5790", self.page(6))
@@ -622,7 +620,7 @@ class Hostile(ClassTest):
         for name in FILES:
             with open(f"hand-ins/a/{name}", "wb") as file:
                 file.truncate(1 << 40)
-        rows, seconds = self.judge(status=0)
+        rows = self.judge(status=0)
         self.assertEqual(float(rows["a"]["score"]), 0.0)
 
     def test_many_triangles_over_the_whole_screen(self):
@@ -632,19 +630,14 @@ class Hostile(ClassTest):
         self.assertIn("30000 triangles in place of 1", self.page(1))
         self.assertIn("by the right numbers, which are not those of stage3.txt", self.page(1))
 
-    def test_what_is_given_up_leaves_no_files(self):
+    def test_time_and_memory_have_limits(self):
         self.add("a")
         pathlib.Path("hand-ins/a/stage3.txt").write_text("-9 -9 0\n9 -9 0\n0 9 .5\n" * 30_000)
         os.mkdir("temporary")
         os.environ["TMPDIR"] = os.path.abspath("temporary")
         self.addCleanup(os.environ.pop, "TMPDIR")
-        self.grade("--time-limit", "0.05", status=1)
-        self.assertEqual(os.listdir("temporary"), [])
-
-    def test_time_and_memory_have_limits(self):
-        self.add("a")
-        pathlib.Path("hand-ins/a/stage3.txt").write_text("-9 -9 0\n9 -9 0\n0 9 .5\n" * 30_000)
         self.grade("--time-limit", "0.01", status=1)
+        self.assertEqual(os.listdir("temporary"), [])
         # The other one may be done before anybody looks.
         self.assertIn("takes longer than 0.01 s", {row["hand-in"]: row["remarks"]
                                                    for row in self.rows()}["a"])

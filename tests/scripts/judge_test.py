@@ -723,15 +723,12 @@ class FollowOn(HandIn):
 
 class Files(HandIn):
     def test_names_of_the_assignments_and_of_their_readers(self):
-        self.hand_in()
         for depths in ("z_buffer.txt", "zbuffer.txt", "z-buffer.txt", "zBuffer.txt", "z_out.txt",
                        "z_buffer_12.txt"):
             for picture in ("out.bmp", "output.bmp", "output_3.bmp", "1.bmp"):
                 os.mkdir("set")
-                for name in NAMES[:3]:
-                    shutil.copy(name, "set")
-                shutil.copy("z_buffer.txt", os.path.join("set", depths))
-                shutil.copy("out.bmp", os.path.join("set", picture))
+                for name in (*NAMES[:3], depths, picture):
+                    pathlib.Path("set", name).touch()
                 files = find_files("set")
                 self.assertEqual((files["depths"].name, files["picture"].name), (depths, picture))
                 shutil.rmtree("set")
