@@ -4,6 +4,7 @@
 
 #include "libpipeline/coverage/depth_in_pairs.h"
 #include "libpipeline/coverage/span.h"
+#include "libpipeline/numbers/ball.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/pixel_grid.h"
 
@@ -46,6 +47,8 @@ class NearestRows {
   /// the plane's at the exact center of the pixel within 2^-39 of the largest |z| of a vertex; at a pixel
   /// whose center lies beyond an end of the row within 2^-28, or of its own |z| if that is larger.
   [[nodiscard]] std::optional<Span> span(int row) const;
+  /// That depth exactly, at the center as Z1 of docs/stages.md rounds it: exact_depth.h.
+  [[nodiscard]] Ball exact_depth(int row, int column) const;
 
  private:
   struct Intersection {

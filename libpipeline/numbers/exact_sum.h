@@ -1,18 +1,40 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <initializer_list>
+#include <span>
 
 #include "libpipeline/numbers/ball.h"
+#include "libpipeline/numbers/fixed_int.h"
 
 namespace pipeline {
 
-/// The product of four finite doubles.
+/// The product of up to four finite doubles.
 struct ExactProduct {
-  double a, b, c, d = 1;
+  double a, b, c = 1, d = 1;
 };
 
+/// value * 2^exponent, rounded once: the error is at most 2^-102 of it, and 0 stays exactly 0.
+template <std::size_t Limbs>
+Ball to_ball(const FixedInt<Limbs>& value, int exponent) {
+  const int length = bit_length(value);
+  // Twice 52 bits of it, each of which a double holds.
+  const int high_shift = std::max(length - 52, 0), low_shift = std::max(length - 104, 0);
+  const std::int64_t high = cut(value, high_shift);
+  const FixedInt<Limbs> rest = value - (FixedInt<Limbs>(high) << high_shift);
+  const double low = std::ldexp(static_cast<double>(cut(rest, low_shift)), low_shift - high_shift);
+  return Ball::with_error(fast_two_sum(static_cast<double>(high), low), low_shift == 0 ? 0 : 0x1p-52,
+                          exponent + high_shift);
+}
+
 /// The sum of products, rounded once: the error is at most 2^-100 of the sum, and a sum of 0 is exactly 0. At
-/// most 16 products. Slow: for signs that balls cannot tell.
-Ball exact_sum(std::initializer_list<ExactProduct> products);
+/// most 18 products. Slow: for signs and digits that balls cannot tell.
+Ball exact_sum(std::span<const ExactProduct> products);
+inline Ball exact_sum(std::initializer_list<ExactProduct> products) {
+  return exact_sum(std::span(products.begin(), products.size()));
+}
 
 }  // namespace pipeline

@@ -1,16 +1,28 @@
 #include "libpipeline/picture/depth_text.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "libpipeline/text/number_printer.h"
+#include "libpipeline/text/number_rounding.h"
 #include "libpipeline/text/scaled_number.h"
 
 namespace pipeline {
 
 // T23
-void write_depth_row(TextWriter& text, std::span<const double> depths, double rear) {
-  constexpr std::size_t kAtOnce = 64;
+void write_depth_row(TextWriter& text, std::span<const double> depths, double rear,
+                     std::span<const Ball> exact) {
   constexpr int kDecimals = 6;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    if (!(depths[i] < rear)) continue;
+    const auto [hi, lo, is_certain] = round_to_text(exact[i], {.decimals = kDecimals});
+    char* const out = text.reserve(kMaxNumberLength + 1);
+    char* const end = print_number(out, std::isfinite(hi) ? hi : depths[i], lo, {.decimals = kDecimals});
+    *end = '\t';
+    text.commit(end + 1);
+  }
+  if (!exact.empty()) depths = {};
+  constexpr std::size_t kAtOnce = 64;
   while (!depths.empty()) {
     const auto next = depths.first(std::min(kAtOnce, depths.size()));
     char* out = text.reserve(next.size() * (kMaxNumberLength + 1));

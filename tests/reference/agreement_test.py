@@ -145,5 +145,27 @@ class CentersOnEdges(unittest.TestCase):
         self.check(b"0.75 0.75 0\n0.75 -0.75 0\n-0.75 -0.75 0\n", ["....", "..#.", ".##.", "...."])
 
 
+class WideLimits(unittest.TestCase):
+    """Limits between which depths have more digits than doubles (T23, F5)."""
+
+    def test_depths_are_the_exact_ones_rounded(self):
+        more = [], ["--samples", "2"], ["--algorithm", "scanline"], ["--seen", "seen.txt", "--z-buffer", "-"]
+        for index in range(120):
+            rng = random.Random(index)
+            size, limit = 10.0**rng.choice((6, 9, 9, 12, 15)), rng.choice(("-1", "-1", "-0.7"))
+            options = ["--coverage", ("nearest", "center")[index % 2], *rng.choice(more)]
+            rows = slice(*rng.choice(((0, 8), (1, 7))))
+            config = f"8 8\n{limit}\n-1\n{rng.choice((0, -size))} {size}\n"
+            text = "".join(random_scenes.deep_triangle(rng, size) for _ in range(rng.randint(1, 6))).encode()
+            with self.subTest(scene=index, options=options), tempfile.TemporaryDirectory() as folder:
+                pathlib.Path(folder, "config.txt").write_text(config)
+                done = subprocess.run(
+                    [BIN / "zbuf", "config.txt", *options, "--rows", f"{rows.start}:{rows.stop}"], input=text,
+                    cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+                screen = reference.read_config(reference.Text(config.encode()))
+                depths, _ = reference.draw(reference.Stage(text, "zbuf").triangles(), screen, options[1])
+                self.assertEqual(done.stdout, reference.depth_text(depths[rows], screen.rear), text)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -141,6 +141,20 @@ def untidy(rng, text):
     return rng.choice(("\n", "\r\n")).join(lines) + rng.choice(("", "\n"))
 
 
+def deep_triangle(rng, size):
+    """A triangle in NDC as text, |z| up to `size`: any, narrow, seen edge-on, with a tiny x, or with corners
+    on the pixel centers of 8 x 8 pixels."""
+    width, left = rng.choice((2, 2, 2, 1e-3, 1e-9, 1e-14, 0)), rng.uniform(-1, 0.5)
+    corners = [(left + rng.uniform(0, width), rng.uniform(-1.2, 1.2)) for _ in range(3)]
+    if width == 2 and rng.random() < 0.3:
+        corners = [(rng.randrange(-7, 8) / 8, rng.randrange(-7, 8, 2) / 8) for _ in range(3)]
+    if width == 2 and rng.random() < 0.3:
+        corners[0] = (rng.uniform(0, 1e-200), rng.uniform(-1.2, 1.2))
+    form = rng.choice(("%.7f", "%.9f", "%r", "%r"))
+    return "".join(" ".join(form % p for p in (*corner, rng.uniform(-size, size))) + "\n"
+                   for corner in corners) + "\n"
+
+
 def config(rng, scene_text):
     """A small screen; for a snapped scene one on whose pixel centers its vertices lie."""
     if SNAPPED_CAMERA in scene_text:

@@ -64,8 +64,8 @@ void PictureOutputs::write_colors(std::span<const Color> colors) {
   if (const auto complete = means_->add(colors)) image_->write_row(*complete);
 }
 
-void PictureOutputs::write_depths(std::span<const double> depths) {
-  if (depths_ != nullptr) write_depth_row(*depths_, depths, screen_.rear);
+void PictureOutputs::write_depths(std::span<const double> depths, std::span<const Ball> exact) {
+  if (depths_ != nullptr) write_depth_row(*depths_, depths, screen_.rear, exact);
   if (depth_image_) depth_image_->write_row(depths);
   if (!depth_array_) return;
   array_row_.assign(depths.begin(), depths.end());

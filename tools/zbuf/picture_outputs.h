@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "libpipeline/numbers/ball.h"
 #include "libpipeline/picture/depth_image.h"
 #include "libpipeline/picture/image_file.h"
 #include "libpipeline/picture/pixel_array.h"
@@ -44,7 +45,7 @@ class PictureOutputs {
   [[nodiscard]] TextWriter* seen() { return seen_; }
   // Each takes the next row, from the top.
   void write_colors(std::span<const Color> colors);
-  void write_depths(std::span<const double> depths);
+  void write_depths(std::span<const double> depths, std::span<const Ball> exact = {});
   /// The numbers of triangles, if they are wanted.
   void write_triangles(std::span<const std::int64_t> numbers) { triangles_->write_row(numbers); }
   /// Writes all that is still buffered, closes and commits the files. Where the run summarizes, reports how

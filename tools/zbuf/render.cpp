@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "libpipeline/coverage/exact_depth.h"
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
@@ -25,6 +26,9 @@
 
 namespace pipeline {
 namespace {
+
+// Where limits are wider, the doubles of depths may have too few digits for the decimals written (F5).
+constexpr double kMaxDepthInDoubles = 1000;
 
 std::size_t pixel_count(const Viewport& screen) {
   return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.drawn_row_count());
@@ -64,7 +68,7 @@ template <typename CoverageRule, typename Depth>
     if (!store.is_full()) return;
     drawing.finish();
     store.keep_seen([&](const auto& visit) {
-      if (!visible.samples || store.keeps_text()) visible.centers.for_each_drawn_tag(visit);
+      visible.centers.for_each_drawn_tag(visit);
       if (visible.samples) visible.samples->for_each_drawn_tag(visit);
     });
   };
@@ -92,6 +96,19 @@ template <typename CoverageRule, typename Depth>
       tool, reader, reader.header().appearance, report, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
+/// The depths of a row exactly; meaningless where no triangle is seen.
+template <typename Coverage>
+void set_exact_depths(const Coverage& rule, const TriangleStore& store, int row,
+                      std::span<const PixelTag> ids, std::vector<Ball>& depths) {
+  depths.resize(ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] == KeptIds::kNoTriangle) continue;
+    const auto& [p, low_parts, marks] = store.corners(ids[i]);
+    const bool is_flat = p[0].z == p[1].z && p[0].z == p[2].z;
+    depths[i] = is_flat ? Ball(p[0].z) : exact_depth(rule, {p, &low_parts, marks}, row, static_cast<int>(i));
+  }
+}
+
 template <VisibilityAlgorithm Visible>
 [[gnu::noinline]] void write_all(PictureOutputs& outputs, const ZbufOptions& chosen,
                                  const SampledVisible<Visible>& visible, const StageReader& reader,
@@ -109,9 +126,13 @@ template <VisibilityAlgorithm Visible>
     if (outputs.seen() != nullptr) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
   };
   std::uint64_t covered_count = 0;
+  const typename Visible::CoverageRule rule(screen);
+  int number = screen.drawn_rows().first;
+  std::vector<Ball> exact;
   visible.centers.for_each_row([&](const VisibleRow& row) {
     mark(row.tags);
-    outputs.write_depths(row.depths);
+    if (store.keeps_corners()) set_exact_depths(rule, store, number++, row.tags, exact);
+    outputs.write_depths(row.depths, exact);
     if (outputs.wants_triangles()) outputs.write_triangles(store.numbers_of(row.tags, numbers));
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
@@ -155,6 +176,9 @@ TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, 
                           AllEdges* edges) {
   return {.keeps_text = !chosen.seen_path.empty(),
           .keeps_numbers = !chosen.triangle_array_path.empty(),
+          .keeps_corners = chosen.z_buffer_path != "none" &&
+                           std::max(-of_samples.front, of_samples.rear) > kMaxDepthInDoubles &&
+                           std::holds_alternative<TypeValue<DepthF64>>(chosen.rules.depth),
           .background = background_color(reader.header().appearance, parse_color(chosen.background)),
           .pixel_count = pixel_count(of_samples),
           .edges = edges};

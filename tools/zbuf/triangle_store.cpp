@@ -81,6 +81,7 @@ void TriangleStore::let_go(KeptIds& kept) {
   if (shader_) shader_->keep(kept);
   if (texts_) texts_->keep(kept);
   if (keeps_numbers()) numbers_.keep(kept);
+  if (keeps_corners()) corners_.keep(kept);
 }
 
 }  // namespace pipeline

@@ -14,6 +14,7 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/text_store.h"
 #include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/visibility/tagged_batch.h"
 #include "tools/zbuf/all_edges.h"
 #include "tools/zbuf/fragment_report.h"
 
@@ -32,9 +33,16 @@ class TriangleStore {
   struct Setup {
     bool keeps_text = false;
     bool keeps_numbers = false;  // of the triangles, for numbers_of
+    bool keeps_corners = false;  // likewise, for corners
     Color background;
     std::size_t pixel_count = 0;  // of the picture, or of its samples
     AllEdges* edges = nullptr;    // then there is a shader, with a wireframe
+  };
+
+  /// Of an ExactTriangle.
+  struct Corners {
+    Triangle p_ndc, low_parts;
+    std::uint16_t decimal_marks;
   };
 
   TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader, FragmentReport* report);
@@ -55,6 +63,10 @@ class TriangleStore {
     if (tags_are_colors_) return colors_.of(p_ndc.numbers[index]).rgb();
     if (report_ != nullptr) report_->add(p_ndc, index);
     if (keeps_numbers()) numbers_.push_back(p_ndc.numbers[index]);
+    if (keeps_corners()) {
+      const auto [corners, low_parts, marks] = exact_triangle(p_ndc, index);
+      corners_.push_back({corners, low_parts == nullptr ? Triangle() : *low_parts, marks});
+    }
     if (has_ids() && !shader_) return next_id_++;
     const Color color = colors_.of(p_ndc.numbers[index]);
     if (!shader_) return color.rgb();
@@ -68,6 +80,9 @@ class TriangleStore {
   /// The numbers of the triangles with these tags, if they are kept, -1 for none; `numbers` holds them.
   std::span<const std::int64_t> numbers_of(std::span<const PixelTag> tags,
                                            std::vector<std::int64_t>& numbers) const;
+
+  [[nodiscard]] bool keeps_corners() const { return setup_.keeps_corners; }
+  [[nodiscard]] const Corners& corners(KeptIds::Id id) const { return corners_[id]; }
 
   [[nodiscard]] bool keeps_text() const { return texts_.has_value(); }
   /// Ids are less.
@@ -95,8 +110,11 @@ class TriangleStore {
   }
 
  private:
-  [[nodiscard]] bool has_ids() const { return shader_ || texts_ || setup_.keeps_numbers; }
-  [[nodiscard]] bool keeps_numbers() const { return setup_.keeps_numbers && !texts_; }  // texts have them
+  [[nodiscard]] bool has_ids() const { return shader_ || texts_ || keeps_numbers() || keeps_corners(); }
+  /// Texts have them, shaders colors.
+  [[nodiscard]] bool keeps_numbers() const {
+    return !texts_ && (setup_.keeps_numbers || (keeps_corners() && !shader_));
+  }
   [[nodiscard]] std::uint64_t number(KeptIds::Id id) const {
     return texts_ ? texts_->number(id) : numbers_[id];
   }
@@ -106,6 +124,7 @@ class TriangleStore {
   std::optional<SurfaceShader>& shader_;
   std::optional<TextStore> texts_;
   ChunkedArray<std::uint64_t> numbers_;
+  ChunkedArray<Corners> corners_;
   KeptIds::Id next_id_ = 0;
   std::uint64_t last_number_ = 0;  // of the triangles so far
   FragmentReport* report_;
