@@ -96,62 +96,24 @@ bool VertexLineReader::are_in_range(const AttributeArrays& attributes, std::size
           all(attributes.normals, [](const Vec3& n) { return n != Vec3{}; }));
 }
 
-/// The counts of decimals of the groups of columns on a vertex line; false if it has fewer words.
-bool VertexLineReader::find_decimals(std::string_view line, GroupDecimals& decimals) const {
-  const auto skip_words = [&](int count) {
-    for (; count > 0; --count) line.remove_prefix(std::min(line.find(' '), line.size() - 1) + 1);
-    return !line.empty();
-  };
-  decimals = {decimals_of_number(line.data())};
-  std::size_t group = 1;
-  for (const bool is_there : {attributes_.color, attributes_.normal}) {
-    if (!is_there) continue;
-    if (!skip_words(3 + (group == 1 && attributes_.w ? 1 : 0))) return false;
-    decimals[group++] = decimals_of_number(line.data());
-  }
-  return true;
-}
-
-/// Adds at most `limit` triangles to the arrays: as many as `read(columns)` reads, none if one of their
-/// values is out of range.
-template <typename Read>
-FixedTextPart VertexLineReader::read_block(std::size_t limit, TriangleFrame frame,
-                                           std::vector<Triangle>& positions, AttributeArrays& attributes,
-                                           const Read& read) const {
+FixedTextPart VertexLineReader::read_triangles(std::string_view text, TriangleFrame frame, std::size_t limit,
+                                               std::span<DecimalMarks> marks,
+                                               std::vector<Triangle>& positions,
+                                               AttributeArrays& attributes) const {
   const std::size_t old_size = positions.size();
   const auto resize = [&](std::size_t size) {
     positions.resize(size);
     attributes.resize(size, attributes_);
   };
   resize(old_size + limit);
-  FixedTextPart part = read(fixed_columns(positions, attributes, attributes_, old_size, limit));
+  FixedTextPart part =
+      read_columns(text, frame, fixed_columns(positions, attributes, attributes_, old_size, limit), marks);
   resize(old_size + part.triangle_count);
   if (attributes_.any() && !are_in_range(attributes, old_size, frame)) {
     part = {};
     resize(old_size);
   }
   return part;
-}
-
-TrianglesRead VertexLineReader::read_triangles(std::string_view text, TriangleFrame frame, std::size_t limit,
-                                               std::span<DecimalMarks> marks,
-                                               std::vector<Triangle>& positions,
-                                               AttributeArrays& attributes) const {
-  constexpr std::string_view kKeyword = "triangle\n";
-  const bool is_scene = frame == TriangleFrame::scene;
-  if (is_scene && !text.starts_with(kKeyword)) return {};
-  GroupDecimals decimals;
-  if (!find_decimals(text.substr(is_scene ? kKeyword.size() : 0), decimals)) return {};
-  const auto read_fixed = [&](const FixedColumns& columns) {
-    return read_fixed_columns(text, frame, decimals, columns);
-  };
-  if (const FixedTextPart part = read_block(limit, frame, positions, attributes, read_fixed);
-      part.triangle_count > 0)
-    return {part, decimals[0]};
-  const auto read_any = [&](const FixedColumns& columns) {
-    return read_decimal_columns(text, frame, columns, marks);
-  };
-  return {read_block(std::min(limit, marks.size()), frame, positions, attributes, read_any), std::nullopt};
 }
 
 void AttributeArrays::clear() {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -83,12 +82,6 @@ std::string column_names(const AttributeSet& attributes);
 /// Whether the column w must be above 0, as after the divide, or may be any number, as in clip space.
 enum class RangeOfW { above_zero, any };
 
-/// Triangles that VertexLineReader has read on its fast path.
-struct TrianglesRead {
-  FixedTextPart part;
-  std::optional<int> decimals;  // of every coordinate, if all have as many
-};
-
 /// Reads vertex lines with certain attributes. Errors name the expected columns.
 class VertexLineReader {
  public:
@@ -105,21 +98,16 @@ class VertexLineReader {
   }
   /// The same, with another name in messages.
   void read(LineScanner& line, std::size_t vertex, const std::string& name, TriangleLines& triangle) const;
-  /// The fast path: reads triangles from the beginning of `text` as long as they have the form of the first,
-  /// of fixed_text.h or else of decimal_columns.h, and adds their values to the arrays: at most `limit`, or
-  /// as many as there are `marks`, which only the latter form sets. None if a value is out of range, which
-  /// the general path then reports.
-  TrianglesRead read_triangles(std::string_view text, TriangleFrame frame, std::size_t limit,
+  /// The fast path: adds at most `limit` triangles from the beginning of `text` to the arrays, as
+  /// read_columns (fixed_text.h) reads them. None if a value is out of range, which the general path then
+  /// reports.
+  FixedTextPart read_triangles(std::string_view text, TriangleFrame frame, std::size_t limit,
                                std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
                                AttributeArrays& attributes) const;
 
  private:
   void read_material(LineScanner& line, std::size_t vertex, const std::string& name,
                      TriangleLines& triangle) const;
-  template <typename Read>
-  FixedTextPart read_block(std::size_t limit, TriangleFrame frame, std::vector<Triangle>& positions,
-                           AttributeArrays& attributes, const Read& read) const;
-  [[nodiscard]] bool find_decimals(std::string_view line, GroupDecimals& decimals) const;
   [[nodiscard]] bool are_in_range(const AttributeArrays& attributes, std::size_t begin,
                                   TriangleFrame frame) const;
 

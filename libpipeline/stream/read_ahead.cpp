@@ -27,28 +27,25 @@ bool ReadAhead::read(TriangleBatch& batch) {
   if (begin_ == end_) return reader_.read(batch);
   Slot& first = slot(begin_);
   wait_for(first);
-  if (!first.is_in_fixed_form) {
+  if (first.read.length != first.length) {
     drop_parts();
     pause_ = kPause;
     return reader_.read(batch);
   }
   ++begin_;
   length_ -= first.length;
-  reader_.consume_fixed_form(first.length, first.decimals, first.batch);
+  reader_.consume_fixed_form(first.read, first.batch);
   std::swap(batch, first.batch);
   return true;
 }
 
 void ReadAhead::Slot::parse() {
-  decimals = decimals_of_number(text.data());
-  const std::size_t min_length = min_fixed_triangle_length(decimals);
+  const std::size_t min_length = min_fixed_triangle_length(decimals_of_number(text.data()));
   batch.clear();
   batch.triangles.resize(std::min(kBatchSize, length / min_length));
-  const FixedTextPart parsed =
-      read_fixed_columns(std::string_view(text).substr(0, length), TriangleFrame::stage_text, {decimals},
-                         {{batch.triangles}, {}});
-  batch.triangles.resize(parsed.triangle_count);
-  is_in_fixed_form = parsed.length == length;
+  read = read_columns(std::string_view(text).substr(0, length), TriangleFrame::stage_text,
+                      {{batch.triangles}, {}}, {});
+  batch.triangles.resize(read.triangle_count);
   is_done = true;
 }
 

@@ -40,8 +40,7 @@ class ReadAhead {
     std::string text;        // the part, then characters that the kernel may read but does not use
     std::size_t length = 0;  // of the part
     TriangleBatch batch;
-    int decimals = 0;               // of all its numbers
-    bool is_in_fixed_form = false;  // all of it
+    FixedTextPart read;  // all of it, if it is in fixed form
     std::atomic<bool> is_done = false;
   };
 

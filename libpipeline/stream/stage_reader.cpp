@@ -115,10 +115,6 @@ std::string_view StageReader::buffered_triangles(std::size_t size) {
   return text_.buffered();
 }
 
-void StageReader::consume_fixed_form(std::size_t length, int decimals, TriangleBatch& batch) {
-  triangles_->consume_fixed_form(length, decimals, batch);
-}
-
 void StageReader::fill(TriangleBatch& batch) {
   while (!done_) {
     // Triangles are passed on before the reader waits for more text; a triangle has three lines.

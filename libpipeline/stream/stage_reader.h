@@ -43,9 +43,10 @@ class StageReader {
   /// The buffered text from the next triangle on if triangles in fixed form may stand there, else empty.
   /// First buffers up to `size` characters, as far as that is possible without waiting. For ReadAhead.
   [[nodiscard]] std::string_view buffered_triangles(std::size_t size);
-  /// Consumes the first `length` buffered characters, which are the triangles in `batch` in fixed form, and
-  /// adds their numbers, locations and marks to the batch.
-  void consume_fixed_form(std::size_t length, int decimals, TriangleBatch& batch);
+  /// See TriangleReader.
+  void consume_fixed_form(const FixedTextPart& part, TriangleBatch& batch) {
+    triangles_->consume_fixed_form(part, batch);
+  }
 
  private:
   bool read_header_line(LineScanner& line);

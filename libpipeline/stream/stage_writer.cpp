@@ -1,6 +1,7 @@
 #include "libpipeline/stream/stage_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <string_view>
@@ -9,44 +10,6 @@
 
 namespace pipeline {
 namespace {
-
-// Position, w, color, normal and material.
-constexpr std::size_t kMaxVertexLength = 11 * (kMaxNumberLength + 1);
-// "triangle N", three vertex lines and the blank line.
-constexpr std::size_t kMaxTriangleLength = 40 + 3 * kMaxVertexLength + 1;
-
-/// Prints three numbers, with a blank after each.
-char* print_three(char* out, const Vec3& v, const Vec3& low_part, NumberFormat format) {
-  out = print_number(out, v.x, low_part.x, format);
-  *out++ = ' ';
-  out = print_number(out, v.y, low_part.y, format);
-  *out++ = ' ';
-  out = print_number(out, v.z, low_part.z, format);
-  *out++ = ' ';
-  return out;
-}
-
-/// Prints a vertex line by the general path; w has its shortest form, the material all digits.
-char* print_line(char* out, const Vec3& position, const Vec3& low_part, const AttributeSet& columns,
-                 const VertexLine& vertex, std::uint32_t material, NumberFormat format) {
-  out = print_three(out, position, low_part, format);
-  if (columns.w) *(out = print_number(out, vertex.w, 0, kShortest))++ = ' ';
-  if (columns.color) out = print_three(out, vertex.color, {}, format);
-  if (columns.normal) out = print_three(out, vertex.normal, {}, format);
-  if (columns.material) out = print_number(out, material, 0, {.decimals = 0}) + 1;
-  out[-1] = '\n';
-  return out;
-}
-
-/// The columns of a vertex line after its position.
-VertexLine columns_of(const AttributeArrays& attributes, std::size_t index, std::size_t vertex,
-                      const AttributeSet& columns) {
-  VertexLine line;
-  if (columns.w) line.w = attributes.w[index][vertex];
-  if (columns.color) line.color = attributes.colors[index][vertex];
-  if (columns.normal) line.normal = attributes.normals[index][vertex];
-  return line;
-}
 
 void print_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
   text.append(keyword);
@@ -97,7 +60,8 @@ void print_appearance(TextWriter& text, const Appearance& appearance) {
   print_vec3("ambient", appearance.ambient);
   for (const auto& [m, location] : appearance.materials) {
     print_numbers(text, "material", {m.ambient, m.diffuse, m.specular});
-    text.append(" " + std::to_string(m.shininess));
+    text.append(" ");
+    text.append(std::to_string(m.shininess));
     if (m.reflectance != 0 || m.index != 1 || m.alpha != 1)
       print_numbers(text, "", {m.reflectance, m.index, m.alpha});
     text.append("\n");
@@ -152,15 +116,12 @@ void StageWriter::write(const TriangleBatch& batch) {
   write_triangles(batch, begin, batch.size());
 }
 
-/// Writes the triangles [begin, end), none of which is a sphere: by the fast path as far as it has them.
+/// Writes the triangles [begin, end), none of which is a sphere.
 void StageWriter::write_triangles(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
-  for (std::size_t i = begin, end_of_run = begin; i < end;) {
-    if (i == end_of_run) end_of_run = begin_run(batch, i, end);
-    const bool has_low_part = !batch.low_parts.empty() && batch.low_parts[i] != Triangle{};
-    if (!has_low_part)
-      i += write_columns(fixed_columns(batch.triangles, batch.attributes, columns_, i, end_of_run - i),
-                         format_, text_);
-    if (i < end_of_run) write_triangle(batch, i++);
+  for (std::size_t i = begin, end_of_run = begin; i < end; i = end_of_run) {
+    end_of_run = begin_run(batch, i, end);
+    write_columns(fixed_columns(batch.triangles, batch.attributes, columns_, i, end_of_run - i),
+                  batch.low_parts.empty() ? nullptr : &batch.low_parts[i], format_, text_);
   }
 }
 
@@ -197,22 +158,6 @@ void StageWriter::note_sizes(const TriangleBatch& batch) {
   }
 }
 
-/// Writes the lines of a triangle by the general path.
-void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
-  const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
-  const std::uint32_t material = columns_.material ? batch.attributes.materials[index] : 0;
-  char* out = text_.reserve(kMaxTriangleLength);
-  for (std::size_t v = 0; v < 3; ++v) {
-    const Vec3& position = batch.triangles[index][v];
-    out = columns_.any() ? print_line(out, position, low_part[v], columns_,
-                                      columns_of(batch.attributes, index, v, columns_), material, format_)
-                         : print_three(out, position, low_part[v], format_);
-    out[-1] = '\n';
-  }
-  *out++ = '\n';
-  text_.commit(out);
-}
-
 /// Prints the sphere whose first entry is `index`.
 void StageWriter::write_sphere(const TriangleBatch& batch, std::size_t index) {
   assert(!bare_ && !columns_.w);
@@ -221,13 +166,13 @@ void StageWriter::write_sphere(const TriangleBatch& batch, std::size_t index) {
   const SpherePoints points = batch.sphere_points(index);
   const SpherePoints low_parts =
       batch.low_parts.empty() ? SpherePoints{} : TriangleBatch::points_of(batch.low_parts, index);
-  AttributeSet columns = columns_;
-  columns.normal = false;
-  const VertexLine line = columns_of(batch.attributes, index, 0, columns);
-  const std::uint32_t material = columns.material ? batch.attributes.materials[index] : 0;
-  char* out = text_.reserve(points.size() * kMaxVertexLength + 1);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    out = print_line(out, points[i], low_parts[i], columns, line, material, format_);
+  char* out = text_.reserve(points.size() * 7 * (kMaxNumberLength + 1) + 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    out = print_three(out, points[i], low_parts[i], format_);
+    if (columns_.color) out = print_three(out, batch.attributes.colors[index][0], {}, format_);
+    if (columns_.material) out = print_number(out, batch.attributes.materials[index], 0, {.decimals = 0}) + 1;
+    out[-1] = '\n';
+  }
   *out++ = '\n';
   text_.commit(out);
 }
@@ -237,13 +182,15 @@ void StageWriter::write_sphere(const TriangleBatch& batch, std::size_t index) {
 void StageWriter::write_clipped(const ClipTriangle& unclipped, const AttributeArrays& attributes,
                                 std::size_t index) {
   text_.append("clipped\n");
-  AttributeSet columns = columns_;
-  columns.w = true;
-  const std::uint32_t material = columns.material ? attributes.materials[index] : 0;
-  for (const VertexLine& corner : unclipped)
-    text_.commit(print_line(text_.reserve(kMaxVertexLength), corner.position, {}, columns, corner, material,
-                            kShortest));
-  text_.append("\n");
+  const auto& [a, b, c] = unclipped;
+  const Triangle positions = {a.position, b.position, c.position};
+  const Triangle colors = {a.color, b.color, c.color}, normals = {a.normal, b.normal, c.normal};
+  const std::array w = {a.w, b.w, c.w};
+  ConstFixedColumns columns = {{{{&positions, 1}}}, {&w, 1}};
+  if (columns_.color) columns.groups[1] = {&colors, 1};
+  if (columns_.normal) columns.groups[columns_.color ? 2 : 1] = {&normals, 1};
+  if (columns_.material) columns.materials = {&attributes.materials[index], 1};
+  write_columns(columns, nullptr, kShortest, text_);
 }
 
 /// Prints the number of the next triangle if it is not the one that counting on would give.

@@ -30,7 +30,6 @@ class StageWriter {
   void write_number(std::uint64_t number);
   void note_sizes(const TriangleBatch& batch);
   std::size_t begin_run(const TriangleBatch& batch, std::size_t begin, std::size_t end);
-  void write_triangle(const TriangleBatch& batch, std::size_t index);
   void write_clipped(const ClipTriangle& unclipped, const AttributeArrays& attributes, std::size_t index);
 
   TextWriter& text_;

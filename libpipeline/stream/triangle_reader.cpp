@@ -57,10 +57,10 @@ bool TriangleReader::read_buffered(TriangleBatch& batch) {
   std::array<DecimalMarks, 24> marks;
   const std::size_t old_size = batch.size();
   const std::size_t limit = std::min(kBatchSize - old_size, marks.size());
-  const auto [part, decimals] = vertex_line_.read_triangles(text_.buffered(), TriangleFrame::stage_text,
-                                                            limit, marks, batch.triangles, batch.attributes);
-  consume_fixed_form(part.length, decimals.value_or(0), batch);
-  if (marks_decimals_ && !decimals)
+  const FixedTextPart part = vertex_line_.read_triangles(text_.buffered(), TriangleFrame::stage_text, limit,
+                                                         marks, batch.triangles, batch.attributes);
+  consume_fixed_form(part, batch);
+  if (marks_decimals_ && !part.decimals)
     std::copy_n(marks.begin(), part.triangle_count, batch.decimal_marks.begin() + old_size);
   // A triangle that ends beyond the buffer is a miss, too, but a single one.
   miss_count_ = part.triangle_count > 0 ? 0 : miss_count_ + 1;
@@ -68,14 +68,14 @@ bool TriangleReader::read_buffered(TriangleBatch& batch) {
   return part.triangle_count > 0;
 }
 
-void TriangleReader::consume_fixed_form(std::size_t length, int decimals, TriangleBatch& batch) {
+void TriangleReader::consume_fixed_form(const FixedTextPart& part, TriangleBatch& batch) {
   constexpr std::size_t kLinesPerTriangle = 4;
+  const int decimals = part.decimals.value_or(0);
   const std::size_t old_size = batch.numbers.size();
-  const std::size_t count = batch.size() - old_size;
   batch.complete(next_number_, text_.line_number() + 1);
-  next_number_ += count;
-  if (keeps_text_) batch.texts.add_fixed_form(text_.buffered().substr(0, length), decimals);
-  text_.skip(length, count * kLinesPerTriangle);
+  next_number_ += part.triangle_count;
+  if (keeps_text_) batch.texts.add_fixed_form(text_.buffered().substr(0, part.length), decimals);
+  text_.skip(part.length, part.triangle_count * kLinesPerTriangle);
   // With at most seven decimals and eight digits before the point, every coordinate is exactly its decimal.
   if (marks_decimals_) {
     batch.decimal_marks.resize(old_size);

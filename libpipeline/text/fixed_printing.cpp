@@ -21,7 +21,7 @@ namespace {
 
 // Without vectors, the general printer prints.
 
-FixedTextPart write_columns(const ConstFixedColumns&, int, char*) {
+FixedTextPart write_columns(const ConstFixedColumns&, std::size_t, int, char*) {
   return {};
 }
 
@@ -237,10 +237,11 @@ FixedTextPart write_from(std::size_t first, const ConstFixedColumns& columns, in
 
 /// Exactly from the first tie on, where a product's rounding error takes one instruction: where there is one,
 /// others follow.
-FixedTextPart write_columns(const ConstFixedColumns& columns, int decimals, char* out) {
-  const FixedTextPart part = write_from<false>(0, columns, decimals, out);
-  if (!HWY_NATIVE_FMA || part.triangle_count == columns.triangle_count()) return part;
-  const FixedTextPart rest = write_from<true>(part.triangle_count, columns, decimals, out + part.length);
+FixedTextPart write_columns(const ConstFixedColumns& columns, std::size_t first, int decimals, char* out) {
+  const FixedTextPart part = write_from<false>(first, columns, decimals, out);
+  first += part.triangle_count;
+  if (!HWY_NATIVE_FMA || first == columns.triangle_count()) return part;
+  const FixedTextPart rest = write_from<true>(first, columns, decimals, out + part.length);
   return {part.triangle_count + rest.triangle_count, part.length + rest.length};
 }
 
@@ -258,11 +259,6 @@ namespace pipeline {
 const KernelTable<WriteFixedColumns>& fixed_printing_kernels() {
   static constexpr KernelTable<WriteFixedColumns> kKernels = PIPELINE_KERNEL_TABLE(write_columns);
   return kKernels;
-}
-
-FixedTextPart write_fixed_columns(const ConstFixedColumns& columns, int decimals, char* out) {
-  static const WriteFixedColumns write = chosen_kernel(fixed_printing_kernels());
-  return write(columns, decimals, out);
 }
 
 }  // namespace pipeline

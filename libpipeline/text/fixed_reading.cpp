@@ -24,7 +24,8 @@ namespace {
 
 // Without vectors, the general reader reads.
 
-FixedTextPart read_columns(std::string_view, TriangleFrame, const GroupDecimals&, const FixedColumns&) {
+template <std::size_t group_count, bool may_have_more>
+FixedTextPart read_groups(std::string_view, TriangleFrame, const GroupDecimals&, const FixedColumns&) {
   return {};
 }
 
@@ -111,8 +112,22 @@ class ColumnReader {
     for (std::size_t vertex = 0; vertex < 3; ++vertex) {
       if (p >= text_end) return nullptr;
 #pragma GCC unroll 3
-      for (std::size_t group = 0; group < group_count; ++group)
-        if ((p = read_group(p, group, triangle, vertex)) == nullptr) return nullptr;
+      for (std::size_t group = 0; group < group_count; ++group) {
+        Vec3& numbers = columns_.groups[group][triangle][vertex];
+        if (group == kRepeatedGroup && last_.is_at(p)) {
+          numbers = last_.numbers();
+          p += last_.length();
+          continue;
+        }
+        const char* const begin = p;
+        const char line_end = group + 1 == group_count && !has_materials() ? '\n' : ' ';
+        const bool w_follows = may_have_more && group == 0 && !columns_.w.empty();
+        p = read_number(p, group, ' ', numbers.x);
+        p = read_number(p, group, ' ', numbers.y);
+        p = read_number(p, group, w_follows ? ' ' : line_end, numbers.z);
+        if (group == kRepeatedGroup) last_.set(begin, p, numbers);
+        if (w_follows && (p = read_w(p, line_end, columns_.w[triangle][vertex])) == nullptr) return nullptr;
+      }
       if (has_materials() && (p = read_material(p, vertex, columns_.materials[triangle])) == nullptr)
         return nullptr;
     }
@@ -125,25 +140,6 @@ class ColumnReader {
  private:
   [[nodiscard]] bool has_materials() const {
     return may_have_more && !columns_.materials.empty();
-  }
-
-  /// Reads the numbers that a vertex line has in a group, and w after the position; null if w has another
-  /// form.
-  HWY_INLINE const char* read_group(const char* p, std::size_t group, std::size_t triangle,
-                                    std::size_t vertex) {
-    Vec3& numbers = columns_.groups[group][triangle][vertex];
-    if (group == kRepeatedGroup && last_.is_at(p)) {
-      numbers = last_.numbers();
-      return p + last_.length();
-    }
-    const char* const begin = p;
-    const char end = group + 1 == group_count && !has_materials() ? '\n' : ' ';
-    const bool w_follows = may_have_more && group == 0 && !columns_.w.empty();
-    p = read_number(p, group, ' ', numbers.x);
-    p = read_number(p, group, ' ', numbers.y);
-    p = read_number(p, group, w_follows ? ' ' : end, numbers.z);
-    if (group == kRepeatedGroup) last_.set(begin, p, numbers);
-    return w_follows ? read_w(p, end, columns_.w[triangle][vertex]) : p;
   }
 
   /// Reads one number and the separator after it.
@@ -207,14 +203,10 @@ FixedTextPart read_groups(std::string_view text, TriangleFrame frame, const Grou
   return part;
 }
 
-FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
-                           const FixedColumns& columns) {
-  constexpr auto kReaders = std::array{read_groups<1, false>, read_groups<1, true>,  read_groups<2, false>,
-                                       read_groups<2, true>,  read_groups<3, false>, read_groups<3, true>};
-  return kReaders[columns.form()](text, frame, decimals, columns);
-}
-
 #endif
+
+constexpr FixedReaders kReaders = {read_groups<1, false>, read_groups<1, true>,  read_groups<2, false>,
+                                   read_groups<2, true>,  read_groups<3, false>, read_groups<3, true>};
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -236,11 +228,10 @@ int decimals_of_number(const char* p) {
   return std::min(static_cast<int>(count == 8 ? count + digit_count(p + 9) : count), kMaxFixedDecimals);
 }
 
-FixedTextPart read_fixed_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
-                                 const FixedColumns& columns) {
-  static constexpr KernelTable<decltype(&read_fixed_columns)> kKernels = PIPELINE_KERNEL_TABLE(read_columns);
-  static const auto read = chosen_kernel(kKernels);
-  return read(text, frame, decimals, columns);
+const FixedReaders& fixed_readers() {
+  static constexpr KernelTable<const FixedReaders*> kKernels = PIPELINE_KERNEL_TABLE(kReaders);
+  static const FixedReaders& readers = *chosen_kernel(kKernels);
+  return readers;
 }
 
 }  // namespace pipeline

