@@ -29,7 +29,7 @@ SurfaceCaster::SphereMeetings SurfaceCaster::sphere_meetings(SurfaceId id, const
 }
 
 SurfaceHit SurfaceCaster::sphere_hit(SurfaceId id, const Ray& ray, const Ellipsoid::Meeting& meeting) {
-  const TracedSpheres::Sphere& sphere = triangles_.sphere(id);
+  const TracedSpheres::TracedSphere& sphere = triangles_.sphere(id);
   const Vec3 point = point_at(ray, meeting.t);
   const Vec3 normal = sphere.surface.normal(point);
   return {.id = id,

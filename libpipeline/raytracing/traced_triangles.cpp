@@ -45,24 +45,11 @@ void TracedTriangles::add_whole(const TriangleBatch& p_view, std::size_t index) 
 void TracedTriangles::add(
     const TriangleBatch& p_view, ExactProjection& projection,
     const std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>& look_at) {
-  if (p_view.spheres.empty()) {
-    add_triangles(p_view, projection, look_at);
-    return;
-  }
-  TriangleBatch triangles;
-  std::size_t begin = 0;
-  const auto copy_until = [&](std::size_t end) {
-    for (; begin < end; ++begin) copy_triangle(p_view, begin, triangles);
-  };
-  for (const std::size_t entry : p_view.spheres) {
-    copy_until(entry);
-    if (!spheres_.add(p_view, entry))
-      throw InputError(projection.location_of(p_view.locations[entry][0]),
+  if (p_view.size() > 0) add_triangles(p_view, projection, look_at);
+  for (const Sphere& sphere : p_view.spheres)
+    if (!spheres_.add(sphere))
+      throw InputError(projection.location_of(sphere.locations[0]),
                        expected_but_found("a sphere with a volume", "four points in a plane"));
-    begin = entry + 2;
-  }
-  copy_until(p_view.size());
-  if (!triangles.empty()) add_triangles(triangles, projection, look_at);
 }
 
 void TracedTriangles::add_triangles(
@@ -106,13 +93,11 @@ void TracedTriangles::copy(Id id, TriangleBatch& p_view) const {
   copy_attributes(attributes_, id, p_view.attributes);
 }
 
-bool TracedSpheres::add(const TriangleBatch& p_view, std::size_t entry) {
-  const std::optional<Ellipsoid> surface = Ellipsoid::from(p_view.sphere_points(entry));
+bool TracedSpheres::add(const Sphere& p_view) {
+  const std::optional<Ellipsoid> surface = Ellipsoid::from(p_view.points);
   if (!surface) return false;
-  const AttributeArrays& attributes = p_view.attributes;
-  have_colors_ = !attributes.colors.empty();
-  spheres_.push_back({*surface, have_colors_ ? attributes.colors[entry][0] : Vec3(), p_view.numbers[entry],
-                      attributes.materials.empty() ? 0 : attributes.materials[entry]});
+  have_colors_ = p_view.color.has_value();
+  spheres_.push_back({*surface, p_view.color.value_or(Vec3{}), p_view.number, p_view.material});
   return true;
 }
 

@@ -35,7 +35,7 @@ class ExactProjection {
 /// The spheres of a text in view space, by their place among them. Each takes 240 bytes.
 class TracedSpheres {
  public:
-  struct Sphere {
+  struct TracedSphere {
     Ellipsoid surface;
     Vec3 color;  // 0 if the text has no colors
     std::uint64_t number;
@@ -44,14 +44,14 @@ class TracedSpheres {
 
   [[nodiscard]] std::size_t size() const { return spheres_.size(); }
   [[nodiscard]] bool empty() const { return spheres_.empty(); }
-  [[nodiscard]] const Sphere& operator[](std::size_t index) const { return spheres_[index]; }
+  [[nodiscard]] const TracedSphere& operator[](std::size_t index) const { return spheres_[index]; }
   [[nodiscard]] bool have_colors() const { return have_colors_; }
 
-  /// Adds the sphere whose first entry in a batch is `entry`; false if it has no volume.
-  [[nodiscard]] bool add(const TriangleBatch& p_view, std::size_t entry);
+  /// False if the sphere has no volume.
+  [[nodiscard]] bool add(const Sphere& p_view);
 
  private:
-  std::vector<Sphere> spheres_;
+  std::vector<TracedSphere> spheres_;
   bool have_colors_ = false;
 };
 
@@ -92,7 +92,7 @@ class TracedTriangles {
   static constexpr Id kFromWithin = Id{1} << 31;
   [[nodiscard]] const TracedSpheres& spheres() const { return spheres_; }
   /// The sphere with an id of at least size().
-  [[nodiscard]] const TracedSpheres::Sphere& sphere(Id id) const {
+  [[nodiscard]] const TracedSpheres::TracedSphere& sphere(Id id) const {
     return spheres_[(id & ~kFromWithin) - size()];
   }
   /// The count of triangles and spheres.

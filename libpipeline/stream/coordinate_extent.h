@@ -25,19 +25,22 @@ class CoordinateExtent {
   void add(const TriangleBatch& batch) {
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[i];
-      for (std::size_t v = 0; v < 3; ++v) {
-        const Vec3& p = batch.triangles[i][v];
-        add(0, {p.x, low_part[v].x});
-        add(1, {p.y, low_part[v].y});
-        add(2, {p.z, low_part[v].z});
-      }
+      for (std::size_t v = 0; v < 3; ++v) add(batch.triangles[i][v], low_part[v]);
     }
-    for (const std::size_t sphere : batch.spheres) add(batch.sphere_points(sphere));
+    for (const Sphere& sphere : batch.spheres) {
+      for (std::size_t v = 0; v < sphere.points.size(); ++v) add(sphere.points[v], sphere.low_parts[v]);
+      add(sphere.points);
+    }
   }
   /// Of x, y and z; none where there is no vertex.
   [[nodiscard]] const std::array<std::optional<Range>, 3>& ranges() const { return ranges_; }
 
  private:
+  void add(const Vec3& p, const Vec3& low_part) {
+    add(0, {p.x, low_part.x});
+    add(1, {p.y, low_part.y});
+    add(2, {p.z, low_part.z});
+  }
   /// The points c + u a + v b + w d with u^2 + v^2 + w^2 = 1 are up to sqrt(a^2 + b^2 + d^2) from c in each
   /// coordinate.
   void add(const SpherePoints& points) {

@@ -39,9 +39,7 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
   has_body_ = line_is_pending_;
   check_camera(header_.camera);
   const std::size_t material_count = std::max<std::size_t>(header_.appearance.materials.size(), 1);
-  triangles_.emplace(text_,
-                     VertexLineReader(header_.appearance.columns(), RangeOfW::above_zero, material_count),
-                     marks_decimals);
+  triangles_.emplace(text_, header_.appearance.columns(), material_count, marks_decimals);
   AttributeSet columns_in_clip_space = header_.appearance.columns();
   columns_in_clip_space.w = true;
   clip_vertex_line_ = VertexLineReader(columns_in_clip_space, RangeOfW::any, material_count);
@@ -118,30 +116,31 @@ std::string_view StageReader::buffered_triangles(std::size_t size) {
 void StageReader::fill(TriangleBatch& batch) {
   while (!done_) {
     // Triangles are passed on before the reader waits for more text; a triangle has three lines.
-    if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_buffered_lines(3)))
+    if (!line_is_pending_ && !batch.empty() &&
+        (batch.object_count() >= kBatchSize || !text_.has_buffered_lines(3)))
       break;
-    const bool may_be_decimal = !line_is_pending_ && !unclipped_;
+    const bool may_be_decimal = !line_is_pending_ && !unclipped_ && batch.spheres.empty();
     if (may_be_decimal && triangles_->read_buffered(batch)) continue;
     if (!line_is_pending_ && !text_.next_filled_line(line_)) {
       expect_unframed_end();
       done_ = true;
       break;
     }
-    line_is_pending_ = false;
-    if (begins_like_number(line_.peek())) {
+    const bool is_triangle = begins_like_number(line_.peek());
+    const bool is_sphere = !is_triangle && accepts_spheres_ && line_.peek() == "sphere";
+    // A triangle after a sphere is of the next batch; a sphere's lines are waited for with an empty one
+    // alone.
+    line_is_pending_ = (is_triangle && !batch.spheres.empty()) ||
+                       (is_sphere && !batch.empty() && !text_.has_buffered_lines(4));
+    if (line_is_pending_) break;
+    if (is_triangle) {
       read_triangle(line_, batch);
     } else if (line_.peek() == "triangle") {
       triangles_->read_number(line_);
     } else if (accepts_clipped_ && line_.peek() == "clipped") {
       read_clipped(line_);
-    } else if (accepts_spheres_ && line_.peek() == "sphere") {
-      // Its lines are waited for with an empty batch alone.
-      line_is_pending_ = !batch.empty() && !text_.has_buffered_lines(4);
-      if (line_is_pending_) break;
-      if (!spheres_)
-        spheres_.emplace(text_, header_.appearance.columns(),
-                         std::max<std::size_t>(header_.appearance.materials.size(), 1));
-      spheres_->read(line_, triangles_->take_number(), keeps_text_, batch);
+    } else if (is_sphere) {
+      triangles_->read_sphere(line_, batch);
     } else if (is_end(line_)) {
       read_end(line_);
     } else {

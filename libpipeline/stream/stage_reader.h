@@ -6,7 +6,6 @@
 #include <string>
 
 #include "libpipeline/stream/deferred_error.h"
-#include "libpipeline/stream/sphere_reader.h"
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_reader.h"
@@ -72,7 +71,6 @@ class StageReader {
   bool done_ = false;
   bool accepts_clipped_ = false;
   bool accepts_spheres_ = false;
-  std::optional<SphereReader> spheres_;  // made for the first sphere: most texts have none
   VertexLineReader clip_vertex_line_;
   std::shared_ptr<const ClipTriangle> unclipped_;  // the next triangles with its number are its pieces
   std::uint64_t unclipped_number_ = 0;

@@ -107,27 +107,17 @@ void StageWriter::write_header(const StageHeader& header) {
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
   if (!keeps_four_digits_) note_sizes(batch);
-  std::size_t begin = 0;
-  for (const std::size_t sphere : batch.spheres) {
-    write_triangles(batch, begin, sphere);
-    write_sphere(batch, sphere);
-    begin = sphere + 2;
-  }
-  write_triangles(batch, begin, batch.size());
-}
-
-/// Writes the triangles [begin, end), none of which is a sphere.
-void StageWriter::write_triangles(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
-  for (std::size_t i = begin, end_of_run = begin; i < end; i = end_of_run) {
-    end_of_run = begin_run(batch, i, end);
-    write_columns(fixed_columns(batch.triangles, batch.attributes, columns_, i, end_of_run - i),
+  for (std::size_t i = 0, end = 0; i < batch.size(); i = end) {
+    end = begin_run(batch, i);
+    write_columns(fixed_columns(batch.triangles, batch.attributes, columns_, i, end - i),
                   batch.low_parts.empty() ? nullptr : &batch.low_parts[i], format_, text_);
   }
+  for (const Sphere& sphere : batch.spheres) write_sphere(sphere);
 }
 
-/// Writes what stands before the lines of triangle `begin`. Returns the end of the triangles of [begin, end)
-/// that need no such lines after it, or of a part of them.
-std::size_t StageWriter::begin_run(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
+/// Writes what stands before the lines of triangle `begin`. Returns the end of the triangles that need no
+/// such lines after it, or of a part of them.
+std::size_t StageWriter::begin_run(const TriangleBatch& batch, std::size_t begin) {
   constexpr std::size_t kMaxAtOnce = 256;
   write_number(batch.numbers[begin]);
   if (const ClipTriangle* const unclipped = batch.unclipped_of(begin);
@@ -136,7 +126,7 @@ std::size_t StageWriter::begin_run(const TriangleBatch& batch, std::size_t begin
     last_unclipped_ = batch.unclipped[begin];
   }
   if (!batch.low_parts.empty() || !batch.unclipped.empty()) return begin + 1;
-  const std::size_t limit = std::min(end, begin + kMaxAtOnce);
+  const std::size_t limit = std::min(batch.size(), begin + kMaxAtOnce);
   std::size_t last = begin + 1;
   while (last < limit && (bare_ || batch.numbers[last] == next_number_ + (last - begin - 1))) ++last;
   next_number_ = batch.numbers[last - 1] + 1;
@@ -147,30 +137,28 @@ std::size_t StageWriter::begin_run(const TriangleBatch& batch, std::size_t begin
 void StageWriter::note_sizes(const TriangleBatch& batch) {
   double smallest_with_four_digits = 1000;
   for (int i = 0; i < format_.decimals; ++i) smallest_with_four_digits /= 10;
-  for (const Triangle& triangle : batch.triangles) {
-    for (const Vec3& vertex : triangle) {
-      for (const double coordinate : {vertex.x, vertex.y, vertex.z}) {
+  const auto look_at = [&](const auto& points) {
+    for (const Vec3& point : points) {
+      for (const double coordinate : {point.x, point.y, point.z}) {
         has_filled_coordinate_ |= coordinate != 0;
         keeps_four_digits_ |= format_.shortest || std::fabs(coordinate) >= smallest_with_four_digits;
       }
     }
-    if (keeps_four_digits_) return;
-  }
+    return keeps_four_digits_;
+  };
+  if (std::ranges::any_of(batch.triangles, look_at)) return;
+  for (const Sphere& sphere : batch.spheres) look_at(sphere.points);
 }
 
-/// Prints the sphere whose first entry is `index`.
-void StageWriter::write_sphere(const TriangleBatch& batch, std::size_t index) {
+void StageWriter::write_sphere(const Sphere& sphere) {
   assert(!bare_ && !columns_.w);
-  write_number(batch.numbers[index]);
+  write_number(sphere.number);
   text_.append("sphere\n");
-  const SpherePoints points = batch.sphere_points(index);
-  const SpherePoints low_parts =
-      batch.low_parts.empty() ? SpherePoints{} : TriangleBatch::points_of(batch.low_parts, index);
-  char* out = text_.reserve(points.size() * 7 * (kMaxNumberLength + 1) + 1);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    out = print_three(out, points[i], low_parts[i], format_);
-    if (columns_.color) out = print_three(out, batch.attributes.colors[index][0], {}, format_);
-    if (columns_.material) out = print_number(out, batch.attributes.materials[index], 0, {.decimals = 0}) + 1;
+  char* out = text_.reserve(sphere.points.size() * 7 * (kMaxNumberLength + 1) + 1);
+  for (std::size_t i = 0; i < sphere.points.size(); ++i) {
+    out = print_three(out, sphere.points[i], sphere.low_parts[i], format_);
+    if (columns_.color) out = print_three(out, sphere.color.value_or(Vec3{}), {}, format_);
+    if (columns_.material) out = print_number(out, sphere.material, 0, {.decimals = 0}) + 1;
     out[-1] = '\n';
   }
   *out++ = '\n';

@@ -25,11 +25,10 @@ class StageWriter {
   [[nodiscard]] bool keeps_four_digits() const { return keeps_four_digits_ || !has_filled_coordinate_; }
 
  private:
-  void write_triangles(const TriangleBatch& batch, std::size_t begin, std::size_t end);
-  void write_sphere(const TriangleBatch& batch, std::size_t index);
+  void write_sphere(const Sphere& sphere);
   void write_number(std::uint64_t number);
   void note_sizes(const TriangleBatch& batch);
-  std::size_t begin_run(const TriangleBatch& batch, std::size_t begin, std::size_t end);
+  std::size_t begin_run(const TriangleBatch& batch, std::size_t begin);
   void write_clipped(const ClipTriangle& unclipped, const AttributeArrays& attributes, std::size_t index);
 
   TextWriter& text_;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,8 +45,6 @@ class TriangleTexts {
     lines_ += '\n';
     ends_.push_back(lines_.size());
   }
-  /// Completes the next triangle without any lines.
-  void end_without_lines() { ends_.push_back(lines_.size()); }
   /// Adds triangles in fixed form (fixed_text.h) with that many decimals.
   void add_fixed_form(std::string_view triangles, int decimals) {
     constexpr std::string_view kTriangleEnd = "\n\n";
@@ -71,10 +70,21 @@ class TriangleTexts {
 /// A reader passes a batch on when it holds this many triangles.
 constexpr std::size_t kBatchSize = 2048;
 
-/// A sphere, or its image under an affine map: its center and the ends of three half axes.
+/// The center of a sphere, or of its image under an affine map, and the ends of three half axes.
 using SpherePoints = std::array<Vec3, 4>;
 
-/// Triangles on their way through a stage, as arrays with one entry per triangle.
+/// A sphere on its way through a stage.
+struct Sphere {
+  std::uint64_t number = 0;  // as a triangle's
+  SpherePoints points = {};
+  SpherePoints low_parts = {};  // as a triangle's
+  std::array<LineAndColumn, 4> locations = {};
+  std::optional<Vec3> color = {};  // in scenes that have them
+  std::uint32_t material = 0;
+};
+
+/// Triangles on their way through a stage, as arrays with one entry per triangle, and the spheres that follow
+/// them: a triangle after a sphere is one of the next batch.
 struct TriangleBatch {
   std::vector<Triangle> triangles;
   /// The part of each coordinate that its double does not hold, where a stage text has more digits: empty, or
@@ -94,15 +104,17 @@ struct TriangleBatch {
   std::vector<std::shared_ptr<const ClipTriangle>> unclipped;
   /// The triangles' lines; empty if not requested.
   TriangleTexts texts;
-  /// Where spheres stand among the triangles: each takes two entries, so that its points go wherever vertices
-  /// go: center, center + r i and center + r j, then center + r k and the center twice. The index of the
-  /// first entry of each, in their order; both have the sphere's number, color and material.
-  std::vector<std::size_t> spheres;
+  std::vector<Sphere> spheres;
 
+  /// How many triangles there are.
   [[nodiscard]] std::size_t size() const { return triangles.size(); }
-  [[nodiscard]] bool empty() const { return triangles.empty(); }
+  [[nodiscard]] bool empty() const { return triangles.empty() && spheres.empty(); }
   /// How many triangles and spheres there are.
-  [[nodiscard]] std::size_t object_count() const { return size() - spheres.size(); }
+  [[nodiscard]] std::size_t object_count() const { return size() + spheres.size(); }
+  /// The number of a triangle or, from size() on, of a sphere.
+  [[nodiscard]] std::uint64_t number_of(std::size_t object) const {
+    return object < size() ? numbers[object] : spheres[object - size()].number;
+  }
   void clear() {
     triangles.clear();
     low_parts.clear();
@@ -114,12 +126,11 @@ struct TriangleBatch {
     texts.clear();
     spheres.clear();
   }
-  /// Keeps the first `count` triangles, and no half of a sphere.
+  /// Keeps the first `count` triangles and spheres.
   void truncate(std::size_t count) {
-    while (!spheres.empty() && spheres.back() + 2 > count) {
-      count = std::min(count, spheres.back());
-      spheres.pop_back();
-    }
+    texts.truncate(count);
+    spheres.resize(count - std::min(count, size()));
+    count = std::min(count, size());
     triangles.resize(count);
     numbers.resize(count);
     locations.resize(count);
@@ -127,7 +138,6 @@ struct TriangleBatch {
     if (!decimal_marks.empty()) decimal_marks.resize(count);
     attributes.truncate(count);
     if (!unclipped.empty()) unclipped.resize(count);
-    texts.truncate(count);
   }
   void add(const Triangle& triangle, std::uint64_t number, const VertexLocations& vertex_locations) {
     triangles.push_back(triangle);
@@ -136,20 +146,6 @@ struct TriangleBatch {
     if (!low_parts.empty()) low_parts.emplace_back();
     if (!decimal_marks.empty()) decimal_marks.emplace_back();
     if (!unclipped.empty()) unclipped.emplace_back();
-  }
-  /// Adds the two entries of a sphere but for its columns: center, center + r i, + r j, + r k.
-  void add_sphere(const SpherePoints& points, std::uint64_t number,
-                  const std::array<LineAndColumn, 4>& point_locations) {
-    const auto& [center, i, j, k] = points;
-    const auto& [center_location, i_location, j_location, k_location] = point_locations;
-    spheres.push_back(size());
-    add({center, i, j}, number, {center_location, i_location, j_location});
-    add({k, center, center}, number, {k_location, center_location, center_location});
-  }
-  /// The points of the sphere whose first entry is `index`.
-  [[nodiscard]] SpherePoints sphere_points(std::size_t index) const { return points_of(triangles, index); }
-  static SpherePoints points_of(const std::vector<Triangle>& entries, std::size_t index) {
-    return {entries[index][0], entries[index][1], entries[index][2], entries[index + 1][0]};
   }
   /// Completes triangles that were added to `triangles` alone: their text has four lines each, and the first
   /// vertex of all stands on line `first_vertex`.

@@ -41,8 +41,17 @@ struct ExactParts {
 
 }  // namespace
 
-TriangleReader::TriangleReader(TextReader& text, const VertexLineReader& vertex_line, bool marks_decimals)
-    : text_(text), vertex_line_(vertex_line), marks_decimals_(marks_decimals) {}
+TriangleReader::TriangleReader(TextReader& text, const AttributeSet& columns, std::size_t material_count,
+                               bool marks_decimals)
+    : text_(text),
+      vertex_line_(columns, RangeOfW::above_zero, material_count),
+      sphere_line_({.color = columns.color, .material = columns.material}, RangeOfW::above_zero,
+                   material_count),
+      marks_decimals_(marks_decimals) {
+  const std::string names = " of a sphere (" + column_names(sphere_line_.attributes()) + ")";
+  sphere_names_ = {"the center" + names, "the center + r i" + names, "the center + r j" + names,
+                   "the center + r k" + names};
+}
 
 bool TriangleReader::read_buffered(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
@@ -111,6 +120,36 @@ void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
   batch.attributes.add(lines, attributes);
   if (marks_decimals_) exact.set_last(batch);
   if (keeps_text_) batch.texts.end_triangle();
+}
+
+void TriangleReader::read_sphere(LineScanner& line, TriangleBatch& batch) {
+  line.word();
+  line.expect_end("'sphere'");
+  if (keeps_text_) batch.texts.add_line("sphere");
+  Sphere sphere{.number = next_number_++};
+  TriangleLines lines;  // of the center, and of each other point in turn
+  const auto& [center, point, unused] = lines.vertices;
+  for (std::size_t i = 0; i < sphere.points.size(); ++i) {
+    next_line_within("a sphere", text_, line, sphere_names_[i]);
+    sphere.locations[i] = {line.line_number(), line.column()};
+    if (keeps_text_) batch.texts.add_line(line.rest());
+    LineScanner at_columns = line;
+    sphere_line_.read(line, std::min<std::size_t>(i, 1), sphere_names_[i], lines);
+    sphere.points[i] = i == 0 ? center.position : point.position;
+    if (i == 0 || point.color == center.color) continue;
+    for (int column = 0; column < 3; ++column) at_columns.word();
+    at_columns.fail("the color of the sphere's center");
+  }
+  if (sphere_line_.attributes().color) sphere.color = center.color;
+  sphere.material = lines.material;
+  batch.spheres.push_back(sphere);
+  if (keeps_text_) batch.texts.end_triangle();
+}
+
+InputError refused_sphere(const SourceLocation& location) {
+  return {location,
+          expected_but_found("triangles alone",
+                             "a sphere: trace draws it, and model --facets N makes triangles of it")};
 }
 
 void next_vertex_line(TextReader& text, LineScanner& line, std::size_t index) {

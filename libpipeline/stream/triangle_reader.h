@@ -1,21 +1,25 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "libpipeline/scene/vertex_attributes.h"
 #include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/text/error.h"
 #include "libpipeline/text/text_reader.h"
 
 namespace pipeline {
 
-/// Reads the triangles of a stage text's body and counts them. A fast path reads nearly all text, as long as
-/// a triangle is completely buffered; the general path reads any triangle, line by line.
+/// Reads the triangles and spheres of a stage text's body and counts them. A fast path reads nearly all text,
+/// as long as a triangle is completely buffered; the general path reads any triangle, line by line.
 class TriangleReader {
  public:
-  /// `vertex_line` reads the vertex lines. With `marks_decimals`, batches mark the coordinates
-  /// that are exact decimals.
-  TriangleReader(TextReader& text, const VertexLineReader& vertex_line, bool marks_decimals);
+  /// `columns` come from the header; numbers of materials have to be less than `material_count`. With
+  /// `marks_decimals`, batches mark the coordinates that are exact decimals.
+  TriangleReader(TextReader& text, const AttributeSet& columns, std::size_t material_count,
+                 bool marks_decimals);
 
   /// The number of the next triangle.
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
@@ -32,18 +36,23 @@ class TriangleReader {
   void read_number(LineScanner& line);
   /// Adds the triangle whose first line is `line`. An InputError at the word that is wrong.
   void read(LineScanner& line, TriangleBatch& batch);
-  /// Gives the number of the next triangle to another object.
-  std::uint64_t take_number() { return next_number_++; }
+  /// Adds the sphere whose first line, `sphere`, is `line`. An InputError at the word that is wrong.
+  void read_sphere(LineScanner& line, TriangleBatch& batch);
 
  private:
   TextReader& text_;
   VertexLineReader vertex_line_;
+  VertexLineReader sphere_line_;  // of all columns but the normal
+  std::array<std::string, 4> sphere_names_;
   bool marks_decimals_;
   bool keeps_text_ = false;
   std::uint64_t next_number_ = 0;
   int miss_count_ = 0;  // of the fast path, in a row
   int pause_ = 0;       // so many triangles are left to the general path
 };
+
+/// The error of a reader that has no use for a sphere.
+InputError refused_sphere(const SourceLocation& location);
 
 /// Moves on to the line of vertex `index` (from 0) of a triangle; only comments may stand before it. An
 /// InputError if there is none.

@@ -37,9 +37,8 @@ void CoordinateRounder::expect_finite(double coordinate, const char* name, LineA
                                                            std::string("an overflow of its ") + name));
 }
 
-void CoordinateRounder::set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex,
-                                           const BallVec3& p, double input_size, bool is_certain) {
-  const LineAndColumn location = batch.locations[triangle][vertex];
+RoundedVertex CoordinateRounder::rounded_exactly(const BallVec3& p, LineAndColumn location, double input_size,
+                                                 bool is_certain) {
   const PrintableNumber x = round_to_text(p.x, format_, input_size);
   const PrintableNumber y = round_to_text(p.y, format_, input_size);
   const PrintableNumber z = round_to_text(p.z, format_, input_size);
@@ -47,12 +46,19 @@ void CoordinateRounder::set_vertex_exactly(TriangleBatch& batch, std::size_t tri
   expect_finite(y.hi, "y", location);
   expect_finite(z.hi, "z", location);
   if (!(is_certain && x.is_certain && y.is_certain && z.is_certain)) uncertain_.add(location);
-  batch.triangles[triangle][vertex] = {x.hi, y.hi, z.hi};
+  return {{x.hi, y.hi, z.hi}, {x.lo, y.lo, z.lo}};
+}
+
+void CoordinateRounder::set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex,
+                                           const BallVec3& p, double input_size, bool is_certain) {
+  const auto [rounded, low_part] =
+      rounded_exactly(p, batch.locations[triangle][vertex], input_size, is_certain);
+  batch.triangles[triangle][vertex] = rounded;
   if (batch.low_parts.empty()) {
-    if (x.lo == 0 && y.lo == 0 && z.lo == 0) return;
+    if (low_part == Vec3{}) return;
     batch.low_parts.resize(batch.size());
   }
-  batch.low_parts[triangle][vertex] = {x.lo, y.lo, z.lo};
+  batch.low_parts[triangle][vertex] = low_part;
 }
 
 }  // namespace pipeline

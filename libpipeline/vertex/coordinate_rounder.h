@@ -33,6 +33,12 @@ struct UncertainDigits {
 double size_of(const Vec3& point);
 double size_of(const Triangle& triangle);
 
+/// A vertex as it is printed, and the part that its doubles do not hold.
+struct RoundedVertex {
+  Vec3 p;
+  Vec3 low_part;
+};
+
 /// Rounds calculated coordinates to the numbers that are printed. Most pass the rounding test of a kernel
 /// (vertex_kernel.h); the caller calculates the others again as balls, which this class rounds. It counts the
 /// vertices of which a printed digit is uncertain.
@@ -44,10 +50,12 @@ class CoordinateRounder {
   /// The test that a kernel's coordinate must pass to be printed as it is.
   [[nodiscard]] RoundingTest rounding_test() const;
 
-  /// Sets one vertex of a triangle of the batch: the slow, exact path. `p` contains the exact image,
-  /// `input_size` is the size of the triangle that was read (size_of). `is_certain` is false if a number that
-  /// is printed beside these is uncertain. An InputError at the vertex's location if a coordinate is beyond a
-  /// double's range.
+  /// Rounds the vertex at `location`: the slow, exact path. `p` contains the exact image, `input_size` is the
+  /// size of the triangle that was read (size_of). `is_certain` is false if a number that is printed beside
+  /// these is uncertain. An InputError at the location if a coordinate is beyond a double's range.
+  RoundedVertex rounded_exactly(const BallVec3& p, LineAndColumn location, double input_size,
+                                bool is_certain = true);
+  /// Sets one vertex of a triangle of the batch so.
   void set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex, const BallVec3& p,
                           double input_size, bool is_certain = true);
   /// Counts a vertex that was rounded elsewhere.

@@ -1,12 +1,11 @@
 #include "libpipeline/vertex/model_stage.h"
 
 #include <algorithm>
-#include <span>
 #include <string>
 #include <utility>
 
 #include "libpipeline/numbers/vec_math.h"
-#include "libpipeline/stream/sphere_reader.h"
+#include "libpipeline/stream/triangle_reader.h"
 
 namespace pipeline {
 
@@ -57,17 +56,17 @@ void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) {
   if (!has_area_) look_for_area(batch);
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const auto& [first, world_from_model, world_normal_from_model] = runs_[i];
-    const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : batch.size();
+    const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : batch.object_count();
     if (world_normal_from_model)
-      for (auto& normals : std::span(batch.attributes.normals).subspan(first, end - first))
-        for (Vec3& normal : normals) normal = (*world_normal_from_model)(normal);
+      for (std::size_t triangle = first; triangle < std::min(end, batch.size()); ++triangle)
+        for (Vec3& normal : batch.attributes.normals[triangle]) normal = (*world_normal_from_model)(normal);
     world_from_model.apply(batch, first, end, rounder);
   }
 }
 
-/// Without a scale by 0, no triangle loses its area.
+/// Without a scale by 0, no triangle loses its area; under one, there is no sphere.
 void ModelStage::look_for_area(const TriangleBatch& p_model) {
-  has_area_ = !scale_by_0_;
+  has_area_ = !scale_by_0_ || !p_model.spheres.empty();
   for (std::size_t i = 0, run = 0; i < p_model.size() && !has_area_; ++i) {
     if (run + 1 < runs_.size() && runs_[run + 1].first <= i) ++run;
     has_area_ = !runs_[run].world_from_model.flattens(p_model.triangles[i]);
@@ -77,17 +76,20 @@ void ModelStage::look_for_area(const TriangleBatch& p_model) {
 void ModelStage::fill(TriangleBatch& batch) {
   keep_last_run();
   if (first_object_) add_object(*std::exchange(first_object_, std::nullopt), batch);
-  while (!done_) {
+  while (!done_ && !first_object_) {
     if (faceted_) {
       if (batch.size() >= kBatchSize) break;
       add_facets(batch);
       continue;
     }
-    if (add_buffered(batch)) continue;
+    if (batch.spheres.empty() && add_buffered(batch)) continue;
     // Triangles are passed on before the reader waits for more text.
-    if (!batch.empty() && (batch.size() >= kBatchSize || !scene_.has_buffered_command())) break;
+    if (!batch.empty() && (batch.object_count() >= kBatchSize || !scene_.has_buffered_command())) break;
     const Command command = scene_.next();
-    if (!add_object(command, batch)) carry_out(command);
+    if (!batch.spheres.empty() && std::holds_alternative<TriangleCommand>(command))
+      first_object_ = command;  // of the next batch
+    else if (!add_object(command, batch))
+      carry_out(command);
   }
   if (facets_) add_face_normals(batch);
 }
@@ -131,7 +133,7 @@ void ModelStage::add(const TriangleCommand& triangle, TriangleBatch& batch) {
 // M10
 void ModelStage::add(const SphereCommand& sphere, TriangleBatch& batch) {
   if (refuses_spheres_) throw refused_sphere(scene_.location());
-  begin_run(batch.size());
+  begin_run(batch.object_count());
   if (runs_.back().world_from_model.orientation() == 0)
     throw InputError(scene_.location(),
                      expected_but_found("transforms that leave a sphere its volume", "a scale by 0"));
@@ -141,10 +143,11 @@ void ModelStage::add(const SphereCommand& sphere, TriangleBatch& batch) {
     return;
   }
   const auto& [c, r, location] = sphere;
-  batch.add_sphere({c, {c.x + r, c.y, c.z}, {c.x, c.y + r, c.z}, {c.x, c.y, c.z + r}}, next_number_++,
-                   {location, location, location, location});
-  const AttributeSet columns = scene_.appearance().columns();
-  for (int entry = 0; entry < 2 && columns.any(); ++entry) batch.attributes.add(scene_.lines(), columns);
+  batch.spheres.push_back({.number = next_number_++,
+                           .points = {c, {c.x + r, c.y, c.z}, {c.x, c.y + r, c.z}, {c.x, c.y, c.z + r}},
+                           .locations = {location, location, location, location},
+                           .material = scene_.lines().material});
+  if (columns().color) batch.spheres.back().color = scene_.lines().vertices[0].color;
 }
 
 /// Adds facets of the sphere as long as there is room; all have its number. The outside of a mirrored sphere

@@ -49,7 +49,7 @@ class ModelStage {
   [[nodiscard]] const OddTransforms& odd_transforms() const { return odd_transforms_; }
 
  private:
-  /// The triangles of a batch under one matrix: from `first` up to the next run's.
+  /// The triangles and spheres of a batch under one matrix: from `first` up to the next run's.
   struct Run {
     std::size_t first;
     VertexTransform world_from_model;
@@ -81,7 +81,7 @@ class ModelStage {
   std::optional<SourceLocation> scale_by_0_;  // the first
   OddTransforms odd_transforms_;
   bool has_area_ = false;                // some triangle has, in world space
-  std::optional<Command> first_object_;  // read, but not yet in a batch
+  std::optional<Command> first_object_;  // of the next batch, if it has been read
   bool refuses_spheres_;
   std::optional<SphereFacets> facets_;
   std::optional<SphereCommand> faceted_;  // the sphere whose facets come next

@@ -46,8 +46,9 @@ void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t
   if (is_identity_) return;
   const RoundingTest test = rounder.rounding_test();
   TransformedBlock block;
-  for (std::size_t first = begin; first < end; first += VertexBlock::kTriangles) {
-    const std::size_t count = std::min(end - first, VertexBlock::kTriangles);
+  const std::size_t end_of_triangles = std::min(end, batch.size());
+  for (std::size_t first = begin; first < end_of_triangles; first += VertexBlock::kTriangles) {
+    const std::size_t count = std::min(end_of_triangles - first, VertexBlock::kTriangles);
     block.first_triangle = first;
     block.p.fill(std::span(batch.triangles).subspan(first, count));
     vertex_kernel().transform(coefficients_, test, block.p, block.image);
@@ -57,6 +58,28 @@ void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t
         batch.truncate(first + i);
         throw;
       }
+  }
+  for (std::size_t i = std::max(begin, batch.size()); i < end; ++i) try {
+      apply(batch.spheres[i - batch.size()], rounder);
+    } catch (...) {
+      batch.truncate(i);
+      throw;
+    }
+}
+
+void VertexTransform::apply(Sphere& sphere, CoordinateRounder& rounder) const {
+  const auto [center, i, j, k] = sphere.points;
+  VertexBlock p;
+  ImageBlock image;
+  p.fill(std::array{Triangle{center, i, j}, Triangle{k, center, center}});
+  vertex_kernel().transform(coefficients_, rounder.rounding_test(), p, image);
+  for (std::size_t v = 0; v < sphere.points.size(); ++v) {
+    RoundedVertex rounded = {image.vertex(v), {}};
+    if (image.passes_rounding_test[v] == 0)
+      rounded = rounder.rounded_exactly(apply_in_balls(matrix_, coefficients_.origin, p.vertex(v)),
+                                        sphere.locations[v], size_of(p.triangle(v / 3)));
+    sphere.points[v] = rounded.p;
+    sphere.low_parts[v] = rounded.low_part;
   }
 }
 

@@ -19,12 +19,12 @@ class VertexTransform {
   /// From world to view space.
   explicit VertexTransform(const ViewTransform& view_from_world);
 
-  /// Replaces the triangles [begin, end) of the batch by their images. An InputError at the vertex's location
-  /// on overflow; the batch then keeps the triangles before it.
+  /// Replaces the triangles and spheres [begin, end) of the batch by their images. An InputError at the
+  /// vertex's location on overflow; the batch then keeps those before it.
   void apply(TriangleBatch& batch, std::size_t begin, std::size_t end, CoordinateRounder& rounder) const;
-  /// Replaces all triangles of the batch.
+  /// Replaces all triangles and spheres of the batch.
   void apply(TriangleBatch& batch, CoordinateRounder& rounder) const {
-    apply(batch, 0, batch.size(), rounder);
+    apply(batch, 0, batch.object_count(), rounder);
   }
   /// Whether the image of a triangle has no area, as far as 31 digits can tell.
   [[nodiscard]] bool flattens(const Triangle& triangle) const;
@@ -42,7 +42,7 @@ class VertexTransform {
 
   void set_image(TriangleBatch& batch, const TransformedBlock& block, std::size_t index,
                  CoordinateRounder& rounder) const;
-
+  void apply(Sphere& sphere, CoordinateRounder& rounder) const;
   void set_coefficients();
 
   AffineMatrix matrix_;

@@ -47,32 +47,30 @@ TEST(Spheres, HaveAllColumnsButTheNormal) {
   EXPECT_EQ(copied(text), text);
 }
 
-TEST(Spheres, TakeOneNumberAndTwoEntriesOfABatch) {
-  const TextFile file(kPlainTriangle + kSphere + kPlainTriangle);
+TEST(Spheres, FollowTheTrianglesOfTheirBatch) {
+  const TextFile file(kPlainTriangle + kSphere + kSphere + kPlainTriangle + kSphere);
   TextReader reader(file.descriptor(), "in.txt");
   StageReader stage(reader);
   stage.accept_spheres();
   TriangleBatch batch;
-  std::vector<std::uint64_t> numbers;
-  SpherePoints points{};
+  std::vector<std::vector<std::uint64_t>> numbers;
   while (stage.read(batch)) {
-    EXPECT_EQ(batch.size(), batch.object_count() + batch.spheres.size());
-    for (const std::size_t entry : batch.spheres) points = batch.sphere_points(entry);
-    numbers.insert(numbers.end(), batch.numbers.begin(), batch.numbers.end());
+    EXPECT_EQ(batch.size(), 1u);
+    numbers.emplace_back();
+    for (std::size_t i = 0; i < batch.object_count(); ++i) numbers.back().push_back(batch.number_of(i));
+    EXPECT_EQ(batch.spheres.back().points, (SpherePoints{Vec3{1, 2, 3}, {3, 2, 3}, {1, 4, 3}, {1, 2, 5}}));
   }
-  EXPECT_EQ(numbers, (std::vector<std::uint64_t>{0, 1, 1, 2}));
-  EXPECT_EQ(points, (SpherePoints{Vec3{1, 2, 3}, {3, 2, 3}, {1, 4, 3}, {1, 2, 5}}));
+  EXPECT_EQ(numbers, (std::vector<std::vector<std::uint64_t>>{{0, 1, 2}, {3, 4}}));
 }
 
-TEST(Spheres, AreNotCutInTwo) {
-  for (std::size_t count = 0; count <= 4; ++count) {
+TEST(Spheres, AreDroppedBeforeTriangles) {
+  for (std::size_t count = 0; count <= 3; ++count) {
     TriangleBatch batch;
     batch.add({}, 0, {});
-    batch.add_sphere({}, 1, {});
-    batch.add({}, 2, {});
+    batch.spheres = {{.number = 1}, {.number = 2}};
     batch.truncate(count);
-    EXPECT_EQ(batch.size(), count == 2 ? 1 : count);
-    EXPECT_EQ(batch.spheres.size(), count >= 3 ? 1u : 0u);
+    EXPECT_EQ(batch.object_count(), count);
+    EXPECT_EQ(batch.size(), count == 0 ? 0u : 1u);
   }
 }
 

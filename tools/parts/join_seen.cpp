@@ -33,12 +33,11 @@ class JoinedText {
     part.accept_spheres();
     part.keep_text();
     for (TriangleBatch batch; part.read(batch); timing.triangle_count += batch.object_count()) {
-      for (std::size_t i = 0; i < batch.size(); ++i) {
-        if (batch.texts[i].empty()) continue;  // the second entry of a sphere
-        if (batch.numbers[i] != next_number_)
-          text_.append("triangle " + std::to_string(batch.numbers[i]) + "\n");
+      for (std::size_t i = 0; i < batch.object_count(); ++i) {
+        const std::uint64_t number = batch.number_of(i);
+        if (number != next_number_) text_.append("triangle " + std::to_string(number) + "\n");
         text_.append(batch.texts[i]);
-        next_number_ = batch.numbers[i] + 1;
+        next_number_ = number + 1;
       }
       batch.clear();
     }

@@ -49,8 +49,8 @@ SphereReport::SphereReport(const ProjectionTransform& projection, const Viewport
 }
 
 void SphereReport::add(const TriangleBatch& p_view) {
-  for (const std::size_t entry : p_view.spheres) {
-    const SpherePoints points = p_view.sphere_points(entry);
+  for (const Sphere& sphere : p_view.spheres) {
+    const SpherePoints& points = sphere.points;
     const double half = reach(points, {0, 0, 1});
     const double low = points[0].z - half, high = points[0].z + half;
     BoundingBox extent;

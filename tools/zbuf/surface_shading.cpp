@@ -37,9 +37,12 @@ std::vector<Material> materials_of(const Appearance& appearance) {
 void add_material_colors(const Appearance& appearance, TriangleBatch& batch) {
   AttributeArrays& attributes = batch.attributes;
   attributes.colors.clear();
+  const auto color_of = [&](std::size_t material) {
+    return appearance.materials[material].value.paint.value_or(Vec3{255, 255, 255});
+  };
+  for (Sphere& sphere : batch.spheres) sphere.color = color_of(sphere.material);
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    const std::size_t material = attributes.materials.empty() ? 0 : attributes.materials[i];
-    const Vec3 color = appearance.materials[material].value.paint.value_or(Vec3{255, 255, 255});
+    const Vec3 color = color_of(attributes.materials.empty() ? 0 : attributes.materials[i]);
     attributes.colors.push_back({color, color, color});
     if (batch.unclipped_of(i) == nullptr) continue;
     ClipTriangle whole = *batch.unclipped_of(i);
