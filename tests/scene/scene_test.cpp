@@ -302,16 +302,6 @@ TEST(Scene, AWindowHasAWidthAndAHeight) {
   EXPECT_EQ(error_of_projection("ortho 1 -1 2 -2 1 9"), "no error");
 }
 
-TEST(Scene, TheEyeLooksAtAnotherPoint) {
-  EXPECT_EQ(error_of_camera("1 2 3", " 1 2.0 3", "0 1 0", "60 1 1 100"),
-            "scene.txt:2:2: expected a point other than the eye to look at, found 1 2 3");
-}
-
-TEST(Scene, UpIsNotZero) {
-  EXPECT_EQ(error_of_camera("0 0 5", "0 0 0", "0 -0 0", "60 1 1 100"),
-            "scene.txt:3:1: expected an up direction, found 0 0 0");
-}
-
 TEST(Scene, UpIsNotParallelToTheViewDirection) {
   EXPECT_EQ(
       error_of_camera("0 0 5", "0 0 0", "0 0 2", "60 1 1 100"),

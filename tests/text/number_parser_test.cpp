@@ -33,35 +33,21 @@ void expect_overflow(std::string_view word) {
   EXPECT_EQ(parse_number(word).error, NumberError::overflow) << word;
 }
 
-TEST(ParseNumber, TakesWholeNumbersAndDecimals) {
-  expect_number("0", 0);
-  expect_number("12", 12);
-  expect_number("-3.25", -3.25);
-  expect_number("007.50", 7.5);
-}
-
-TEST(ParseNumber, TakesALeadingPlus) {
-  expect_number("+1", 1);
-  expect_number("+.5", 0.5);
-  expect_number("+0", 0);
-}
-
-TEST(ParseNumber, TakesAPointWithoutDigitsOnOneSide) {
-  expect_number(".5", 0.5);
-  expect_number("5.", 5);
-  expect_number("-.5", -0.5);
-  expect_number("5.e1", 50);
-}
-
-TEST(ParseNumber, TakesExponents) {
-  expect_number("1e5", 1e5);
-  expect_number("1E+5", 1e5);
-  expect_number("1e-5", 1e-5);
-  expect_number("1e0005", 1e5);
-}
-
-TEST(ParseNumber, KeepsTheSignOfZero) {
-  expect_number("-0.0", -0.0);
+TEST(ParseNumber, TakesEveryDecimalForm) {
+  for (const auto& [word, value] : {std::pair{"0"sv, 0.0},
+                                    {"-3.25", -3.25},
+                                    {"007.50", 7.5},
+                                    {"-0.0", -0.0},
+                                    {"+1", 1},
+                                    {"+.5", 0.5},
+                                    {"5.", 5},
+                                    {"-.5", -0.5},
+                                    {"5.e1", 50},
+                                    {"1e5", 1e5},
+                                    {"1E+5", 1e5},
+                                    {"1e-5", 1e-5},
+                                    {"1e0005", 1e5}})
+    expect_number(word, value);
 }
 
 TEST(ParseNumber, TakesTheNearestDouble) {
@@ -120,35 +106,12 @@ TEST(ParseNumber, TakesAHundredThousandDigits) {
 
 TEST(ParseNumber, RejectsWhatIsNotDecimal) {
   for (const std::string_view word :
-       {"nan", "NaN", "inf", "-inf", "+inf", "infinity", "0x10", "0x1p3", "1e5.0", "ten", "1_000", "½"})
+       {"nan"sv,   "NaN"sv,   "inf"sv,   "-inf"sv,  "+inf"sv,   "infinity"sv, "0x10"sv, "0x1p3"sv,
+        "1e5.0"sv, "ten"sv,   "1_000"sv, "½"sv,     "1,5"sv,    "1.5."sv,     "1 "sv,   "1-"sv,
+        "1f"sv,    "1.2.3"sv, "1e"sv,    "1e+"sv,   "1e-"sv,    "1e+-1"sv,    ""sv,     "+"sv,
+        "-"sv,     "."sv,     "-."sv,    "+."sv,    "e5"sv,     ".e5"sv,      "+-1"sv,  "--1"sv,
+        "++1"sv,   "-+1"sv,   "1\0"sv,   "\0001"sv, "1\0002"sv, " 1"sv})
     expect_no_number(word);
-}
-
-TEST(ParseNumber, RejectsTrailingCharacters) {
-  for (const std::string_view word : {"1,5", "1.5abc", "1.5.", "1 ", "1-", "1f", "1.2.3"})
-    expect_no_number(word);
-}
-
-TEST(ParseNumber, RejectsAnExponentWithoutDigits) {
-  for (const std::string_view word : {"1e", "1e+", "1e-", "1e+-1"}) expect_no_number(word);
-}
-
-TEST(ParseNumber, RejectsWordsWithoutDigits) {
-  for (const std::string_view word : {"", "+", "-", ".", "-.", "+.", "e5", ".e5"}) expect_no_number(word);
-}
-
-TEST(ParseNumber, RejectsASecondSign) {
-  for (const std::string_view word : {"+-1", "--1", "++1", "-+1"}) expect_no_number(word);
-}
-
-TEST(ParseNumber, RejectsAnEmbeddedNul) {
-  expect_no_number("1\0"sv);
-  expect_no_number("\0001"sv);
-  expect_no_number("1\0002"sv);
-}
-
-TEST(ParseNumber, RejectsBlanksInFront) {
-  expect_no_number(" 1");
 }
 
 TEST(ParseNumber, ReadsNothingBehindTheWord) {
