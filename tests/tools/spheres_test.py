@@ -59,6 +59,11 @@ class Text(ToolTest):
             self.assertEqual([line for line in as_sphere.split("\n") if line and line[0] in "-0123456789"],
                              lines[::3])
 
+    def test_each_of_the_four_points_is_noted_once(self):
+        done = run("model", stdin=scene("rotate 33 1 2 3\ntranslate 1e33 0 0\nrotate 33 1 2 3\n"
+                                        "translate -1e33 1e20 0\nsphere 0.1 0.2 0.3 1\n"))
+        self.assertIn(b"the digits of this vertex and of 3 more are not certain", done.stderr)
+
     def test_a_stage_of_awk_needs_no_change(self):
         """scripts/view.awk, which subtracts the eye, is the view of this camera."""
         text = pipe(["model"], stdin=scene(TRIANGLE, SPHERE, "rotate 20 0 0 1\nscale 1 2 1\n", SPHERE))
