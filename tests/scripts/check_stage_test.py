@@ -180,7 +180,8 @@ class Program(ToolTest):
         told = check("view", "--", script(f'"$BIN/view" | {mix}')).stdout
         self.assertRegex(told, r"^1-one-triangle: wrong\n(?:  .*\n)*  cause: none of those known\n"
                                r"2-camera: wrong\n")
-        self.assertEqual([row.count("*") for row in told.split("| right\n")[1].splitlines()[:4]], [4, 4, 4, 0])
+        rows = told.split("| right\n")[1].splitlines()
+        self.assertEqual([row.count("*") for row in rows[:4]], [4, 4, 4, 0])
 
     def test_a_zbuf_gets_its_config_and_writes_its_picture(self):
         told = self.told("zbuf", 'exec "$BIN/zbuf" --coverage center "$1"', status=0)
@@ -226,8 +227,11 @@ class Program(ToolTest):
         self.assertEqual(self.told("view", 'echo busy >&2; exec "$BIN/view"', status=0), "scene: right\n")
 
     def test_an_empty_output_has_a_cause(self):
-        self.assertEqual(self.told("view", "exec true"),
-                         "scene: wrong: it is empty\n  cause: It wrote nothing\n")
+        header = (": it must read past the lines before the first triangle, such as 'perspective 50 1.3 1 50' "
+                  "(--bare feeds none)")
+        for options, words in ((), header), (("--bare",), ""):
+            self.assertEqual(self.told("project", "exec true", *options),
+                             f"scene: wrong: it is empty\n  cause: It wrote nothing{words}\n")
         self.assertIn("  cause: It wrote nothing\n", self.told("zbuf", "exec true"))
 
     def test_an_output_that_another_run_does_not_repeat_has_a_cause(self):
