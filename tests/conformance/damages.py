@@ -50,15 +50,13 @@ def expected(right, files, how):
 
 def deep_colors(bmp):
     """The colors, other than black, of pixels all of whose neighbors within two pixels have the same."""
-    _, rows = rows_of(bmp)
-    width, height = struct.unpack_from("<ii", bmp, 18)
-    pixels = [[row[3 * i:3 * i + 3] for i in range(width)] for row in rows]
+    width = struct.unpack_from("<i", bmp, 18)[0]
+    pixels = [[row[3 * i:3 * i + 3] for i in range(width)] for row in rows_of(bmp)[1]]
+    runs = [[row[i] if row[i:i + 5] == row[i:i + 1] * 5 else b"" for i in range(width - 4)] for row in pixels]
     return {
-        pixels[r][c]
-        for r in range(2, height - 2)
-        for c in range(2, width - 2)
-        if any(pixels[r][c]) and all(
-            pixels[r + i][c + j] == pixels[r][c] for i in range(-2, 3) for j in range(-2, 3))}
+        column[i]
+        for column in zip(*runs)
+        for i in range(len(column) - 4) if any(column[i]) and column[i:i + 5] == column[i:i + 1] * 5}
 
 
 def generated_colors(count):
