@@ -200,14 +200,6 @@ class Program(ToolTest):
                          "scene: wrong: its exit status is 3\n  its stderr:\n    no such matrix\n")
         self.assertEqual(self.told("view", "kill -9 $$"), "scene: wrong: it was ended by SIGKILL\n")
 
-    def test_a_traceback_is_shown(self):
-        told = self.told("view", "exec python3 -c 'def half(x): return x / 0\nhalf(1)'")
-        self.assertRegex(
-            told,
-            r"^scene: wrong: its exit status is 1\n  its stderr:\n    Traceback .*\n(    .*\n)+    "
-            r"ZeroDivisionError: .*\n$"
-        )
-
     def test_a_file_in_this_folder_is_found_from_another(self):
         pathlib.Path("mine.sh").write_text(f"exec '{BIN}/view'\n")
         for name in ("mine.sh", "./mine.sh", os.path.abspath("mine.sh")):
