@@ -219,8 +219,8 @@ class Program(ToolTest):
         self.assertEqual(self.told("view", 'echo busy >&2; exec "$BIN/view"', status=0), "scene: right\n")
 
     def test_an_empty_output_has_a_cause(self):
-        header = (": it must read past the lines before the first triangle, such as 'perspective 50 1.3 1 50' "
-                  "(--bare feeds none)")
+        header = (": it must read past the lines before the first triangle, such as 'perspective 50 1.3 1 "
+                  "50' (--bare feeds none)")
         for options, words in ((), header), (("--bare",), ""):
             self.assertEqual(self.told("project", "exec true", *options),
                              f"scene: wrong: it is empty\n  cause: It wrote nothing{words}\n")

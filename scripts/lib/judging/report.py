@@ -3,7 +3,7 @@ import os
 import re
 import shlex
 
-from lib.judging.verdict import ANOTHER_RULE, FAILED, MISSING, OPEN, RIGHT, WRONG
+from lib.judging.verdict import FAILED, MISSING, OPEN, WRONG
 
 BY_THE_RIGHT = "by the right numbers, "  # begins the remark of a stage that was judged by those
 HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference, first pixel", "remarks"]
@@ -35,24 +35,25 @@ def listed(files):
     return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
+def sentence_of_right(verdict):
+    words, rules = f"all {'five' if len(verdict.files) == 5 else 'three'} files are right", {}
+    for file in verdict.files:
+        if file.rule:
+            rules.setdefault(file.rule, []).append(file)
+    by_rules = "; ".join(
+        f"{listed(files)} by {'' if rule.startswith('another rule') else 'another rule: '}{rule}"
+        for rule, files in rules.items())
+    return f"{words}, {by_rules}; that {verdict.files[-1].counts}" if rules else words
+
+
 def sentence(verdict):
     """The first stage that went wrong, why, and the later ones that are wrong by themselves."""
     failed = [file for file in verdict.files if file.verdict in FAILED]
     undecided = [file for file in verdict.files if file.verdict in OPEN]
-    others = [file for file in verdict.files if file.verdict == ANOTHER_RULE]
     if not failed and undecided:
         return "; ".join(f"{file.file}: {file.verdict}" for file in undecided)
-    if not failed and all(file.verdict == RIGHT for file in verdict.files):
-        return f"all {'five' if len(verdict.files) == 5 else 'three'} files are right"
     if not failed:
-        rules = {}
-        for file in others:
-            rules.setdefault(file.rule, []).append(file)
-        words = "; ".join(
-            f"{listed(files)} by {'' if rule.startswith('another rule') else 'another rule: '}{rule}"
-            for rule, files in rules.items())
-        return (f"all {'five' if len(verdict.files) == 5 else 'three'} files are right, {words}; that "
-                f"{others[0].counts}")
+        return sentence_of_right(verdict)
     if all(file.verdict == MISSING for file in failed):
         words = (f"{listed(failed)} {'is' if len(failed) == 1 else 'are'} not handed in; what is there "
                  f"is right")
