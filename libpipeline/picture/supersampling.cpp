@@ -4,6 +4,11 @@
 #include <cassert>
 
 namespace pipeline {
+namespace {
+
+constexpr std::uint32_t kRedAndBlue = 0xff00ff;
+
+}  // namespace
 
 // Z12
 Viewport sample_screen(const Viewport& screen, int count) {
@@ -17,22 +22,22 @@ Viewport sample_screen(const Viewport& screen, int count) {
 
 Downsampler::Downsampler(int columns, int count, Color background)
     : count_(static_cast<std::size_t>(count)),
-      sums_(static_cast<std::size_t>(columns)),
-      means_(background.is_opaque() ? 0 : sums_.size()),
+      sums_(background.is_opaque() ? 2 * count_ * static_cast<std::size_t>(columns) : 0),
+      means_(background.is_opaque() ? 0 : static_cast<std::size_t>(columns)),
       row_(static_cast<std::size_t>(columns)) {}
 
 // Z11
 std::optional<std::span<const Color>> Downsampler::add(std::span<const Color> samples) {
-  assert(samples.size() == count_ * sums_.size());
+  assert(samples.size() == count_ * row_.size());
   const bool is_translucent = !means_.empty();
+  const std::size_t greens = samples.size();  // behind the sums of red and blue
   if (is_translucent) {
     for (std::size_t i = 0; i < samples.size(); ++i) means_[i / count_].add(samples[i]);
   } else {
+    // By columns of samples, which compilers do on vectors.
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      auto& [red, green, blue] = sums_[i / count_];
-      red += samples[i].red();
-      green += samples[i].green();
-      blue += samples[i].blue();
+      sums_[i] += samples[i].rgb() & kRedAndBlue;
+      sums_[greens + i] += samples[i].green();
     }
   }
   if (++rows_taken_ < count_) return std::nullopt;
@@ -45,10 +50,14 @@ std::optional<std::span<const Color>> Downsampler::add(std::span<const Color> sa
   const auto all = static_cast<std::uint32_t>(count_ * count_);
   const auto mean = [&](std::uint32_t sum) { return static_cast<std::uint8_t>((2 * sum + all) / (2 * all)); };
   for (std::size_t column = 0; column < row_.size(); ++column) {
-    const auto& [red, green, blue] = sums_[column];
-    row_[column] = Color(mean(red), mean(green), mean(blue));
-    sums_[column] = {};
+    std::uint32_t red_blue = 0, green = 0;
+    for (std::size_t i = column * count_; i < (column + 1) * count_; ++i) {
+      red_blue += sums_[i];
+      green += sums_[greens + i];
+    }
+    row_[column] = Color(mean(red_blue >> 16), mean(green), mean(red_blue & 0xffff));
   }
+  std::ranges::fill(sums_, 0);
   return row_;
 }
 

@@ -76,8 +76,9 @@ class Downsampler {
  private:
   std::size_t count_;
   std::size_t rows_taken_ = 0;
-  std::vector<std::array<std::uint32_t, 3>> sums_;  // red, green, blue
-  std::vector<ColorMean> means_;                    // in place of sums, unless all samples are opaque
+  // Of each sample's column, red and blue in the 16 bits each that 16 x 16 samples need; then green of each.
+  std::vector<std::uint32_t> sums_;
+  std::vector<ColorMean> means_;  // in place of sums, unless all samples are opaque
   std::vector<Color> row_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace pipeline {
@@ -53,10 +54,22 @@ TEST(Downsampler, ForgetsTheRowBefore) {
   EXPECT_EQ(std::vector(row.begin(), row.end()), second);
 }
 
+TEST(Downsampler, KeepsChannelsColumnsAndRowsApart) {
+  Downsampler means(2, 2);
+  const Color a(255, 0, 1), b(0, 255, 2);
+  for (const auto& [left, right] : {std::pair(a, b), std::pair(b, a)}) {
+    const std::vector<Color> samples = {left, left, right, right};
+    EXPECT_FALSE(means.add(samples));
+    const auto row = means.add(samples).value();
+    EXPECT_EQ(std::vector(row.begin(), row.end()), std::vector({left, right}));
+  }
+}
+
 TEST(Downsampler, HoldsTheLargestSums) {
   const Color white = Color(255, 255, 255), almost = white.with_alpha(254);
   std::vector<Color> samples(kMaxSamples * kMaxSamples, white);
   EXPECT_EQ(pixel_of(samples, kMaxSamples, almost), white);
+  EXPECT_EQ(pixel_of(samples, kMaxSamples), white);
   samples[0] = almost;
   EXPECT_EQ(pixel_of(samples, kMaxSamples, almost), white);  // an alpha of 254.996
   samples.assign(samples.size(), almost);
