@@ -223,7 +223,7 @@ class PixelJudge:
         if finding:
             return finding
         if plain.drawn and self.shown.is_all_blank:
-            return self.of_blank(plain)
+            return self.exact(self.compare(self.first, Rule(**CENTER), limit=0)) or self.of_blank(plain)
         rows = self.sample_rows(plain)
         finding = self.find_open(rows) or self.find_mistake(rows)
         if finding:
