@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""The rooms of libpipeline, tools, scripts and tests, and the arrows between them, match the maps: README.md in
-each.
+"""The rooms of libpipeline, tools, scripts and tests, and their arrows, match the maps: README.md in each.
 
 usage: rooms_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
 """
