@@ -41,6 +41,8 @@ class Firefox:
     def read(self):
         length = b""
         while (letter := self.stream.read(1)) != b":":
+            if not letter:
+                raise AssertionError("Firefox has ended")
             length += letter
         return json.loads(self.stream.read(int(length)))
 
