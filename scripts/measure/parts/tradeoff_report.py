@@ -8,7 +8,8 @@ PICTURES = ("fill", "torus", "inside")
 
 # Why a setting stays that another one beats in every column.
 REASONS = {
-    "default": "Assignments ask for `nearest`.",
+    "default": "Assignments ask for `nearest`, and for every triangle in the text.",
+    "--digits exact": "Assignments ask for `nearest`.",
     "--digits 5": "Its text is the shortest.",
     "--digits 6": "It is the text of printf's `%f`.",
     "--digits 15": "Other programs read it back with the digits that doubles have.",
