@@ -326,7 +326,7 @@ class Runner(unittest.TestCase):
         self.assertEqual(results["counts"], {"right": 0, "wrong": 1, "open": 0, "left out": 0})
         self.assertEqual([(case["name"], case["state"], case["paragraphs"]) for case in results["cases"]],
                          [("model/translate-x", "wrong", ["M3"])])
-        self.assertEqual(results["cases"][0]["difference"]["message"], "the number of lines differs")
+        self.assertEqual(results["cases"][0]["difference"]["message"], "it wrote nothing")
 
     def test_writes_junit_that_any_parser_reads(self):
         program = sh(r"printf '1 \000\033<&]]>\303\202\377\357\277\277 2\n'")
@@ -535,6 +535,14 @@ class Shared(unittest.TestCase):
         program = sh(f"{BIN}/model --bare | awk -v t={random} 'NF {{$1 = t * NR * NR}} 1'")
         done = conform("--stage", "model", "--assignment", "--only", "translate-*", "--", *program)
         self.assertRegex(done.stdout, r"\n# Its output is random: two runs on model/translate-\S+ differ.\n")
+
+    def test_a_program_that_reads_only_numbers_is_told_of_the_header(self):
+        told = ("It wrote nothing: it must read past the lines before the first triangle, such as 'perspective "
+                r"[\d. ]+' \(--assignment feeds none\)\.\n")
+        for program, words, count in (("true", (), 1), ("true", ("--assignment",), 0), (
+                'text=$(cat); case $text in *"perspective 6"*) echo "$text";; esac', (), 0)):
+            done = conform("--stage", "project", "--only", "fov-*", *words, "--", *sh(program))
+            self.assertEqual(len(re.findall(rf"\n# {told}", done.stdout)), count, done.stdout)
 
     def test_a_guess_names_the_mistake_whose_cases_fail(self):
         program = sh(f"sed '/^up/s/.*/up 0 2 0/' | {BIN}/view")

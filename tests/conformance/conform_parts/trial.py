@@ -19,6 +19,7 @@ Terms = namedtuple("Terms",
 CASE_FILES = ("input.txt", "config.txt", *FED.values())
 BETWEEN = b"==\n"  # two texts of a batch
 MOST_TOGETHER = 64  # texts of a batch
+SILENT = "it wrote nothing"
 LONGEST_ROW = 200  # of what is shown of an output
 NOT_JUDGED = (ArithmeticError, MemoryError, OSError, RecursionError, ValueError)
 PLACEHOLDERS = {
@@ -58,6 +59,13 @@ def fit_for_print(text):
     """A part of a program's output, in printable characters, and not too long."""
     rows = [row[:LONGEST_ROW] + "..." * (len(row) > LONGEST_ROW) for row in text.split("\n")]
     return "\n".join("".join(c if c.isprintable() else "?" for c in row) for row in rows)
+
+
+def hint_of_header(stage, given, option):
+    """What a program that reads nothing but numbers stumbles over; empty if it was fed nothing else."""
+    line = fit_for_print(given.partition(b"\n")[0].decode(errors="replace"))
+    return (f": it must read past the lines before the first triangle, such as '{line}' ({option} feeds none)"
+            if stage in ("view", "project") and line[:1].isalpha() else "")
 
 
 def given_text(case, terms):
@@ -220,9 +228,11 @@ def judge_outputs(case, terms, outputs):
     is_strict = tier_of(case, terms) == "bytes"
     if case.stage != "zbuf":
         expected = case.read("expected.txt")
+        expected = without_header(expected) if terms.is_bare else expected
+        if expected.strip() and not outputs.text.strip():
+            return Difference(SILENT, expected.decode("latin-1").splitlines()[0], "nothing")
         if terms.is_bare or terms.tier:
-            judge = same_bytes if is_strict else same_digits
-            return judge(without_header(expected) if terms.is_bare else expected, outputs.text)
+            return (same_bytes if is_strict else same_digits)(expected, outputs.text)
         return same_bytes(expected, outputs.text) if is_strict else same_digits(
             expected, outputs.text) or same_shortest(expected, outputs.text)
     if terms.judges_depths:
