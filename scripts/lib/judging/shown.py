@@ -26,20 +26,23 @@ class Depths:
         return max(DEPTH_BASE * max(1.0, abs(z)), self.digits.unit(z))
 
 
-def read_depths(data, name):
-    """The Depths of a text; raises a StageTextError."""
-    rows, words_of_all = [], []
-    for number, line in enumerate(text_of(data, name).split("\n"), 1):
-        words = line.split()
+def depth_rows(text, name):
+    """Rows of depths, one a line; raises a StageTextError."""
+    rows = []
+    for number, line in enumerate(text.split("\n"), 1):
         try:
-            rows.append([real(word) for word in words])
+            rows.append([real(word) for word in line.split()])
         except ValueError:
             raise StageTextError(
                 f"{name}:{number}: expected depths, found '{printable(line.strip()[:40])}'") from None
-        words_of_all += words
     while rows and not rows[-1]:  # rows at the end may be empty
         rows.pop()
-    return Depths(rows, digits_of(words_of_all))
+    return rows
+
+
+def read_depths(data, name):
+    text = text_of(data, name)
+    return Depths(depth_rows(text, name), digits_of(text.split()))
 
 
 def read_colors(data, name, window, background):
