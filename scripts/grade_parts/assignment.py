@@ -221,10 +221,7 @@ def optional(path):
 
 def right_picture(reference):
     """None where our project refuses the scene, as for a vertex too near to the eye."""
-    text = reference.scene_data
     try:
-        for tool in ("model", "view", "project"):
-            text = reference.tools.output(tool, stdin=text)
+        return reference.picture(reference.stage3)
     except ToolFailure:
         return None
-    return reference.picture(text)

@@ -87,7 +87,8 @@ class HandIn:
         failed = [verdict for verdict in verdicts if not verdict.is_good]
         if outcome.verdict.verdict == WRONG and failed:
             # A program may write other numbers into a file than it goes on with.
-            by_right = self.after_model(judge, stage, kind, theirs, [Reading.exact(self.right_before(stage))])
+            right = self.ours.exact["model" if stage == "view" else "view"]
+            by_right = self.after_model(judge, stage, kind, theirs, [Reading.exact(right)])
             if by_right.verdict.verdict in GOOD:
                 by_right.verdict.remarks.append(
                     f"by the right numbers, which are not those of {failed[-1].file}")
@@ -100,21 +101,13 @@ class HandIn:
 
     def right_after(self, stage):
         """The lists of points that are right after a stage; project may clip or not."""
-        if stage == "model":
-            return [self.ours.world]
-        if stage == "view":
-            return [self.right_before("project")]
-        return [self.right_ndc(), *self.clipped([Reading.exact(self.right_before("project"))])]
+        clipped = self.ours.exact_clipped if stage == "project" else None
+        return [self.ours.exact[stage], *([] if clipped is None else [clipped])]
 
     def after_model(self, judge, stage, kind, theirs, readings):
         if stage == "view":
             return judge.view(self.files[kind].name, theirs, readings)
         return judge.project(self.files[kind].name, theirs, readings, self.clipped(readings))
-
-    def right_before(self, stage):
-        """The right points that a stage after model reads."""
-        return self.ours.world if stage == "view" else [
-            image(self.ours.scene.of_view(), p, False) for p in self.ours.world]
 
     def right_memory(self, stage, readings):
         """The points after a stage whose file is missing, if the stage is right."""
@@ -125,7 +118,10 @@ class HandIn:
 
     def clipped(self, readings):
         """What may be left of the points if project clips them, for each reading."""
-        return [points for reading in readings if (points := self.ours.clipped(reading.points)) is not None]
+        exact = self.ours.exact["view"]
+        parts = (self.ours.exact_clipped if reading.points == exact else self.ours.clipped(reading.points)
+                 for reading in readings)
+        return [points for points in parts if points is not None]
 
     def of_empty_text(self, stage, kind, readings):
         """The Outcome of a text without triangles: right where there may be none."""
@@ -140,10 +136,6 @@ class HandIn:
             FileVerdict(
                 stage, name, WRONG,
                 remarks=["there is no triangle in it" if self.files[kind].data.strip() else "it is empty"]))
-
-    def right_ndc(self):
-        """What a program may have drawn by that writes other numbers into its file."""
-        return [image(self.ours.scene.of_project(), p, True) for p in self.right_before("project")]
 
     # reading
     def read(self, kind, parse):

@@ -5,6 +5,7 @@ import os
 import re
 
 from lib.judging.hand_in import KINDS
+from lib.judging.matrices import image
 from lib.judging.old_format import without_old_lines
 from lib.judging.scene import Scene
 from lib.maths.window import Window
@@ -94,6 +95,18 @@ class Reference:
         for tool in ("model", "view", "project"):
             text = self.tools.output(tool, stdin=text)
         return text
+
+    @functools.cached_property
+    def exact(self):
+        """{stage: its exact points}, where project does not clip."""
+        in_view = [image(self.scene.of_view(), p, False) for p in self.world]
+        return {"model": self.world, "view": in_view,
+                "project": [image(self.scene.of_project(), p, True) for p in in_view]}
+
+    @functools.cached_property
+    def exact_clipped(self):
+        """Those of project, where it clips; None if it refuses them."""
+        return self.clipped(self.exact["view"])
 
     @functools.cached_property
     def draws_nothing(self):
