@@ -101,7 +101,7 @@ class PixelJudge:
         return mismatch
 
     def is_of_blank(self, finding):
-        return finding.mismatch is self.plain and self.shown.is_all_blank
+        return finding.mismatch is self.plain and all(self.shown.are_blank)
 
     def by_the_rule_of_the_picture(self, finding):
         """The Finding of depths that nothing explains."""
@@ -222,7 +222,7 @@ class PixelJudge:
         finding = self.exact(plain)
         if finding:
             return finding
-        if plain.drawn and self.shown.is_all_blank:
+        if plain.drawn and any(self.shown.are_blank):  # where one is, no mistake is that of both
             return self.exact(self.compare(self.first, Rule(**CENTER), limit=0)) or self.of_blank(plain)
         rows = self.sample_rows(plain)
         finding = self.find_open(rows) or self.find_mistake(rows)

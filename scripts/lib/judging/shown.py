@@ -95,9 +95,10 @@ class Shown:
         return all(color == self.background for row in self.colors for color in row)
 
     @property
-    def is_all_blank(self):
-        return not (self.colors and not self.is_blank("picture")
-                    or self.depths and not self.is_blank("depths"))
+    def are_blank(self):
+        """Of the picture and the depths, as far as they are given, whether each shows no triangle."""
+        given = ("picture", self.colors), ("depths", self.depths)
+        return [self.is_blank(kind) for kind, shown in given if shown]
 
     @property
     def prints_everything(self):
