@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from lib.showing.svg import document, line, text
+from lib.showing.svg import document, dots, line, text
 from trade_parts.report import asked
 
 TOP, ROW, BOTTOM = 96, 22, 60
@@ -81,10 +81,8 @@ def row_of(row, y, axes, start_up, is_chosen):
     yield line("axis", (cpu.x(row.seconds.first), y), (cpu.x(row.seconds.third), y))
     percent = None if row.loss.wrong is None else row.percent_wrong
     for axis, value in (wrong, percent), (last, last_of(row)):
-        yield "" if value is None else (
-            f'<g class="s s{0 if value else 2}"><circle class="dot" cx="{axis.x(value):.1f}" cy="{y:.1f}" '
-            f'r="4"/></g>'
-        )
+        if value is not None:
+            yield f'<g class="s s{0 if value else 2}">' + dots("dot", [(axis.x(value), y)], 4.5) + "</g>"
 
 
 def last_of(row):

@@ -198,7 +198,7 @@ class KeptTrue(unittest.TestCase):
                     [sys.executable, SOURCE / "scripts/measure" / script, "--redraw", "--output", folder],
                     check=True)
             made = [path for path in pathlib.Path(folder).iterdir() if path.suffix in (".md", ".svg")]
-            self.assertEqual(len(made), 12)
+            self.assertEqual(len(made), 8)
             for path in made:
                 self.assertEqual(path.read_text(), (results / path.name).read_text(), path.name)
 

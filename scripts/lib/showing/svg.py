@@ -17,8 +17,7 @@ def colors(theme):
 .guide { stroke: %(guide)s } .band { fill: %(band)s } text { fill: %(ink)s } .soft { fill: %(soft)s }
 """ % theme
     for i, color in enumerate(theme["series"]):
-        rules += (f".s{i} text, .s{i} .dot {{ fill: {color} }} .s{i} .front, .s{i} circle {{ stroke: "
-                  f"{color} }}\n")
+        rules += f".s{i} text, .s{i} .dot {{ fill: {color} }} .s{i} .front {{ stroke: {color} }}\n"
     return rules
 
 
@@ -39,6 +38,13 @@ def text(x, y, words, attributes=""):
 def line(kind, *points):
     return f'<polyline class="{kind}" fill="none" points="' + " ".join(f"{x:.1f},{y:.1f}"
                                                                        for x, y in points) + '"/>'
+
+
+def dots(kind, points, radius):
+    """Circles, as one shape."""
+    circle = f"a{radius:g} {radius:g} 0 1 0 {2 * radius:g} 0a{radius:g} {radius:g} 0 1 0-{2 * radius:g} 0z"
+    shapes = "".join(f"M{x - radius:.1f} {y:.1f}{circle}" for x, y in points)
+    return f'<path class="{kind}" d="{shapes}"/>'
 
 
 def document(width, height, title, parts, style=""):
@@ -96,6 +102,4 @@ def line_panel(left, title, unit, ticks, counts, lines):
     labels = end_labels({name: (columns[-1], heights[-1]) for name, heights in lines.items()})
     for j, (name, heights) in enumerate(lines.items()):
         yield f'<g class="s s{j % 4}">' + line("front", *zip(columns, heights))
-        for x, y in zip(columns, heights):
-            yield f'<circle class="dot" cx="{x:.1f}" cy="{y:.1f}" r="3.5"/>'
-        yield text(*labels[name], name) + "</g>"
+        yield dots("dot", zip(columns, heights), 4) + text(*labels[name], name) + "</g>"

@@ -1,6 +1,6 @@
 """The plots of scripts/measure/extremes: for each axis the digits that are right, and where pixels are wrong
 and what is noted."""
-from lib.showing.svg import document, line, spread_out, text
+from lib.showing.svg import document, dots, line, spread_out, text
 from parts.extremes_report import Results, short
 from parts.extremes_scenes import AXES
 
@@ -13,7 +13,7 @@ SERIES = {
 NAMES = {
     "default": "7 (default)", "--precision double": "7, doubles",
     "--digits exact --precision double": "exact, doubles"}
-STYLE_OF_ROWS = """.s4 text, .s4 .dot { fill: #6e7781 } .s4 .front, .s4 circle { stroke: #6e7781 }
+STYLE_OF_ROWS = """.s4 text, .s4 .dot { fill: #6e7781 } .s4 .front { stroke: #6e7781 }
 .dashed { stroke-dasharray: 5 4 }
 .right { fill: #0a7d78; opacity: .22 } .some { fill: #d9922b } .many { fill: #bf2045 }
 .note { fill: none; stroke: #1f2328; stroke-width: 1.6 }
@@ -56,15 +56,16 @@ def rows_of_pixels(results, axis, x_of, top):
         y = top + ROW * i
         yield f'<g class="s s{SERIES[setting]}">' + text(LEFT - 10, y + 13, name_of(setting),
                                                          'text-anchor="end"') + "</g>"
+        shapes, noted = {"right": "", "some": "", "many": ""}, []
         for x, row in zip(x_of, results.of(axis, setting)):
             for column, offset, height in (("wrong_pixels", 0, 11), ("pixels_unlike_lossless", 12, 5)):
-                bar = kind(int(row[column]), int(row["covered"]))
-                yield (
-                    f'<rect class="{bar}" x="{x - half + 0.5:.1f}" y="{y + offset:.1f}" '
-                    f'width="{2 * half - 1:.1f}" height="{height}"/>'
-                )
+                shapes[kind(int(row[column]), int(row["covered"]))] += (
+                    f"M{x - half + 0.5:.1f} {y + offset}h{2 * half - 1:.1f}v{height}h{1 - 2 * half:.1f}z")
             if row["note"]:
-                yield f'<circle class="note" cx="{x:.1f}" cy="{y + 5.5:.1f}" r="3.5"/>'
+                noted.append((x, y + 5.5))
+        yield from (f'<path class="{name}" d="{path}"/>' for name, path in shapes.items() if path)
+        if noted:
+            yield dots("note", noted, 3.5)
 
 
 def legend(y):
@@ -72,8 +73,7 @@ def legend(y):
     for i, (name, words) in enumerate(keys):
         yield f'<rect class="{name}" x="{20 + 140 * i}" y="{y - 10}" width="14" height="11"/>' + text(
             40 + 140 * i, y, words, 'class="soft"')
-    yield f'<circle class="note" cx="427" cy="{y - 4.5}" r="3.5"/>' + text(440, y, "a tool notes it",
-                                                                           'class="soft"')
+    yield dots("note", [(427, y - 4.5)], 3.5) + text(440, y, "a tool notes it", 'class="soft"')
     yield text(550, y, "thick: against the truth; thin: the lossless run", 'class="soft"')
 
 

@@ -1,6 +1,4 @@
 """The tables of scripts/measure/extremes, in Markdown."""
-from parts.extremes_scenes import AXES
-
 MODERATE = 45.0  # degrees: from here the angle of view goes to two extremes
 DIRECTIONS = {  # title of the column: axis, and whether a value belongs to it
     "distance": ("distance", lambda value: True), "far / near": ("depth", lambda value: True),
@@ -85,26 +83,3 @@ The first value at which a tool notes anything:
 {table(results, results.first_note)}
 {promise(results)}
 """
-
-
-def report(rows):
-    results = Results(rows)
-
-    def numbers(axis):
-        values = [row["value"] for row in results.of(axis, results.settings[0])]
-        lines = ["| setting | " + " | ".join(map(short, values)) + " |", "|---|" + "--:|" * len(values)]
-        for setting in results.settings:
-            cells = (f"{float(row['digits_right']):.1f} / {int(row['wrong_pixels'])}"
-                     for row in results.of(axis, setting))
-            lines.append(f"| {code(setting)} | " + " | ".join(cells) + " |")
-        return f"## By {AXES[axis][1]}\n\n" + "\n".join(lines) + "\n"
-
-    axes = "\n".join(numbers(axis) for axis in dict.fromkeys(row["axis"] for row in rows))
-    return f"""# What each setting loses at the extremes
-
-Written by `scripts/measure/extremes`; all numbers are in [extremes.csv](extremes.csv). Cells below: digits
-of the vertices in NDC that are right, relative to the scene's extent, along the axis where the fewest are /
-pixels that show another triangle than is true, of 96 x 96.
-
-{tables(rows)}
-{axes}"""

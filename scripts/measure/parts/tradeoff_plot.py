@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from lib.showing.svg import document, line, text
+from lib.showing.svg import document, dots, line, text
 
 WIDTH, TOP, ROW_HEIGHT, LABEL_WIDTH = 1180, 112, 24, 255
 ZERO_WIDTH = 36  # left of a logarithmic axis, for errors that are 0
@@ -42,8 +42,7 @@ def panel_parts(panel, settings, bottom):
     if len(panel.series) > 1:
         x = panel.left
         for i, name in enumerate(panel.series):
-            yield f'<g class="s s{i}"><circle class="dot" cx="{x + 5:.1f}" cy="66" r="4"/>' + text(
-                x + 14, 70, name) + "</g>"
+            yield f'<g class="s s{i}">' + dots("dot", [(x + 5, 66)], 4.5) + text(x + 14, 70, name) + "</g>"
             x += 30 + 7 * len(name)
     for tick in panel.ticks:
         x = panel.x_of(tick)
@@ -53,17 +52,13 @@ def panel_parts(panel, settings, bottom):
         yield line("grid", (panel.left, TOP - 6), (panel.left, bottom))
         yield text(panel.left, TOP - 14, "0", 'class="soft" text-anchor="middle"')
     for i, values in enumerate(panel.series.values()):
+        ends = [(panel.x_of(values[setting]), TOP + ROW_HEIGHT * (row + 0.5))
+                for row, setting in enumerate(settings)]
         yield f'<g class="s s{i}">'
-        for row, setting in enumerate(settings):
-            y = TOP + ROW_HEIGHT * (row + 0.5)
-            if not panel.is_logarithmic:
-                yield line("front", (panel.x_of(0), y), (panel.x_of(values[setting]), y))
-            # The smaller dots of later series stay visible on those of earlier ones.
-            yield (
-                f'<circle class="dot" cx="{panel.x_of(values[setting]):.1f}" cy="{y:.1f}" '
-                f'r="{5.5 - 1.4 * i:.1f}"/>'
-            )
-        yield "</g>"
+        if not panel.is_logarithmic:
+            yield from (line("front", (panel.x_of(0), y), (x, y)) for x, y in ends)
+        # The smaller dots of later series stay visible on those of earlier ones.
+        yield dots("dot", ends, 6 - 1.4 * i) + "</g>"
 
 
 def share_text(share):

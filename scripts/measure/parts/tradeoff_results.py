@@ -15,7 +15,7 @@ class Results:
     def __init__(self, rows, epsilon_rows):
         self.rows = {(row["scene"], row["setting"]): row for row in rows}
         self.epsilon = {(row["setting"], row["distance"]): row for row in epsilon_rows}
-        self.titles = {row["scene"]: row["title"] for row in rows}
+        self.scenes = list(dict.fromkeys(row["scene"] for row in rows))
         self.machine, self.counter = rows[0]["machine"], rows[0]["counter"]
 
     @classmethod
@@ -31,14 +31,6 @@ class Results:
 
     def words(self, scene, column):
         return self.rows[scene, "default"][column]
-
-    @property
-    def cost_scenes(self):
-        return [scene for scene in self.titles if self.cell(scene, "default", "cpu_seconds") is not None]
-
-    @property
-    def error_scenes(self):
-        return [scene for scene in self.titles if self.cell(scene, "default", "covered_pixels") is not None]
 
     def per_triangle(self, scene, setting, column):
         value = self.cell(scene, setting, column)
@@ -71,7 +63,7 @@ class Results:
         """Whether a setting is nowhere worse than another, and somewhere better, in every column and scene in
         which both were measured."""
         columns = [(scene, column)
-                   for scene in self.titles
+                   for scene in self.scenes
                    for column in COST_COLUMNS + ERROR_COLUMNS + ("difference_mean", )]
         verdicts = [self.compared(scene, one, other, column) for scene, column in columns]
         has_errors = any(
