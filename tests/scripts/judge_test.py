@@ -366,11 +366,11 @@ class Wrong(HandIn):
         pathlib.Path("z_buffer.txt").write_text("\n" * 80)
         pathlib.Path("out.bmp").write_bytes(reference.bmp([[(0, 0, 0)] * 90] * 80))
         verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
-        blank = "", ["nothing is drawn, as if: " + mistakes.sentence("zbuf/starts-at-zero")[:-1]]
-        self.assertEqual((verdict.files[3].cause, verdict.files[3].remarks), blank)
+        self.assertEqual((verdict.files[3].cause, verdict.files[3].remarks),
+                         ("", ["nothing is drawn, as if: " + mistakes.sentence("zbuf/starts-at-zero")[:-1]]))
         tool("zbuf", "config.txt", "stage3.txt", "--z-buffer", "z_buffer.txt", "--image", "none.bmp")
         verdict = self.assert_verdicts(["right"] * 4 + ["wrong"], 1)
-        self.assertEqual((verdict.files[4].cause, verdict.files[4].remarks), blank)
+        self.assertEqual((verdict.files[4].cause, verdict.files[4].remarks), ("", ["nothing is drawn"]))
 
     def test_two_mistakes_at_once(self):
         for one, other in (("view/eye-added", "view/l-not-negated"), ("view/up-is-0-1-0", "view/r-not-unit"),

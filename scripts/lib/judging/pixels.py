@@ -458,9 +458,11 @@ class PixelJudge:
         return "; ".join(words)
 
     def of_blank(self, plain):
-        """The Finding where nothing is drawn, which has too many causes to name one."""
+        """The Finding where nothing is drawn, which has too many causes to name one; of one of two files, none
+        that both would have."""
         finding = self.unknown(plain)
-        names = [name for (name, *_), changes in MISTAKES if name in BLANK and not any(
+        mistakes = () if self.is_of_one else MISTAKES
+        names = [name for (name, *_), changes in mistakes if name in BLANK and not any(
             t >= 0 for row in range(self.window.height)
             for t in self.drawing(self.first, Rule(**changes)).row(row)[0])]
         words = "; or: ".join(sentence(f"zbuf/{name}").rstrip(".") for name in names)
