@@ -13,19 +13,12 @@ import unittest
 import reference
 
 student, bin_dir, source = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(3))
+from lib.judging.mistakes import sentences  # noqa: E402
 from lib.showing.pictures import read_picture  # noqa: E402
 
 PLAIN = ("one-triangle", "two-triangles", "torus", "tilted-camera", "nested-transforms", "worked-example")
 FIVE = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
-
-
-def listed(name):
-    """The names of a list in this folder, in their order."""
-    lines = (source / "tests/conformance" / name).read_text().splitlines()
-    return [line.split(":")[0].removeprefix("judge ") for line in lines if line and line[0] != "#"]
-
-
-MISTAKES, HABITS = listed("mistakes.txt"), listed("habits.txt")
+MISTAKES, HABITS = [*sentences()], [*sentences("habits.txt")]
 
 
 def switches(*names):
@@ -195,6 +188,11 @@ ZBUF = {
         [corner()], WINDOW, stairs(), rows("", *["." * row + "a" * (7 - row) for row in range(1, 7)])),
     "row-long": ([corner()], WINDOW, stairs(), rows(".", *["." + "a" * count for count in range(1, 8)])),
     "min-for-max": ([corner()], WINDOW, stairs(), rows(".", *[".aaaaaaa"] * 6)),
+    # A square in two: all edges, and the diagonal, go through centers.
+    "strict-edges": ([((-0.625, -0.625, 0.5), (0.625, -0.625, 0.5), (0.625, 0.625, 0.5)),
+                      ((-0.625, -0.625, 0.5), (0.625, 0.625, 0.5), (-0.625, 0.625, 0.5))], WINDOW,
+                     rows("", ".bbbbba", ".bbbbaa", ".bbbaaa", ".bbaaaa", ".baaaaa", ".aaaaaa"),
+                     rows("", "", "..bbb", "..bb.a", "..b.aa", "...aaa")),
     "random-pixels": ([corner()], WINDOW, stairs(), None),
 }
 

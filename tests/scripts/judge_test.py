@@ -349,6 +349,21 @@ class Wrong(HandIn):
         row, column = first_difference(Pixels().colors, mistaken)
         self.assertTrue(file.first.startswith(f"row {row}, column {column}: a pixel that "), file.first)
 
+    def test_strict_edges_are_holes_on_all_of_an_edge_that_two_triangles_share(self):
+        """Some of them are what rounding leaves where a center lies on an edge."""
+        self.scene = ("0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntriangle\n-2 -2 0\n0 -2 0\n0 2 0\ntriangle\n0 -2 0\n"
+                      "2 -2 0\n0 2 0\nend\n")
+        self.config = "31 31\n"
+        for part, names in (1 / 2, []), (1, ["zbuf/strict-edges"]):
+            self.hand_in()
+            pixels = Pixels()
+            holes = [row for row, depths in enumerate(pixels.depths) if depths[15] is not None]
+            for row in holes[:int(part * len(holes))]:
+                pixels.clear(row, 15)
+            pixels.write()
+            verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2 if names else self.RULE, len(names))
+            self.assertEqual([cause.name for cause in verdict.files[4].causes], names)
+
     def test_rows_for_columns_of_a_picture_that_is_not_square(self):
         self.hand_in()
         pixels = Pixels()

@@ -5,7 +5,7 @@ import re
 
 from lib.rim.places import place
 
-ENTRY = re.compile(r"(?:judge )?(model|view|project|zbuf)/([a-z0-9-]+): (.+)")
+ENTRY = re.compile(r"(?:judge )?(model|view|project|zbuf|all)/([a-z0-9-]+): (.+)")
 
 
 @functools.cache

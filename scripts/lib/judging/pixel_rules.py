@@ -26,7 +26,7 @@ MISTAKES = [
     (("column-short", "row-short"), {"column_more": -1, "row_short": True}),
     (("column-long", ), {"column_more": 1}), (("row-long", ), {"row_long": True}),
     *((("min-for-max", ), {"columns": columns}) for columns in filter(None, COLUMNS)),
-    (("width-minus-one", ), {"is_one_less": True}),
+    (("width-minus-one", ), {"is_one_less": True}), (("strict-edges", ), {"is_strict": True}),
     *((("vertices-at-whole-pixels", ), {"corners": corners}) for corners in ("whole", "rounded")),
     (("width-minus-one", "vertices-at-whole-pixels"), {"is_one_less": True, "corners": "whole"}),
     *((("one-winding", ), {"winding": winding}) for winding in (1, -1)),

@@ -20,6 +20,7 @@ SAMPLE_ROWS = 8
 # A mistake leaves at most one pixel in NEARLY of those, in SAMPLE_ROWS, that the best open rule leaves; these
 # are at least LEAST_NEARLY.
 NEARLY, LEAST_NEARLY = 8, 8
+LEAST_HOLES = 5  # on common edges, before they are no accident of rounding
 LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
 # All that differs should lie within a pixel of an edge. Honest programs have a few pixels astray, for example
 # where a row passes just by a vertex, and depths that depend on the ends of their row: no more is let through
@@ -294,10 +295,15 @@ class PixelJudge:
                 rule = Rule(**{**open_changes, **changes})
                 for reading in self.readings:
                     if self.explains(reading, rule, rows) and (mismatch := self.compare(
-                            reading, rule, limit=0)) and mismatch.drawn:
+                            reading, rule, limit=0)) and mismatch.drawn and self.has_holes(reading, rule):
                         found[names], rank_of_found = mismatch, rank
                         break
         return self.mistake(found) if found else None
+
+    def has_holes(self, reading, rule):
+        """Whether there are enough holes on edges to tell, if the rule leaves any."""
+        return not rule.is_strict or len(
+            self.compare(reading, dataclasses.replace(rule, is_strict=False)).pixels) >= LEAST_HOLES
 
     def find_two(self, rows):
         """Two mistakes at once that explain everything, by our two rules; nothing if more than MOST_PAIRS
@@ -307,7 +313,8 @@ class PixelJudge:
             rule = Rule(**{**ends, **changes})
             if names not in found and not self.is_void(changes) and self.explains(self.first, rule, rows):
                 mismatch = self.compare(self.first, rule, limit=0)
-                found |= {names: mismatch} if mismatch and mismatch.drawn else {}
+                is_found = mismatch and mismatch.drawn and self.has_holes(self.first, rule)
+                found |= {names: mismatch} if is_found else {}
         return self.mistake(found) if 0 < len(found) <= MOST_PAIRS else None
 
     def find_nearly(self, rows, best):

@@ -5,11 +5,13 @@ Every span of a row knows how uncertain its ends and depths are, since the numbe
 pixel whose owner depends on that may show either."""
 import dataclasses
 import functools
+import itertools
 import math
 
 ROUNDING = 1e-9       # of columns and rows calculated in doubles
 MOST_SPANS = 500_000
 NARROW = 1e-12
+MOST_ON_EDGES = 8     # triangles whose edges a pixel's center lies on, that are looked at
 FAR = 1e9             # in NDC: beyond this, all is the same
 
 # Ends of a row of pixels, from where the row of pixel centers meets the triangle, in columns.
@@ -69,6 +71,7 @@ class Rule:
     columns: str = ""             # one of COLUMNS, where min stands for max
     shift: tuple = (0, 0)         # columns and rows
     is_cut_first: bool = False    # whether spans end at the picture's borders before the shift
+    is_strict: bool = False       # whether pixels whose centers lie on an edge are left out
     keep: str = "nearest"         # nearest, farthest, last
     has_front: bool = True
     has_rear: bool = True
@@ -209,6 +212,19 @@ class Triangles:
         reach = max(abs(bx - ax), abs(by - ay), abs(cx - ax), abs(cy - ay))
         return int(math.copysign(abs(area) > 4 * reach * (self.units[t] + 1e-15), area))
 
+    def meet_on(self, s, t, row, column):
+        """Whether two triangles lie on either side of a common edge on which a pixel's center lies, away from
+        its ends."""
+        common, both = {*self.corners[s]} & {*self.corners[t]}, {*self.corners[s]} | {*self.corners[t]}
+        if len(common) != 2 or len(both) != 4:
+            return False
+        (px, py, _), (qx, qy, _) = common
+        x, y = self.grid.left_x + column * self.grid.dx - px, self.grid.top_y - row * self.grid.dy - py
+        dx, dy = qx - px, qy - py
+        sides, square = [dx * (b - py) - dy * (a - px) for a, b, _ in both - common], dx * dx + dy * dy
+        is_on = abs(dx * y - dy * x) <= ROUNDING * self.grid.dx * math.sqrt(square)
+        return is_on and sides[0] * sides[1] < 0 and 1e-3 * square < dx * x + dy * y < 0.999 * square
+
     def has_area(self, t):
         """Whether a triangle has an area, whatever its numbers' last digits."""
         return self.winding(t) != 0
@@ -244,6 +260,9 @@ def ends_of(span, rule, width, slack=0.0):
     allows, a negative one as narrow."""
     first = ENDS[rule.left](span.left - slack * span.slack_left)
     last = ENDS[rule.right](span.right + slack * span.slack_right)
+    if rule.is_strict and slack <= 0:
+        first += abs(first - span.left) <= span.slack_left
+        last -= abs(last - span.right) <= span.slack_right
     if rule.is_cut_first:
         first, last = max(first, 0), min(last, width - 1)
     if rule.columns:
@@ -303,6 +322,8 @@ class Drawing:
         owner, depth = [-1] * self.width, [self.rear] * self.width
         front, rear, keep = self.front, self.rear, self.rule.keep
         for span in self.spans(row):
+            if self.rule.is_strict and not span.is_certain:
+                continue
             first, last = ends_of(span, self.rule, self.width)
             at_0, slope = self.line(span)
             t, columns = span.triangle, range(max(first, 0), min(last, self.width - 1) + 1)
@@ -319,7 +340,7 @@ class Drawing:
     def could_show(self, row, column, tolerance):
         """What a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of
         depths; the triangle -1 stands for none. `tolerance` is that of a depth."""
-        sure, possible, spans, center = [], [], self.spans(row), column - self.rule.shift[0]
+        sure, possible, unsure, spans, center = [], [], [], self.spans(row), column - self.rule.shift[0]
         spend(self.work, len(spans))
         for span in spans if self.rule.columns else [
                 span for span in spans if span.near_left <= center <= span.near_right]:
@@ -335,9 +356,14 @@ class Drawing:
             first, last = ends_of(span, self.rule, self.width, -1.0)
             fragment = (span.triangle, z - slack, z + slack)
             possible.append(fragment)
-            is_between_limits = z - slack >= self.front and z + slack < self.rear
-            if span.is_certain and first <= column <= last and is_between_limits:
-                sure.append(fragment)
+            if z - slack >= self.front and z + slack < self.rear:
+                (sure if span.is_certain and first <= column <= last else unsure).append(fragment)
+        for one, other in itertools.combinations(unsure[:MOST_ON_EDGES], 2):
+            if self.triangles.meet_on(one[0], other[0], row - self.rule.shift[1], center):
+                if self.rule.is_strict:  # neither of them is there
+                    possible = [fragment for fragment in possible if fragment not in (one, other)]
+                else:                    # one of them is
+                    sure.append((min(one[0], other[0]), min(one[1], other[1]), max(one[2], other[2])))
         return kept(sure, possible, self.rule.keep)
 
 
@@ -347,7 +373,7 @@ def kept(sure, possible, keep):
     if not sure:
         return [*possible, (-1, 0.0, 0.0)]
     if keep == "last":
-        last = sure[-1][0]
+        last = max(t for t, _, _ in sure)
         return [fragment for fragment in possible if fragment[0] >= last]
     if keep == "farthest":
         least = max(low for _, low, _ in sure)

@@ -64,6 +64,12 @@ struct Range {
   int first, last;
 };
 
+/// A range of pixel centers without the ends that lie on the edges, at `low` and `high`.
+Range without_edges(Range range, double low, double high) {
+  const auto is_on = [](int center, double edge) { return std::abs(center - edge) < 1e-9; };
+  return {range.first + is_on(range.first, low), range.last - is_on(range.last, high)};
+}
+
 Range rows_of(const Triangle& triangle, const Grid& grid) {
   std::vector<double> y = {triangle.points[0][1], triangle.points[1][1], triangle.points[2][1]};
   std::sort(y.begin(), y.end());
@@ -72,6 +78,7 @@ Range rows_of(const Triangle& triangle, const Grid& grid) {
   Range rows = {whole(std::ceil(top), grid.height), whole(std::floor(bottom), grid.height)};
   if (habit("zbuf/center")) rows.last = whole(std::ceil(bottom) - 1, grid.height);
   if (mistake("zbuf/row-short")) rows.last--;
+  if (mistake("zbuf/strict-edges")) rows = without_edges(rows, top, bottom);
   return rows;
 }
 
@@ -83,6 +90,7 @@ Range columns_between(double x_left, double x_right, const Grid& grid) {
   if (habit("zbuf/truncated-ends")) columns = {whole(left, grid.width), whole(right, grid.width)};
   if (mistake("zbuf/column-short")) columns.last--;
   if (mistake("zbuf/column-long")) columns.last++;
+  if (mistake("zbuf/strict-edges")) columns = without_edges(columns, left, right);
   return columns;
 }
 
