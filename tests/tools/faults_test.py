@@ -6,7 +6,6 @@ usage: faults_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib
-import resource
 import signal
 import subprocess
 import time
@@ -87,30 +86,6 @@ class FullDisk(FaultTest):
         for tool, text in LARGE_PICTURES.items():
             done = run(tool, "config.txt", "--image", "/dev/full", stdin=text)
             self.assert_fails(done, 1, f"{tool}: cannot write /dev/full: No space left on device")
-
-
-class FileSizeLimit(FaultTest):
-    """A file may grow no further (ulimit -f)."""
-
-    def run_limited(self, tool, *options, size, **settings):
-        return run(tool, *options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
-                   **settings)
-
-    def test_a_stdout_that_may_not_grow_is_a_failure_that_names_the_reason(self):
-        for tool, text in small_and_large_inputs():
-            with self.subTest(tool=tool, size=len(text)), open("input.txt", "wb") as limited:
-                if tool in DRAWING:
-                    continue
-                done = self.run_limited(tool, stdin=text, stdout=limited, size=10)
-                self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: File too large")
-                self.assertEqual(pathlib.Path("input.txt").stat().st_size, 10)
-        self.assert_nothing_happened()
-
-    def test_an_image_that_may_not_grow_leaves_the_old_one(self):
-        for tool, text in LARGE_PICTURES.items():
-            done = self.run_limited(tool, "config.txt", stdin=text, size=1000)
-            self.assert_fails(done, 1, f"{tool}: cannot write out.bmp: File too large")
-            self.assert_nothing_happened()
 
 
 class ClosedReader(FaultTest):
