@@ -130,14 +130,6 @@ class Properties(ToolTest):
                 whole = self.picture(text((a, b, c)), "--coverage", "center")
                 self.assertEqual(self.picture(text((a, b, d), (a, d, c)), "--coverage", "center"), whole)
 
-    def test_threads_algorithms_and_the_size_of_pieces_change_no_byte(self):
-        for scene in self.scenes():
-            ndc = self.ndc(scene.text())
-            for coverage in ("nearest", "center"):
-                expected = self.picture(ndc, "--coverage", coverage)
-                for options in (["--threads", "2"], ["--threads", "7"], ["--algorithm", "scanline"]):
-                    self.assertEqual(self.picture(ndc, "--coverage", coverage, *options), expected)
-
 
 if __name__ == "__main__":
     unittest.main()

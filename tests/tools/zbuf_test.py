@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""zbuf, end to end: the same bytes on any number of threads and with every kernel; its progress line.
+"""zbuf, end to end: the same bytes on any number of threads; its progress line.
 
 usage: zbuf_test.py BIN_DIR
 """
@@ -10,17 +10,10 @@ import re
 import subprocess
 import unittest
 
+from scanline_test import zbuf
 from toolbox import CAMERA, CONFIG, SOURCE, ToolTest, command, pipe, pseudo_terminal, run
 
 TRIANGLE = "0 0 0\n1 0 0\n0 1 0\n\n"
-
-
-def zbuf(config, stage3, *options, kernel=None):
-    """The depth text and the image."""
-    settings = os.environ | ({"PIPELINE_KERNEL": kernel} if kernel else {})
-    done = subprocess.run(command("zbuf", config, stage3, "--image", "out.ppm", *options),
-                          stdout=subprocess.PIPE, check=True, env=settings)
-    return done.stdout, pathlib.Path("out.ppm").read_bytes()
 
 
 def random_triangle(rng, sizes):
@@ -94,18 +87,6 @@ class Threads(ToolTest):
             "zbuf: --threads: expected 1 with --algorithm scanline, which goes through the "
             "rows in turn, found '2' (try zbuf --help)\n")
         self.assertEqual(done.returncode, 2)
-
-
-class Kernels(ToolTest):
-    def test_every_sample(self):
-        for stage3 in sorted(SOURCE.glob("samples/*/stage3.txt")):
-            config = stage3.parent / "config.txt"
-            for depth in ("f64", "f32", "u24"):
-                expected = zbuf(config, stage3, "--depth", depth, kernel="scalar")
-                for kernel in ("sse4", "avx2", "avx512", None):
-                    with self.subTest(stage3=str(stage3), depth=depth, kernel=kernel):
-                        self.assertTrue(
-                            zbuf(config, stage3, "--depth", depth, kernel=kernel) == expected, "differs")
 
 
 class Progress(ToolTest):
