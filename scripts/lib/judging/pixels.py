@@ -39,14 +39,15 @@ class PixelJudge:
         self.readings, self.window, self.shown = readings, window, shown
         self.first = next(iter(readings))
         self.limits = float(window.front), float(window.rear)
+        self.corner = float(window.left), float(window.bottom)
         self.made, self.work, self.plain, self.found, self.is_of_one = {}, [MOST_WORK], None, {}, False
 
     def drawing(self, reading, rule):
-        window = self.window
-        left, bottom = (-1.0, -1.0) if rule.is_window_one else (float(window.left), float(window.bottom))
-        grid = Grid(window.width, window.height, left, bottom, rule.half_x, rule.half_y, rule.is_one_less)
-        key = reading, grid, rule.corners
+        kind = rule.half_x, rule.half_y, rule.is_one_less
+        key = reading, rule.is_window_one, kind, rule.corners
         if key not in self.made:
+            corner = (-1.0, -1.0) if rule.is_window_one else self.corner
+            grid = Grid(self.window.width, self.window.height, *corner, *kind)
             self.made[key] = Triangles(*self.readings[reading], grid, rule.corners)
         return Drawing(self.made[key], rule, (-1.0, 1.0) if rule.is_depth_one else self.limits, self.work)
 
@@ -141,9 +142,9 @@ class PixelJudge:
     def listed_mismatches(self, drawing, row, drawn_row, listed):
         """Without a pixel for each depth: the depths of a row in their order, all or those before the rear
         limit."""
-        drawn = [(column, z) for column, (t, z) in enumerate(zip(*drawn_row)) if t >= 0]
-        before = [(column, z) for column, z in drawn if z < self.limits[1]]
-        expected = before if len(listed) == len(before) else drawn
+        expected = [(column, z) for column, (t, z) in enumerate(zip(*drawn_row)) if t >= 0]
+        if len(expected) > len(listed):
+            expected = [(column, z) for column, z in expected if z < self.limits[1]]
         if len(expected) != len(listed):
             yield self.window.width, "depth"  # a column beyond the picture: somewhere in the row
             return
@@ -371,7 +372,7 @@ class PixelJudge:
         """Whether a change cannot matter here."""
         window, has_both = self.window, self.shown.colors and self.shown.depths
         return bool(
-            changes.get("is_window_one") and (float(window.left), float(window.bottom)) == (-1, -1)
+            changes.get("is_window_one") and self.corner == (-1, -1)
             or changes.get("is_depth_one") and self.limits == (-1, 1)
             or changes.get("starts_at_zero") and self.limits[1] == 0
             or "transposed" in changes.values() and window.width != window.height

@@ -99,9 +99,9 @@ class Reference:
     @functools.cached_property
     def exact(self):
         """{stage: its exact points}, where project does not clip."""
-        in_view = [image(self.scene.of_view(), p, False) for p in self.world]
-        return {"model": self.world, "view": in_view,
-                "project": [image(self.scene.of_project(), p, True) for p in in_view]}
+        view, project = self.scene.of_view(), self.scene.of_project()
+        in_view = [image(view, p, False) for p in self.world]
+        return {"model": self.world, "view": in_view, "project": [image(project, p, True) for p in in_view]}
 
     @functools.cached_property
     def exact_clipped(self):
