@@ -25,21 +25,33 @@ SAMPLE = SOURCE / "samples/tilted-camera"
 # Triangle 1 reaches behind the eye and is cut into two pieces; the others are separate.
 SCENE = ("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n-2 0 0\n-1 0 0\n-2 1 0\n"
          "triangle\n0.2 -1 0\n0.2 -1 9\n3 -1 0\ntriangle\n1 1 0\n2 1 0\n1 2 0\nend\n")
+SHORT = """const {inspector} = document.body, panels = inspector?.panels,
+  one = s => document.querySelector(s), all = s => [...document.querySelectorAll(s)],
+  text = selector => one(selector).textContent, texts = selector => all(selector).map(e => e.textContent),
+  cells = selector => all(selector).map(row => [...row.cells].map(cell => cell.textContent)),
+  select = (triangle, pixel) => inspector.select({triangle, pixel}),
+  choose = pixel => inspector.select(inspector.atPixel(pixel));"""
 RAYS = ("ray-primary", "ray-shadow", "ray-mirrored", "ray-refracted")
 
 
-def inspect(*words):
-    return subprocess.run([SOURCE / "scripts/inspect", *map(str, words)], capture_output=True, text=True,
+def script(name, *words):
+    return subprocess.run([SOURCE / "scripts" / name, *map(str, words)], capture_output=True, text=True,
                           timeout=300, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+
+
+def inspect(*words):
+    return script("inspect", *words)
 
 
 class Messages(ToolTest):
     def test_what_is_wrong_with_the_scene_is_the_tools_message(self):
-        pathlib.Path("scene.txt").write_text(SCENE + "x")
-        done = inspect("scene.txt", "config.txt", "-o", "page.html")
-        self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"\Ainspect: model: scene\.txt:18:1: expected .*\n\Z")
-        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+        sphere = SCENE.replace("triangle", "sphere 0 0 0 1\ntriangle", 1)
+        for text, message in (SCENE + "x", r"model: scene\.txt:18:1: expected .*"), (
+                sphere, r"model: scene\.txt:5:1: expected triangles alone, found a sphere: --trace draws it"):
+            pathlib.Path("scene.txt").write_text(text)
+            done = inspect("scene.txt", "config.txt", "-o", "page.html")
+            self.assertEqual((done.returncode, self.files()), (1, ["config.txt", "scene.txt"]))
+            self.assertRegex(done.stderr, rf"\Ainspect: {message}\n\Z")
 
     def test_per_cent_on_a_terminal(self):
         pathlib.Path("scene.txt").write_text(SCENE)
@@ -53,27 +65,18 @@ class Messages(ToolTest):
         self.assertRegex(shown, rb"\r\[#{14}\.{16}\] 48%, \d+ s left")
         self.assertTrue(shown.endswith(b"\r\x1b[K"))
 
-    def test_a_sphere_needs_trace(self):
-        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "sphere 0 0 0 1\ntriangle", 1))
-        done = inspect("scene.txt", "config.txt", "-o", "page.html")
-        self.assertEqual(
-            (done.returncode, done.stderr),
-            (1,
-             "inspect: model: scene.txt:5:1: expected triangles alone, found a sphere: --trace draws it\n"))
-        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
-
     def test_a_missing_scene_is_named(self):
         done = inspect("none.txt", "config.txt")
         self.assertEqual((done.returncode, done.stderr),
                          (1, "inspect: cannot read none.txt: No such file or directory\n"))
 
     def test_options_without_a_meaning_are_refused(self):
-        for words, reason in (([
-                "--trace", "--theirs",
-                "."], "--theirs means nothing with --trace: a hand-in is compared with project and zbuf"), ([
-                    "--no-shadows"], "--no-shadows is for trace: it needs --trace"), ([
-                        "--samples", "3"], "--samples is for trace: it needs --trace")):
-            done = inspect("scene.txt", "config.txt", *words)
+        for words, reason in (
+                ("--trace --theirs .",
+                 "--theirs means nothing with --trace: a hand-in is compared with project and zbuf"),
+                ("--no-shadows", "--no-shadows is for trace: it needs --trace"),
+                ("--samples 3", "--samples is for trace: it needs --trace")):
+            done = inspect("scene.txt", "config.txt", *words.split())
             self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
                              (2, f"inspect: {reason} (try inspect --help)"))
 
@@ -124,54 +127,54 @@ class InABrowser(ToolTest):
             self.pages[key] = pathlib.Path("page.html").read_bytes()
         pathlib.Path("page.html").write_bytes(self.pages[key])
         self.browser.open(pathlib.Path("page.html").resolve())
-        self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.ready") == "yes")
+        self.browser.wait_for(lambda: self.js("return document.body.dataset.ready") == "yes")
+
+    def js(self, code, *arguments):
+        """What a script returns, which has short names for what is on the page."""
+        function = f"(function () {{ {code} }})"
+        return self.browser.run(f"{SHORT} return {function}.apply(null, arguments)", *arguments)
 
     def tearDown(self):
         self.assertEqual(self.browser.complaints(), [])
 
-    def load_own_scene(self, *words):
-        pathlib.Path("scene.txt").write_text(SCENE)
-        pathlib.Path("config.txt").write_text("40 40\n")
+    def load_text(self, scene, size=40, *words):
+        pathlib.Path("scene.txt").write_text(scene)
+        pathlib.Path("config.txt").write_text(f"{size} {size}\n")
         self.load("scene.txt", "config.txt", *words)
+
+    def load_own_scene(self, *words):
+        self.load_text(SCENE, 40, *words)
         return [text.decode().split("\n") for text in stage_texts(SCENE)]
 
     def hot_lines(self, tool):
         """Numbers and texts of the marked lines."""
-        return self.browser.run(
-            "return [...document.querySelectorAll('#text-' + arguments[0] + ' .hot')].map("
-            "row => [Number(row.dataset.number), row.lastChild.textContent])", tool)
+        return self.js("return [...document.querySelectorAll('#text-' + arguments[0] + ' .hot')].map(row => "
+                       "[Number(row.dataset.number), row.lastChild.textContent])", tool)
 
     def click_triangle(self, tool, points):
         """Clicks where the wireframe shows the center of a triangle."""
         middle = [sum(axis) / 3 for axis in zip(*points)]
-        at = self.browser.run(
-            "const wire = document.body.inspector.panels[['model', 'view', "
-            "'project'].indexOf(arguments[0])].wire;"
-            "const p = wire.view.place(...arguments[1]); return [p[0] / wire.scale, p[1] / wire.scale]", tool,
-            middle)
+        at = self.js("const wire = panels[['model', 'view', 'project'].indexOf(arguments[0])].wire;const p "
+                     "= wire.view.place(...arguments[1]); return [p[0] / wire.scale, p[1] / "
+                     "wire.scale]", tool, middle)
         self.browser.click(f"#wire-{tool}", *at)
 
     def competitors(self):
         """The cells of the pixel's fragments."""
-        return self.browser.run(
-            "return [...document.querySelectorAll('#competitors tbody tr')].map(r => [...r.cells].map(c => "
-            "c.textContent))"
-        )
+        return self.js("return cells('#competitors tbody tr')")
 
     def marked_pixels(self):
-        return {tuple(place) for place in self.browser.run(
-            "const {columns, fragments, name} = document.body.inspector.pixels;"
-            "return [...fragments.pixelsOf(name)].map(p => [p % columns, Math.floor(p / columns)])")}
+        return set(map(tuple, self.js("const {columns, fragments, name} = inspector.pixels; return "
+                                      "[...fragments.pixelsOf(name)].map(p => [p % columns, "
+                                      "Math.floor(p / columns)])")))
 
     def outlined(self):
         """The box of the marks over the image, in pixels of the picture: left, top, right, bottom."""
-        return self.browser.run(
-            "const c = document.getElementById('image-mark'), d = c.getContext('2d').getImageData(0, 0, "
-            "c.width, c.height).data;"
-            "const scale = c.width / document.getElementById('image').width, xs = [], ys = [];"
-            "for (let p = 0; p < c.width * c.height; ++p) if (d[4 * p + 3] > 128) { xs.push(p % c.width / "
-            "scale); ys.push(Math.floor(p / c.width) / scale); }"
-            "return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)]")
+        return self.js("const c = one('#image-mark'), d = c.getContext('2d').getImageData(0, 0, c.width, "
+                       "c.height).data;const scale = c.width / one('#image').width, xs = [], ys = [];for "
+                       "(let p = 0; p < c.width * c.height; ++p) if (d[4 * p + 3] > 128) { xs.push(p % "
+                       "c.width / scale); ys.push(Math.floor(p / c.width) / scale); }return "
+                       "[Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)]")
 
     def test_a_triangle_that_is_clicked_shows_in_every_stage(self):
         model, view, project = self.load_own_scene()
@@ -181,20 +184,20 @@ class InABrowser(ToolTest):
                      "view": 10}[tool]  # after a header of one line or four, and two triangles of four lines
             lines = text[first - 1:first + 2]
             self.click_triangle(tool, [tuple(map(float, line.split())) for line in lines])
-            self.assertEqual(self.browser.run("return document.body.dataset.triangle"), "2")
+            self.assertEqual(self.js("return document.body.dataset.triangle"), "2")
             self.assertEqual(self.hot_lines("model"), [[n, model[n - 1]] for n in (13, 14, 15)])
             self.assertEqual(self.hot_lines("view"), [[n, view[n - 1]] for n in (10, 11, 12)])
-            self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1})")
+            self.js("select(-1, -1)")
 
     def test_all_pieces_of_a_cut_triangle_are_marked(self):
         project = self.load_own_scene()[2]
         self.assertEqual(project.count("triangle 1"), 1)  # before the second piece
-        self.browser.run("document.body.inspector.select({triangle: 1, pixel: -1})")
+        self.js("select(1, -1)")
         self.assertEqual([text for _, text in self.hot_lines("project")], project[4:7] + project[9:12])
 
     def test_the_pixels_of_the_triangle_are_marked(self):
         project = self.load_own_scene()[2]
-        self.browser.run("document.body.inspector.select({triangle: 2, pixel: -1})")
+        self.js("select(2, -1)")
         alone = "\n".join(["triangle 2", *[line for line in project if line][-3:], ""])
         run("zbuf", "config.txt", "--image", "alone.ppm", stdin=alone)
         pixels = pathlib.Path("alone.ppm").read_bytes()[-4800:]
@@ -210,14 +213,14 @@ class InABrowser(ToolTest):
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load(SAMPLE / "scene.txt", "config.txt")
         stage3 = (SAMPLE / "stage3.txt").read_bytes()
-        scale = self.browser.run("return document.body.inspector.pixels.scale")
+        scale = self.js("return inspector.pixels.scale")
         for canvas, column, row in (("image", 15, 15), ("depth", 20, 20), ("image", 30, 10), ("image", 0, 0)):
             with self.subTest(column=column, row=row):
-                self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1})")
+                self.js("select(-1, -1)")
                 self.browser.click("#" + canvas, (column + 0.5) * scale, (row + 0.5) * scale)
                 told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", f"{column},{row}",
                            stdin=stage3).stderr.decode().splitlines()
-                place = self.browser.run("return document.getElementById('pixel-place').textContent")
+                place = self.js("return text('#pixel-place')")
                 self.assertTrue(place.startswith(f"row {row}, column {column}: "), place)
                 rows = self.competitors()
                 lines = [
@@ -227,27 +230,26 @@ class InABrowser(ToolTest):
                 kept = [name for name, _, fate in rows if fate == "kept"]
                 self.assertIn(f"triangle {kept[-1]}," if kept else "background", place)
                 if kept:
-                    self.assertEqual(self.browser.run("return document.body.dataset.triangle"), kept[-1])
+                    self.assertEqual(self.js("return document.body.dataset.triangle"), kept[-1])
+
+    def image(self):
+        """The bytes of its pixels."""
+        return base64.b64decode(self.js(
+            "const c = one('#image'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let "
+            "s = ''; for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); "
+            "return btoa(s)"))
 
     def test_the_picture_is_zbufs(self):
         self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
         run("zbuf", SAMPLE / "config.txt", "--image", "out.ppm", stdin=(SAMPLE / "stage3.txt").read_bytes())
-        shown = self.browser.run(
-            "const c = document.getElementById('image'), d = c.getContext('2d').getImageData(0, 0, c.width, "
-            "c.height).data;"
-            "let s = ''; for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); "
-            "return btoa(s)"
-        )
-        self.assertTrue(pathlib.Path("out.ppm").read_bytes().endswith(base64.b64decode(shown)), "differs")
+        self.assertTrue(pathlib.Path("out.ppm").read_bytes().endswith(self.image()), "differs")
 
     def test_no_script_runs_but_the_pages_own(self):
         self.load_own_scene()
-        self.browser.run(
-            "const made = document.createElement('script'); made.textContent = 'window.foreign = 1';"
-            "document.body.append(made); document.body.insertAdjacentHTML('beforeend', '<img "
-            "src=\"http://127.0.0.1:1/\">')"
-        )
-        self.assertIsNone(self.browser.run("return window.foreign"))
+        self.js("const made = document.createElement('script'); made.textContent = 'window.foreign = "
+                "1';document.body.append(made); document.body.insertAdjacentHTML('beforeend', '<img "
+                "src=\"http://127.0.0.1:1/\">')")
+        self.assertIsNone(self.js("return window.foreign"))
         told = []
 
         def is_told():
@@ -259,23 +261,21 @@ class InABrowser(ToolTest):
         self.load_own_scene()
         self.browser.call("POST", "/url", {"url": f"file://{pathlib.Path('page.html').resolve()}#pixel=3,2"})
         self.browser.call("POST", "/refresh", {})
-        self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.ready") == "yes")
-        self.assertIn("row 2, column 3:",
-                      self.browser.run("return document.getElementById('pixel-place').textContent"))
+        self.browser.wait_for(lambda: self.js("return document.body.dataset.ready") == "yes")
+        self.assertIn("row 2, column 3:", self.js("return text('#pixel-place')"))
 
     def hash(self):
-        return self.browser.run("return location.hash")
+        return self.js("return location.hash")
 
     def held(self):
-        return self.browser.run(
-            "const {triangle, pixel} = document.body.inspector.held; return [triangle, pixel]")
+        return self.js("const {triangle, pixel} = inspector.held; return [triangle, pixel]")
 
     def test_a_click_sets_the_address_and_one_beside_clears_it(self):
         self.load_own_scene()
-        scale = self.browser.run("return document.body.inspector.pixels.scale")
+        scale = self.js("return inspector.pixels.scale")
         self.browser.click("#image", 3.5 * scale, 2.5 * scale)
         self.assertEqual(self.hash(), "#pixel=3,2")
-        self.browser.run("document.body.inspector.select({triangle: 2, pixel: -1})")
+        self.js("select(2, -1)")
         self.assertEqual(self.hash(), "#triangle=2")
         self.browser.click("header", 2, 2)
         self.assertEqual((self.hash(), self.held()), ("", [-1, -1]))
@@ -296,18 +296,14 @@ class InABrowser(ToolTest):
         for keys, name in ((RIGHT, 0), (RIGHT, 1), (DOWN, 2), (RIGHT, 0), (LEFT, 2), (UP, 1)):
             self.browser.press("#wire-view", keys)
             self.assertEqual(self.held(), [name, -1])
-        before = self.browser.run("return document.body.inspector.panels[1].wire.view.yaw")
+        before = self.js("return panels[1].wire.view.yaw")
         self.browser.press("#wire-view", SHIFT + LEFT + SHIFT)
         self.assertEqual(self.held(), [1, -1])
-        self.assertGreater(self.browser.run("return document.body.inspector.panels[1].wire.view.yaw"), before)
+        self.assertGreater(self.js("return panels[1].wire.view.yaw"), before)
         self.browser.press("#wire-view", "++")
-        self.assertAlmostEqual(self.browser.run("return document.body.inspector.panels[1].wire.view.zoom"),
-                               1.15**2)
+        self.assertAlmostEqual(self.js("return panels[1].wire.view.zoom"), 1.15**2)
         self.browser.press("#wire-view", HOME)
-        self.assertEqual(
-            self.browser.run(
-                "const {view} = document.body.inspector.panels[1].wire; return [view.yaw, view.zoom]"),
-            [before, 1])
+        self.assertEqual(self.js("const {view} = panels[1].wire; return [view.yaw, view.zoom]"), [before, 1])
 
     def test_tab_reaches_every_view_and_the_keys_are_told(self):
         self.load_own_scene()
@@ -320,19 +316,19 @@ class InABrowser(ToolTest):
                         "id": "keys",
                         "actions": [{"type": "keyDown", "value": TAB}, {"type": "keyUp", "value": TAB}],
                     }]})
-            reached.append(self.browser.run("return document.activeElement.id"))
+            reached.append(self.js("return document.activeElement.id"))
         self.assertLessEqual(
             {
                 "help", "wire-model", "wire-view", "wire-project", "image", "depth", "tab-texts",
                 "text-model", "text-view", "text-project", "text-zbuf"}, set(reached))
         self.browser.press("#wire-model", "?")
-        self.assertTrue(self.browser.run("return document.getElementById('keys').open"))
+        self.assertTrue(self.js("return one('#keys').open"))
         self.browser.press("#keys button", ESCAPE)
-        self.assertFalse(self.browser.run("return document.getElementById('keys').open"))
+        self.assertFalse(self.js("return one('#keys').open"))
 
     def test_a_screen_reader_finds_names_and_roles(self):
         self.load_own_scene()
-        self.browser.run("document.body.inspector.select({triangle: 2, pixel: -1})")
+        self.js("select(2, -1)")
         found = self.browser.accessibility()
         for role, name in (("application",
                             "world space, wireframe after model"), ("application",
@@ -350,8 +346,7 @@ class InABrowser(ToolTest):
             self.assertTrue(any(role == r and n.startswith(name) for r, n in found),
                             f"no {role} named {name}")
         self.assertIn("status", [role for role, _ in found])
-        self.assertRegex(self.browser.run("return document.querySelector('[role=status]').textContent"),
-                         r"^triangle 2: shown in \d+ pixels$")
+        self.assertRegex(self.js("return text('[role=status]')"), r"^triangle 2: shown in \d+ pixels$")
         # Whatever takes the focus has a name.
         interactive = ("application", "button", "tab", "group", "tabpanel", "link", "textbox")
         self.assertEqual([role for role, name in found if role in interactive and not name], [])
@@ -363,23 +358,16 @@ class InABrowser(ToolTest):
             self.browser.resize(width, 900)
             with self.subTest(width=width):
                 for tab in ("texts", "explanation", "statistics"):
-                    self.browser.run(
-                        "document.getElementById('tab-' + arguments[0]).click(); "
-                        "document.body.inspector.select(document.body.inspector.atPixel(37 * 100 + 37))",
-                        tab)
+                    self.js("document.getElementById('tab-' + arguments[0]).click(); choose(37 * 100 + "
+                            "37)", tab)
                     self.assertLessEqual(
-                        self.browser.run(
-                            "return document.documentElement.scrollWidth - "
-                            "document.documentElement.clientWidth"
-                        ), 0)
-                self.browser.run("document.getElementById('tab-texts').click()")
+                        self.js("return document.documentElement.scrollWidth - "
+                                "document.documentElement.clientWidth"), 0)
+                self.js("one('#tab-texts').click()")
                 if width >= 1024:
-                    self.assertLessEqual(self.browser.run("return document.documentElement.scrollHeight"),
-                                         900)
-                    boxes = self.browser.run(
-                        "return [...document.querySelectorAll('.pane, .pane canvas, #pixel, .text')].map(e "
-                        "=> e.getBoundingClientRect()).map(b => [b.left, b.top, b.right, b.bottom])"
-                    )
+                    self.assertLessEqual(self.js("return document.documentElement.scrollHeight"), 900)
+                    boxes = self.js("return all('.pane, .pane canvas, #pixel, .text').map(e => "
+                                    "e.getBoundingClientRect()).map(b => [b.left, b.top, b.right, b.bottom])")
                     self.assertEqual(len(boxes), 5 + 10 + 1 + 4)
                     for left, top, right, bottom in boxes:
                         self.assertGreater(right - left, 100)
@@ -400,9 +388,8 @@ class InABrowser(ToolTest):
         for scheme in ("light", "dark"):
             self.browser.prefer(scheme)
             colors = {
-                name: self.browser.run(
-                    "return getComputedStyle(document.documentElement).getPropertyValue(arguments[0]).trim()",
-                    "--" + name)
+                name: self.js("const style = getComputedStyle(document.documentElement); "
+                              "return style.getPropertyValue(arguments[0]).trim()", "--" + name)
                 for name in ("hot", "halo", "pixel", "card", "ink", "soft", "guide", "shown", "unshown",
                              *RAYS)}
 
@@ -421,31 +408,24 @@ class InABrowser(ToolTest):
 
     def paper(self):
         """The color of a wireframe's background."""
-        return self.browser.run(
-            "const c = document.getElementById('wire-model'); return "
-            "[...c.getContext('2d').getImageData(c.width - 1, 0, 1, 1).data]"
-        )
+        return self.js("const c = one('#wire-model'); return [...c.getContext('2d').getImageData(c.width - "
+                       "1, 0, 1, 1).data]")
 
     def test_arithmetic_is_that_of_explain(self):
         for coverage in ("nearest", "center"):
             self.load_own_scene("--coverage", coverage)
-            self.browser.run("document.querySelector('#tab-explanation').click()")
+            self.js("one('#tab-explanation').click()")
             shown = [
-                self.browser.run("return [...document.body.inspector.fragments.pixelsOf(arguments[0])]", name)
+                self.js("return [...inspector.fragments.pixelsOf(arguments[0])]", name)
                 for name in range(3)]
             pixels = [p for found in shown for p in (found[0], found[len(found) // 2])] + [0]
             for i, p in enumerate(pixels):
                 for name in {i // 2 % 3, (i + 1) % 3}:
                     row, column = divmod(p, 40)
-                    words = ["--triangle", str(name), "--pixel", f"{column},{row}", "--coverage", coverage]
-                    told = subprocess.run([SOURCE / "scripts/explain", "scene.txt", "config.txt", *words],
-                                          capture_output=True, text=True, check=True,
-                                          env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
-                    self.browser.run(
-                        "document.body.inspector.select({triangle: arguments[0], pixel: arguments[1]})", name,
-                        p)
-                    shown = self.browser.run(
-                        "return [...document.querySelectorAll('#explanation pre')].map(p => p.textContent)")
+                    told = script("explain", "scene.txt", "config.txt", "--triangle", name, "--pixel",
+                                  f"{column},{row}", "--coverage", coverage).stdout
+                    self.js("select(arguments[0], arguments[1])", name, p)
+                    shown = self.js("return texts('#explanation pre')")
                     self.assertEqual("\n\n".join(shown) + "\n", told, (coverage, name, column, row))
 
     def load_a_hand_in(self, change):
@@ -455,7 +435,7 @@ class InABrowser(ToolTest):
             shutil.copy(SAMPLE / name, "theirs")
         change()
         self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt", "--theirs", "theirs")
-        return self.browser.run("return document.getElementById('theirs').innerText")
+        return self.js("return one('#theirs').innerText")
 
     @staticmethod
     def write_right_negated():
@@ -470,19 +450,14 @@ class InABrowser(ToolTest):
 
     def test_theirs_has_the_verdict_and_the_matrix(self):
         told = self.load_a_hand_in(self.write_right_negated)
-        judged = subprocess.run(
-            [SOURCE / "scripts/compare", "--hand-in", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt"],
-            capture_output=True, text=True, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
+        judged = script("compare", "--hand-in", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt").stdout
         self.assertIn("theirs: " + judged.split("Verdict: ")[1].split("\nNext: ")[0], told)
         matrix = [line for line in judged.splitlines() if " | " in line and not line.startswith("|")]
         self.assertEqual(len(matrix), 5)
-        self.assertIn("\n".join(matrix),
-                      self.browser.run("return document.querySelector('#theirs pre').textContent"))
+        self.assertIn("\n".join(matrix), self.js("return text('#theirs pre')"))
         self.assertEqual(
-            self.browser.run(
-                "return [...document.querySelectorAll('figcaption .good, figcaption .bad')].map(e => "
-                "[e.className, e.textContent])"
-            ), [["good", "stage1.txt: right"], ["bad", "stage2.txt: wrong"],
+            self.js("return all('figcaption .good, figcaption .bad').map(e => [e.className, "
+                    "e.textContent])"), [["good", "stage1.txt: right"], ["bad", "stage2.txt: wrong"],
                 *(["good", f"{name}: right, given their stage2.txt"]
                   for name in ("stage3.txt", "out.bmp", "z_buffer.txt"))])
 
@@ -496,43 +471,33 @@ class InABrowser(ToolTest):
         self.assertIn("1 of 66 vertices differ from ours:", told)
         ours = (SAMPLE / "stage1.txt").read_text().split("\n")[1]
         self.assertEqual(
-            self.browser.run(
-                "return [...document.querySelectorAll('#theirs [data-name]')].map(row => "
-                "[...row.cells].map(cell => cell.textContent))"
-            ), [["0", "2", "2", "9 8 7", " ".join(f"{float(word):g}" for word in ours.split()[:3])]])
+            self.js("return cells('#theirs [data-name]')"),
+            [["0", "2", "2", "9 8 7", " ".join(f"{float(word):g}" for word in ours.split()[:3])]])
         self.assertEqual(told.count("every vertex is ours"), 2)
-        self.browser.run("document.querySelector('#theirs [data-name] button').click()")
+        self.js("one('#theirs [data-name] button').click()")
         self.assertEqual(self.held(), [0, -1])
         # Theirs is marked where it differs, and only there.
-        color = self.browser.run("return document.body.inspector.palette.numbers('--theirs')")
+        color = self.js("return inspector.palette.numbers('--theirs')")
         marks = (
-            "const {inspector} = document.body, {wire} = inspector.panels[arguments[0]], {mark} = wire; "
-            "inspector.select({triangle: 0, pixel: -1});"
+            "const {wire} = panels[arguments[0]], {mark} = wire; select(0, -1);"
             "const d = mark.getContext('2d').getImageData(0, 0, mark.width, mark.height).data;"
             "let count = 0; for (let i = 0; i < d.length; i += 4) count += d[i] === arguments[1][0] && d[i + "
             "1] === arguments[1][1] && d[i + 2] === arguments[1][2] && d[i + 3] === 255; return count"
         )
-        self.assertGreater(self.browser.run(marks, 0, color), 20)
-        self.assertEqual(self.browser.run(marks, 1, color), 0)
+        self.assertGreater(self.js(marks, 0, color), 20)
+        self.assertEqual(self.js(marks, 1, color), 0)
         # In the wireframe there is a dot where their vertex is, in a color that only theirs have.
-        self.browser.run(
-            "document.body.inspector.select({triangle: -1, pixel: -1}); "
-            "document.body.inspector.panels[0].wire.view.approach(0.6); "
-            "document.body.inspector.panels[0].wire.draw()"
-        )
+        self.js("select(-1, -1); panels[0].wire.view.approach(0.6); panels[0].wire.draw()")
         self.assertEqual(
-            self.browser.run(
-                "const {wire} = document.body.inspector.panels[0], [x, y] = wire.view.place(9, 8, 7);"
-                "return [...wire.canvas.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, "
-                "1).data].slice(0, 3)"
-            ), self.browser.run("return document.body.inspector.palette.numbers('--theirs')"))
+            self.js("const {wire} = panels[0], [x, y] = wire.view.place(9, 8, 7);return "
+                    "[...wire.canvas.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, "
+                    "1).data].slice(0, 3)"), self.js("return inspector.palette.numbers('--theirs')"))
 
     def test_theirs_of_another_length_is_not_compared(self):
         told = self.load_a_hand_in(lambda: pathlib.Path("theirs/stage1.txt").write_text(
             "0 0 0\n1 0 0\n0 1 0\n"))
         self.assertIn("1 triangles in place of 22: vertices are not compared", told)
-        self.assertEqual(
-            self.browser.run("return document.body.inspector.panels[0].wire.theirs.triangles.length"), 1)
+        self.assertEqual(self.js("return panels[0].wire.theirs.triangles.length"), 1)
 
     def test_theirs_may_be_missing_or_unreadable(self):
         def change():
@@ -542,7 +507,7 @@ class InABrowser(ToolTest):
         told = self.load_a_hand_in(change)
         self.assertIn("not handed in", told)
         self.assertIn("unreadable", told)
-        self.assertTrue(self.browser.run("return document.getElementById('whose').hidden"))
+        self.assertTrue(self.js("return one('#whose').hidden"))
 
     def test_their_image_can_be_seen(self):
         self.load_a_hand_in(self.write_right_negated)
@@ -550,72 +515,46 @@ class InABrowser(ToolTest):
                          for row in read_picture(path)[2]
                          for i in range(0, len(row), 3)]
                         for path in ("theirs/out.bmp", SAMPLE / "out.bmp"))
-        read = (
-            "const d = document.getElementById('image').getContext('2d').getImageData(0, 0, 100, 100).data; "
-            "let s = '';"
-            "for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); return btoa(s)"
-        )
-        title = ("const figure = document.getElementById('image').closest('figure');"
-                 "return figure.querySelector('figcaption').firstChild.textContent")
-        self.assertEqual(self.browser.run(title), "our image")
+        title = "return one('#image').closest('figure').querySelector('figcaption').firstChild.textContent"
+        self.assertEqual(self.js(title), "our image")
         faces, titles = [], []
         for _ in range(3):
-            self.browser.run("document.getElementById('whose').click()")
-            faces.append(base64.b64decode(self.browser.run(read)))
-            titles.append(self.browser.run(title))
+            self.js("one('#whose').click()")
+            faces.append(self.image())
+            titles.append(self.js(title))
         self.assertEqual(titles, ["their image", "where theirs differs", "our image"])
         self.assertEqual(faces[0], b"".join(theirs))
         self.assertEqual(faces[2], b"".join(ours))
-        color = bytes(self.browser.run("return document.body.inspector.palette.numbers('--theirs')"))
-        self.assertEqual({i
-                          for i in range(10000)
-                          if faces[1][3 * i:3 * i + 3] == color},
-                         {i
-                          for i in range(10000)
-                          if theirs[i] != ours[i]})
+        color = bytes(self.js("return inspector.palette.numbers('--theirs')"))
+        self.assertEqual([faces[1][3 * i:3 * i + 3] == color for i in range(10000)],
+                         [a != b for a, b in zip(theirs, ours)])
 
-    def test_an_empty_picture_has_its_note(self):
-        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "translate\n0 0 30\ntriangle", 1))
-        pathlib.Path("config.txt").write_text("40 40\n")
-        self.load("scene.txt", "config.txt")
-        self.assertIn("the picture is empty",
-                      self.browser.run("return document.getElementById('notes').textContent"))
-        self.assertEqual(
-            self.browser.run(
-                "return [...document.querySelectorAll('#legend li')].map(item => item.textContent)"),
-            ["0 shown", "0 hidden", "3 outside", "0 culled"])
-
-    def test_a_triangle_is_counted_once(self):
+    def test_a_triangle_is_counted_once_and_an_empty_picture_has_its_note(self):
         # Two are right of the window, which project finds, too, and one is in sight.
-        pathlib.Path("scene.txt").write_text(
-            "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n-1 0 0\n1 0 0\n0 1 0\ntranslate\n100 0 0\n" +
-            "triangle\n-1 0 0\n1 0 0\n0 1 0\n" * 2 + "end\n")
-        pathlib.Path("config.txt").write_text("40 40\n")
-        self.load("scene.txt", "config.txt")
-        self.assertEqual(
-            self.browser.run(
-                "return [...document.querySelectorAll('#legend li')].map(item => item.textContent)"),
-            ["1 shown", "0 hidden", "2 outside", "0 culled"])
+        scene = ("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n-1 0 0\n1 0 0\n0 1 0\ntranslate\n100 0 0\n" +
+                 "triangle\n-1 0 0\n1 0 0\n0 1 0\n" * 2 + "end\n")
+        for text, shown, outside in (scene, 1, 2), (
+                SCENE.replace("triangle", "translate\n0 0 30\ntriangle", 1), 0, 3):
+            self.load_text(text)
+            self.assertEqual("the picture is empty" in self.js("return text('#notes')"), not shown)
+            self.assertEqual(self.js("return texts('#legend li')"),
+                             [f"{shown} shown", "0 hidden", f"{outside} outside", "0 culled"])
 
     def test_rows_and_lines_are_counted_as_they_say(self):
         self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
-        self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(37 * 100 + 37))")
+        self.js("choose(37 * 100 + 37)")
         [(number, text)] = self.hot_lines("zbuf")
         self.assertEqual(number, 37)
         run("zbuf", SAMPLE / "config.txt", "--image", "out.ppm", "--z-buffer", "z_buffer.txt",
             stdin=(SAMPLE / "stage3.txt").read_bytes())
         values = pathlib.Path("z_buffer.txt").read_text().split("\n")[37].split()
         shown = re.search(r"\[(.*)\]", text)[1]
-        depth = self.browser.run("return document.getElementById('pixel-place').textContent").split(
-            "depth ")[1]
+        depth = self.js("return text('#pixel-place')").split("depth ")[1]
         self.assertIn(shown, values)
         self.assertAlmostEqual(float(shown), float(depth), places=6)
 
     def rows(self):
-        return self.browser.run(
-            "return [...document.querySelectorAll('#counts tbody tr')].map(row => [...row.cells].map(cell => "
-            "cell.textContent))"
-        )
+        return self.js("return cells('#counts tbody tr')")
 
     def test_the_table_has_the_statistics(self):
         model, view, project = ("\n".join(text).encode() for text in self.load_own_scene())
@@ -652,7 +591,6 @@ class InABrowser(ToolTest):
             "return lost", tool)
 
     def test_all_that_is_there_is_in_sight(self):
-        pathlib.Path("config.txt").write_text("40 40\n")
         scenes = {
             "own": SCENE,
             "beside": SCENE.replace("triangle", "translate\n4 3 0\ntriangle", 1),
@@ -661,96 +599,68 @@ class InABrowser(ToolTest):
             "ortho": SCENE.replace("60 1 1 100", "ortho -1 1 -1 1 -5 5"),
         }
         for name, scene in scenes.items():
-            pathlib.Path("scene.txt").write_text(scene)
-            self.load("scene.txt", "config.txt")
+            self.load_text(scene)
             for tool in ("model", "view", "project"):
                 with self.subTest(scene=name, tool=tool):
                     self.assertEqual(self.points_out_of_sight(tool), [])
 
     def test_a_far_plane_in_the_distance_does_not_shrink_the_rest(self):
-        pathlib.Path("config.txt").write_text("40 40\n")
-        pathlib.Path("scene.txt").write_text(SCENE.replace("60 1 1 100", "60 1 1 1e6"))
-        self.load("scene.txt", "config.txt")
-        self.assertLess(self.browser.run("return document.body.inspector.panels[1].wire.view.size"), 40)
-        self.assertIn("(far, at 1000000, is drawn nearer)",
-                      self.browser.run("return document.querySelector('#stages').textContent"))
+        self.load_text(SCENE.replace("60 1 1 100", "60 1 1 1e6"))
+        self.assertLess(self.js("return panels[1].wire.view.size"), 40)
+        self.assertIn("(far, at 1000000, is drawn nearer)", self.js("return text('#stages')"))
 
     def test_a_triangle_in_the_distance_does_not_hide_the_cube(self):
-        pathlib.Path("config.txt").write_text("40 40\n")
-        pathlib.Path("scene.txt").write_text(
-            SCENE.replace("triangle",
-                          "push\ntranslate\n1e6 0 0\ntriangle\n0 0 0\n1 0 0\n0 1 0\npop\ntriangle", 1))
-        self.load("scene.txt", "config.txt")
-        width = self.browser.run(
-            "const wire = document.body.inspector.panels[2].wire; Object.assign(wire.view, {yaw: 0, pitch: "
-            "0}); return wire.view.place(1, 0, 0)[0] - wire.view.place(-1, 0, 0)[0]"
-        )
+        far = "push\ntranslate\n1e6 0 0\ntriangle\n0 0 0\n1 0 0\n0 1 0\npop\ntriangle"
+        self.load_text(SCENE.replace("triangle", far, 1))
+        width = self.js("const wire = panels[2].wire; Object.assign(wire.view, {yaw: 0, pitch: 0}); return "
+                        "wire.view.place(1, 0, 0)[0] - wire.view.place(-1, 0, 0)[0]")
         self.assertGreater(width, 5)
 
     def test_fit_brings_all_back_and_then_comes_close(self):
         self.load_own_scene()
-        fit = ("document.querySelectorAll('figcaption button')[1].click(); const {view} = "
-               "document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]")
-        size, _, yaw = self.browser.run(
-            "const {view} = document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]")
-        self.browser.run(
-            "const {view} = document.body.inspector.panels[1].wire; view.turn(1, 0); view.approach(3, 0, 0)")
-        self.assertEqual(self.browser.run(fit), [size, 1, yaw])
-        close = self.browser.run(fit)[0]
+        seen = "const {view} = panels[1].wire; return [view.size, view.zoom, view.yaw]"
+        fit = "all('figcaption button')[1].click(); " + seen
+        size, _, yaw = self.js(seen)
+        self.js("const {view} = panels[1].wire; view.turn(1, 0); view.approach(3, 0, 0)")
+        self.assertEqual(self.js(fit), [size, 1, yaw])
+        close = self.js(fit)[0]
         self.assertLess(close, size / 2)  # the triangles are 9 deep, and the frustum more than twice that
         self.assertEqual(self.points_out_of_sight("view", "[]"), [])
-        self.assertEqual(self.browser.run(fit)[0], size)
+        self.assertEqual(self.js(fit)[0], size)
 
     def test_dragging_turns_without_choosing(self):
         self.load_own_scene()
-        before = self.browser.run("return document.body.inspector.panels[0].wire.view.yaw")
+        before = self.js("return panels[0].wire.view.yaw")
+        pane = {"element-6066-11e4-a52e-4f735466cecf": self.browser.element("#wire-model")}
         self.browser.call(
             "POST", "/actions", {
-                "actions": [{
-                    "type": "pointer",
-                    "id": "mouse",
-                    "actions": [
-                        {
-                            "type": "pointerMove",
-                            "duration": 0,
-                            "origin": {
-                                "element-6066-11e4-a52e-4f735466cecf": self.browser.element("#wire-model"),
-                            },
-                            "x": 0,
-                            "y": 0,
-                        },
-                        {"type": "pointerDown", "button": 0},
-                        {"type": "pointerMove", "duration": 0, "origin": "pointer", "x": 50, "y": 0},
-                        {"type": "pointerUp", "button": 0}],
-                }]})
-        self.assertNotEqual(self.browser.run("return document.body.inspector.panels[0].wire.view.yaw"),
-                            before)
+                "actions": [{"type": "pointer", "id": "mouse", "actions": [
+                    {"type": "pointerMove", "duration": 0, "origin": pane, "x": 0, "y": 0},
+                    {"type": "pointerDown", "button": 0},
+                    {"type": "pointerMove", "duration": 0, "origin": "pointer", "x": 50, "y": 0},
+                    {"type": "pointerUp", "button": 0}]}]})
+        self.assertNotEqual(self.js("return panels[0].wire.view.yaw"), before)
 
     def test_every_triangle_of_a_large_scene_is_there(self):
         """Scenes up to MAX_DRAWN_TRIANGLES differ only in their number from this one."""
-        scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "60", "--tube", "50"],
-                               capture_output=True, check=True).stdout
-        pathlib.Path("large.txt").write_bytes(scene)
+        scene = script("make-torus", "--around", "60", "--tube", "50").stdout
+        pathlib.Path("large.txt").write_text(scene)
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load("large.txt", "config.txt")
-        self.assertEqual(
-            self.browser.run("return document.body.inspector.panels.map(panel => panel.wire.names.length)"),
-            [12000] * 3)
-        scale = self.browser.run("return document.body.inspector.pixels.scale")
+        self.assertEqual(self.js("return panels.map(panel => panel.wire.names.length)"), [12000] * 3)
+        scale = self.js("return inspector.pixels.scale")
         self.browser.click("#image", 20.5 * scale, 20.5 * scale)
         told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", "20,20",
                    stdin=stage_texts(scene)[2]).stderr.decode().splitlines()
         self.assertEqual(len(self.competitors()), len(told))
         # The index finds what a look at every triangle finds.
-        lost = self.browser.run(
-            "const {wire} = document.body.inspector.panels[1], lost = []; let x = 17;"
-            "for (let k = 0; k < 25; ++k) { x = x * 48271 % 2147483647; const px = x % wire.canvas.width; x "
-            "= x * 48271 % 2147483647; const py = x % wire.canvas.height;"
-            "  const found = wire.triangleAt(px, py); let best = -1, nearest = -Infinity;"
-            "  wire.names.forEach((name, i) => { const near = wire.near[3 * i] + wire.near[3 * i + 1] + "
-            "wire.near[3 * i + 2];"
-            "    if (near > nearest && wire.index.contains(i, px, py)) [best, nearest] = [name, near]; });"
-            "  lost.push([found, best]); } return lost")
+        lost = self.js("const {wire} = panels[1], lost = []; let x = 17;for (let k = 0; k < 25; ++k) { x = "
+                       "x * 48271 % 2147483647; const px = x % wire.canvas.width; x = x * 48271 % "
+                       "2147483647; const py = x % wire.canvas.height;  const found = wire.triangleAt(px, "
+                       "py); let best = -1, nearest = -Infinity;  wire.names.forEach((name, i) => { const "
+                       "near = wire.near[3 * i] + wire.near[3 * i + 1] + wire.near[3 * i + 2];    if (near "
+                       "> nearest && wire.index.contains(i, px, py)) [best, nearest] = [name, near]; });  "
+                       "lost.push([found, best]); } return lost")
         self.assertTrue(any(best >= 0 for _, best in lost))
         self.assertEqual([found for found, _ in lost], [best for _, best in lost])
 
@@ -762,28 +672,22 @@ class InABrowser(ToolTest):
         "use 1\ncolor 10 200 30\ntriangle\n8 -3 -3\n8 -3 3\n8 3 0\nend\n")
 
     def load_mirror(self, size):
-        pathlib.Path("scene.txt").write_text(self.MIRROR)
-        pathlib.Path("config.txt").write_text(f"{size} {size}\n")
-        self.load("scene.txt", "config.txt", "--trace")
-        self.browser.run("document.querySelector('#tab-rays').click()")
+        self.load_text(self.MIRROR, size, "--trace")
+        self.js("one('#tab-rays').click()")
 
     def ray_rows(self):
-        return self.browser.run(
-            "return [...document.querySelectorAll('#rays tbody tr')].map(row => [...row.cells].map(cell => "
-            "cell.textContent))"
-        )
+        return self.js("return cells('#rays tbody tr')")
 
     def test_the_rays_of_a_pixel_are_told_and_drawn(self):
         self.load_mirror(41)
-        self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(20 * 41 + 20))")
+        self.js("choose(20 * 41 + 20)")
         self.assertEqual(self.ray_rows(), [["primary", "triangle 0 front", "1", "10 200 30"],
                                            ["mirrored", "triangle 1 front", "1", "10 200 30"]])
-        drawn = self.browser.run("return document.body.inspector.panels.map(({wire}) => wire.rays)")
+        drawn = self.js("return panels.map(({wire}) => wire.rays)")
         self.assertEqual([[ray["kind"] for ray in rays] for rays in drawn],
                          [["primary", "mirrored"]] * 2 + [[]])
-        for rays, places in zip(drawn, ([(5, 0, 0), (0, 0, 0), (0, 0, 0), (8, 0, 0)], [(0, 0, 0), (0, 0, -5),
-                                                                                       (0, 0, -5),
-                                                                                       (0, 0, 3)])):
+        for rays, places in zip(drawn, ([(5, 0, 0), (0, 0, 0), (0, 0, 0), (8, 0, 0)],
+                                        [(0, 0, 0), (0, 0, -5), (0, 0, -5), (0, 0, 3)])):
             for found, expected in zip([place for ray in rays for place in (ray["from"], ray["to"])], places,
                                        strict=True):
                 for x, y in zip(found, expected, strict=True):
@@ -791,21 +695,16 @@ class InABrowser(ToolTest):
         # Behind the eye, at x = 6.5 in the world, there is nothing but the mirrored ray; without a pixel it
         # is gone.
         color = (
-            "const {wire} = document.body.inspector.panels[0], [x, y] = wire.view.place(6.5, 0, 0);"
+            "const {wire} = panels[0], [x, y] = wire.view.place(6.5, 0, 0);"
             "return [...wire.mark.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data]")
-        blue = [
-            int(c, 16) for c in re.findall(
-                "..",
-                self.browser.run("return document.body.inspector.palette.word('--ray-mirrored')")[1:])]
-        for found, expected in zip(self.browser.run(color), [*blue, 255]):
+        blue = bytes.fromhex(self.js("return inspector.palette.word('--ray-mirrored')")[1:])
+        for found, expected in zip(self.js(color), [*blue, 255]):
             self.assertAlmostEqual(found, expected, delta=40)
-        self.browser.run("document.querySelectorAll('#rays td button')[1].click()")
+        self.js("all('#rays td button')[1].click()")
         self.assertEqual(self.held(), [1, 20 * 41 + 20])
-        self.assertEqual(
-            self.browser.run(
-                "return [...document.querySelectorAll('#rays .hot')].map(row => row.dataset.name)"), ["1"])
-        self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1})")
-        self.assertEqual((self.ray_rows(), self.browser.run(color)[3]), ([], 0))
+        self.assertEqual(self.js("return all('#rays .hot').map(row => row.dataset.name)"), ["1"])
+        self.js("select(-1, -1)")
+        self.assertEqual((self.ray_rows(), self.js(color)[3]), ([], 0))
 
     def test_a_ray_that_leaves_the_scene_fades_on_its_way(self):
         self.load_mirror(41)
@@ -813,13 +712,13 @@ class InABrowser(ToolTest):
         # right.
         half = 40 / 41 * math.tan(math.radians(30))
         origin, way = (0, 5 * half, 5 * half), (1, half, half)
-        found = self.browser.run(
-            "const {inspector} = document.body; inspector.show({triangle: -1, pixel: 0}); const {wire} = "
-            "inspector.panels[0], [, ray] = wire.rays;"
-            "const reach = wire.view.size / 2, tone = share => { const [x, y] = "
-            "wire.view.place(...ray.from.map((at, i) => at + share * reach * (ray.towards[i] - at)));"
-            "  return wire.mark.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data[3]; };"
-            "return [ray.from, ray.towards, ray.to, [0.1, 0.5, 0.9, 1.1].map(tone)]")
+        found = self.js("inspector.show({triangle: -1, pixel: 0}); const "
+                        "{wire} = panels[0], [, ray] = wire.rays;const reach = wire.view.size / 2, tone = "
+                        "share => { const [x, y] = wire.view.place(...ray.from.map((at, i) => at + share * "
+                        "reach * (ray.towards[i] - at))); return "
+                        "wire.mark.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, "
+                        "1).data[3]; };return [ray.from, ray.towards, ray.to, [0.1, 0.5, 0.9, "
+                        "1.1].map(tone)]")
         for x, y in zip(found[0] + found[1],
                         [*origin, *(at + step / math.hypot(*way)
                                     for at, step in zip(origin, way))], strict=True):
@@ -835,72 +734,50 @@ class InABrowser(ToolTest):
         # An ellipsoid whose half axes are 2, 1 and 1, at the point looked at, in front of a triangle.
         scene = ("0 0 9\n0 0 0\n0 1 0\n60 1 1 100\ncolor 9 9 9\npush\nscale 2 1 1\nsphere 0 0 0 1\npop\n"
                  "triangle\n-8 -8 -9\n8 -8 -9\n0 8 -9\nend\n")
-        pathlib.Path("scene.txt").write_text(scene)
-        pathlib.Path("config.txt").write_text("41 41\n")
-        self.load("scene.txt", "config.txt", "--trace")
-        self.assertEqual(self.browser.run("return document.getElementById('title').textContent"),
+        self.load_text(scene, 41, "--trace")
+        self.assertEqual(self.js("return text('#title')"),
                          "scene.txt: 1 triangle and 1 sphere, 41 × 41 pixels")
-        self.assertRegex(self.browser.run("return document.getElementById('notes').textContent"),
+        self.assertRegex(self.js("return text('#notes')"),
                          r"^project and zbuf have \d+ facets in place of each sphere")
         # Its outline, seen from the front: an ellipse twice as wide as high, inside of which the pointer
         # finds it.
-        front = ("const {wire} = document.body.inspector.panels[arguments[0]]; Object.assign(wire.view, "
+        front = ("const {wire} = panels[arguments[0]], {spheres} = wire.stage; Object.assign(wire.view, "
                  "{yaw: 0, pitch: 0}); wire.draw(); const at = (x, y) => "
                  "wire.triangleAt(...wire.view.place(x, y, arguments[1]));")
         for panel, z in ((0, 0), (1, -9)):
-            found = self.browser.run(
-                front +
-                "return [at(1.95, 0), at(0, 0.95), at(1.4, 0.69), at(2.05, 0), at(0, 1.05), at(1.43, 0.72)]",
-                panel, z)
+            found, places = self.js(
+                front + "const scale = wire.view.place(1, 0, 0)[0] - wire.view.place(0, 0, 0)[0]; return "
+                "[[at(1.95, 0), at(0, 0.95), at(1.4, 0.69), at(2.05, 0), at(0, 1.05), at(1.43, 0.72)], "
+                "spheres.outline(0).map(([x, y]) => [x - spheres.x[0], y - spheres.y[0]].map(d => d / scale"
+                "))]", panel, z)
             self.assertEqual(found, [0, 0, 0, 1, 1, 1])
-            places = self.browser.run(
-                front +
-                "const {spheres} = wire.stage, scale = wire.view.place(1, 0, 0)[0] - wire.view.place(0, "
-                "0, 0)[0];"
-                "return spheres.outline(0).map(([x, y]) => [(x - spheres.x[0]) / scale, (y - spheres.y[0]) "
-                "/ scale])",
-                panel, z)
             for x, y in places:
                 self.assertAlmostEqual(x * x / 4 + y * y, 1, 9)
         # Its four lines are marked, a line chooses it, and the middle of the picture shows it.
-        self.browser.run(
-            "document.body.inspector.select(document.body.inspector.atPixel(20 * 41 + 20)); "
-            "document.querySelector('#tab-texts').click()"
-        )
+        self.js("choose(20 * 41 + 20); one('#tab-texts').click()")
         self.assertEqual(self.held()[0], 0)
         model = pipe(["model"], stdin=scene).decode().split("\n")
         first = model.index("sphere") + 2
         self.assertEqual(self.hot_lines("model"), [[n, model[n - 1]] for n in range(first, first + 4)])
-        self.assertEqual(
-            self.browser.run(
-                "return [0, 3, 4].map(k => "
-                "document.body.inspector.panels[0].stage.nameOfLine(arguments[0] + k))",
-                first), [0, 0, -1])
-        self.assertRegex(self.browser.run("return document.querySelector('[role=status]').textContent"),
+        self.assertEqual(self.js("return [0, 3, 4].map(k => panels[0].stage.nameOfLine(arguments[0] + k))",
+                                 first), [0, 0, -1])
+        self.assertRegex(self.js("return text('[role=status]')"),
                          r"^row 20, column 20: sphere 0, depth [\d.]+: shown in \d+ pixels$")
         self.assertEqual(self.ray_rows()[0][1], "sphere 0 front")
         self.browser.press("#wire-model", RIGHT)
         self.assertEqual(self.held(), [1, -1])
         self.browser.press("#wire-model", LEFT)
         self.assertEqual(self.held(), [0, -1])
-        self.browser.run("document.querySelector('#tab-explanation').click()")
-        self.assertIn("draw no spheres",
-                      self.browser.run("return document.querySelector('#explanation').textContent"))
+        self.js("one('#tab-explanation').click()")
+        self.assertIn("draw no spheres", self.js("return text('#explanation')"))
 
     def test_many_spheres_and_no_triangle_have_a_page(self):
-        pathlib.Path("scene.txt").write_text("0 0 9\n0 0 0\n0 1 0\n60 1 1 100\n" +
-                                             "".join(f"sphere {i % 40 - 20} {i // 40 - 15} -30 0.4\n"
-                                                     for i in range(1100)) + "end\n")
-        pathlib.Path("config.txt").write_text("41 41\n")
-        self.load("scene.txt", "config.txt", "--trace")
-        self.assertTrue(
-            self.browser.run("return document.getElementById('title').textContent").startswith(
-                "scene.txt: 0 triangles and 1,100 spheres"))
-        found = self.browser.run(
-            "return document.body.inspector.panels.slice(0, 2).map(({wire}) => "
-            "[...wire.stage.spheres.names].filter(i => wire.triangleAt(wire.stage.spheres.x[4 * i], "
-            "wire.stage.spheres.y[4 * i]) >= 0).length)"
-        )
+        spheres = "".join(f"sphere {i % 40 - 20} {i // 40 - 15} -30 0.4\n" for i in range(1100))
+        self.load_text(f"0 0 9\n0 0 0\n0 1 0\n60 1 1 100\n{spheres}end\n", 41, "--trace")
+        self.assertIn("scene.txt: 0 triangles and 1,100 spheres", self.js("return text('#title')"))
+        found = self.js("return panels.slice(0, 2).map(({wire}) => [...wire.stage.spheres.names].filter(i "
+                        "=> wire.triangleAt(wire.stage.spheres.x[4 * i], wire.stage.spheres.y[4 * i]) >= "
+                        "0).length)")
         self.assertEqual(found, [1100, 1100])
         points = ("[...wire.stage.spheres.outermost()].flatMap((x, at, all) => at % 3 ? [] : [[x, all[at + "
                   "1], all[at + 2]]])")
@@ -908,9 +785,9 @@ class InABrowser(ToolTest):
 
     def test_the_picture_is_traces_and_the_note_of_zbuf_is_left_out(self):
         self.load_mirror(41)
-        self.assertNotIn("matt", self.browser.run("return document.getElementById('notes').textContent"))
+        self.assertNotIn("matt", self.js("return text('#notes')"))
         pipe(["model"], ["view"], ["trace", "config.txt", "--image", "out.ppm"], stdin=self.MIRROR)
-        shown = self.browser.run("return document.body.inspector.data.pixels")
+        shown = self.js("return inspector.data.pixels")
         self.assertTrue(pathlib.Path("out.ppm").read_bytes().endswith(base64.b64decode(shown)))
         found = self.browser.accessibility()
         for role, name in (("tab", "Rays"), ("columnheader", "meets")):
@@ -919,38 +796,27 @@ class InABrowser(ToolTest):
 
     def test_of_a_large_picture_the_page_has_the_rays_of_the_nearest_pixel(self):
         self.load_mirror(151)
-        count = self.browser.run("return document.body.inspector.rays.trees.trees.size")
+        count = self.js("return inspector.rays.trees.trees.size")
         self.assertTrue(1000 < count <= 4000, count)
         for place, most in (((0, 0), 3), ((150, 150), 3), ((75, 76), 1), ((3, 140), 2)):
-            self.browser.run(
-                "document.body.inspector.select(document.body.inspector.atPixel(151 * arguments[0] + "
-                "arguments[1]))",
-                place[1], place[0])
-            told = self.browser.run("return document.querySelector('#rays-place').textContent")
+            self.js("choose(151 * arguments[0] + arguments[1])", place[1], place[0])
+            told = self.js("return text('#rays-place')")
             row, column = map(int, re.match(r"Rays of row (\d+), column (\d+)", told).groups())
             self.assertLessEqual(max(abs(column - place[0]), abs(row - place[1])), most)
             self.assertEqual("trace --probe" in told, (column, row) != place)
             self.assertEqual(self.ray_rows()[0][0], "primary")
 
     def test_in_a_large_scene_the_pixel_is_explained_beside_the_command_for_the_rest(self):
-        scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "25", "--tube", "11"],
-                               capture_output=True, check=True).stdout
-        pathlib.Path("large.txt").write_bytes(scene)  # 1,100 triangles
+        scene = script("make-torus", "--around", "25", "--tube", "11").stdout
+        pathlib.Path("large.txt").write_text(scene)  # 1,100 triangles
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load("large.txt", "config.txt")
-        self.browser.run(
-            "document.querySelector('#tab-explanation').click(); "
-            "document.body.inspector.select(document.body.inspector.atPixel(20 * 42 + 20))"
-        )
+        self.js("one('#tab-explanation').click(); choose(20 * 42 + 20)")
         name, _ = self.held()
         self.assertIn(f"pipeline explain large.txt config.txt --triangle {name} --pixel 20,20",
-                      self.browser.run("return document.querySelector('#explanation').textContent"))
-        name, _ = self.held()
-        told = subprocess.run([
-            SOURCE / "scripts/explain", "large.txt", "config.txt", "--triangle",
-            str(name), "--pixel", "20,20"], capture_output=True, text=True, check=True,
-                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
-        shown = self.browser.run("return document.querySelector('#explanation pre + pre').textContent") + "\n"
+                      self.js("return text('#explanation')"))
+        told = script("explain", "large.txt", "config.txt", "--triangle", name, "--pixel", "20,20").stdout
+        shown = self.js("return text('#explanation pre + pre')") + "\n"
         begin, end = told.index("PIXEL"), told.index(
             "  at this pixel")  # explain leaves out fragments beyond its 60 lines
         self.assertEqual(shown[:end - begin], told[begin:end])
@@ -970,12 +836,7 @@ class InABrowser(ToolTest):
             self.assertGreater(float(row[1]), 0)
 
     def test_a_background_with_an_alpha_is_no_obstacle(self):
-        pathlib.Path("config.txt").write_text("40 40\n")
-        pathlib.Path("scene.txt").write_text(
-            SCENE.replace("triangle", "background 200 100 50 128\ntriangle", 1))
-        done = subprocess.run([SOURCE / "scripts/inspect", "scene.txt", "config.txt", "-o", "page.html"],
-                              capture_output=True, text=True, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.load_text(SCENE.replace("triangle", "background 200 100 50 128\ntriangle", 1))
 
     def test_a_scene_too_large_is_thinned_and_says_so(self):
         sys.path.insert(0, str(SOURCE / "scripts"))
@@ -992,11 +853,9 @@ class InABrowser(ToolTest):
         subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], check=True,
                        env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
         self.browser.open(pathlib.Path("page.html").resolve())
-        self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.ready") == "yes")
-        self.assertIn("Of 3 triangles one in 3 is drawn",
-                      self.browser.run("return document.getElementById('notes').textContent"))
-        self.assertEqual(self.browser.run("return [...document.body.inspector.panels[0].stage.points]"),
-                         [-2, 0, 0, -1, 0, 0, -2, 1, 0])
+        self.browser.wait_for(lambda: self.js("return document.body.dataset.ready") == "yes")
+        self.assertIn("Of 3 triangles one in 3 is drawn", self.js("return text('#notes')"))
+        self.assertEqual(self.js("return [...panels[0].stage.points]"), [-2, 0, 0, -1, 0, 0, -2, 1, 0])
 
 
 if __name__ == "__main__":
