@@ -18,10 +18,6 @@ constexpr std::size_t kNameWidth = 28;
 
 constexpr const char* kLastGroup = "General";
 
-bool is_flag(const CLI::Option& option) {
-  return option.get_expected_max() == 0;
-}
-
 /// The text with line breaks in place of blanks where a line would be longer than `width`.
 std::string wrapped(std::string_view text, std::size_t width) {
   std::string lines;
@@ -121,7 +117,7 @@ std::string explained(const CLI::App& options, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
     return option->get_name() + ": " + explained_count(*option);
   const bool is_checked = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;  // and explained
-  if (is_flag(*option) && !option->results().empty() && !is_checked)
+  if (option->get_expected_max() == 0 && !option->results().empty() && !is_checked)
     return option->get_name() + ": " +
            expected_but_found("no value", pipeline::quoted(option->results().back()));
   return error.what();
@@ -137,6 +133,7 @@ class HelpForm : public CLI::Formatter {
   }
 
   void set_usage(const std::string& usage) { usage_ = usage; }
+  void use_fields() { uses_fields_ = true; }
 
   std::string make_description(const CLI::App* app) const override {
     return wrapped(app->get_description(), kLineWidth) + "\n";
@@ -148,14 +145,21 @@ class HelpForm : public CLI::Formatter {
     return make_description(app) + make_usage(app, std::move(name)) + make_positionals(app) + groups_of(app) +
            "\n" + make_footer(app);
   }
+  std::string make_option(const CLI::Option* option, bool is_operand) const override {
+    if (!uses_fields_) return CLI::Formatter::make_option(option, is_operand);
+    return "  " + make_option_name(option, is_operand) + make_option_opts(option) + "\t" +
+           make_option_desc(option) + "\n";
+  }
   std::string make_option_opts(const CLI::Option* option) const override {
     const bool is_operand = option->get_lnames().empty();
     return is_operand || option->get_type_name().empty() ? "" : " " + option->get_type_name();
   }
   std::string make_option_desc(const CLI::Option* option) const override {
     const std::string standard = option->get_default_str();
-    return wrapped(option->get_description() + (standard.empty() ? "" : " (default: " + standard + ")"),
-                   kLineWidth - kNameWidth);
+    std::string text = option->get_description() + (standard.empty() ? "" : " (default: " + standard + ")");
+    if (!uses_fields_) return wrapped(text, kLineWidth - kNameWidth);
+    std::replace(text.begin(), text.end(), '\n', '\t');
+    return text;
   }
 
  private:
@@ -167,12 +171,13 @@ class HelpForm : public CLI::Formatter {
     for (const std::string& group : groups) {
       const auto options = app->get_options(
           [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
-      if (!options.empty()) text += make_group(group, false, options);
+      if (!options.empty() && !group.empty()) text += make_group(group, false, options);
     }
     return text;
   }
 
-  std::string usage_;  // empty: CLI11's
+  std::string usage_;         // empty: CLI11's
+  bool uses_fields_ = false;  // an option a line, with tabs: for man pages and completion
 };
 
 std::string listed(const std::vector<std::string>& words) {
@@ -192,6 +197,7 @@ CommandLine::CommandLine(const std::string& tool, const std::string& description
                "\nExit status: 0 done; 1 bad input, or reading or writing failed; 2 a wrong command line");
   app_->option_defaults()->group(kLastGroup);
   app_->get_help_ptr()->group(kLastGroup);
+  app_->set_help_all_flag("--help-fields")->group("");  // hidden
   app_->set_version_flag("--version", version);
 }
 
@@ -305,6 +311,9 @@ std::optional<std::string> CommandLine::parse(int argc, char** argv) {
   try {
     app_->parse(words_for_parsing(argc, argv, flag_words_));
   } catch (const CLI::CallForHelp&) {
+    return app_->help();
+  } catch (const CLI::CallForAllHelp&) {
+    help_form_->use_fields();
     return app_->help();
   } catch (const CLI::CallForVersion& version) {
     return std::string(version.what()) + "\n";

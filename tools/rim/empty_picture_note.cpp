@@ -19,14 +19,6 @@ std::string all_of(std::uint64_t count, const std::string& thing) {
   return count == 1 ? "the " + thing : "all " + counted(count, thing);
 }
 
-std::string all_triangles(std::uint64_t count) {
-  return all_of(count, "triangle");
-}
-
-const char* are(std::uint64_t count) {
-  return count == 1 ? "is " : "are ";
-}
-
 /// With four digits, or as many as it takes to show on which side of `limit` the value lies.
 std::string rounded(double value, double limit) {
   std::array<char, 32> text{};
@@ -141,7 +133,7 @@ std::vector<Group> groups_of(const UnseenPlaces& unseen, const Where& where) {
 std::string list_of(const std::vector<Group>& groups, const std::string& none_of,
                     const std::string& thing = "triangle") {
   if (groups.size() == 1)
-    return all_of(groups[0].first, thing) + " " + are(groups[0].first) + groups[0].second;
+    return all_of(groups[0].first, thing) + (groups[0].first == 1 ? " is " : " are ") + groups[0].second;
   std::uint64_t count = 0;
   std::string list;
   for (const auto& [group_count, place] : groups) {
@@ -206,7 +198,7 @@ std::optional<std::string> black_colors_note(const std::optional<double>& greate
 std::string empty_scene_note(std::uint64_t triangle_count, const std::optional<SourceLocation>& scale_by_0) {
   if (triangle_count == 0) return "the picture will be empty: the scene has no triangle";
   return (scale_by_0 ? to_string(*scale_by_0) + ": this scale by 0 leaves " : "") +
-         all_triangles(triangle_count) + " without area" +
+         all_of(triangle_count, "triangle") + " without area" +
          (scale_by_0 ? "; 1 keeps a direction as it is" : "");
 }
 
@@ -252,8 +244,8 @@ std::string unseen_spheres_note(const UnseenSpheres& spheres) {
 }
 
 std::optional<std::string> opaque_note(const Appearance& appearance) {
-  const auto sends_rays = [](const Located<Material>& material) { return material.value.sends_rays(); };
-  if (std::ranges::none_of(appearance.materials, sends_rays)) return std::nullopt;
+  if (std::ranges::none_of(appearance.materials, &Material::sends_rays, &Located<Material>::value))
+    return std::nullopt;
   return "mirrors and glass are drawn as matt and opaque; trace, in place of project and zbuf, follows the "
          "light";
 }

@@ -52,9 +52,8 @@ LightTransportSetup light_transport_setup(const Appearance& appearance, bool is_
 
 bool needs_light_transport(const LightTransportSetup& setup) {
   const bool has_lights = setup.model != ShadingModel::none && !setup.lighting.lights.empty();
-  const auto sends_rays = [](const Material& material) { return material.sends_rays(); };
   return (has_lights && setup.has_shadows) ||
-         (setup.recurses && std::ranges::any_of(setup.materials, sends_rays));
+         (setup.recurses && std::ranges::any_of(setup.materials, &Material::sends_rays));
 }
 
 }  // namespace pipeline

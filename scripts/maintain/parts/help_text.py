@@ -1,15 +1,19 @@
-"""The --help of the commands, taken apart: what man pages and completion are made from."""
+"""What --help says, option by option: what man pages and completion are made from."""
+import argparse
+import contextlib
 import dataclasses
+import io
 import os
 import re
+import runpy
 import subprocess
-
-TEXT_COLUMN = 28  # of the tools' help
+import sys
+from unittest import mock
 
 
 @dataclasses.dataclass
 class Option:
-    """An option or an operand: its names, what it takes, and what it does, a paragraph each."""
+    """An option, an operand or a command: its names, what it takes, and what it does, a paragraph each."""
     names: list
     argument: str
     paragraphs: list
@@ -17,13 +21,6 @@ class Option:
     @property
     def is_option(self):
         return self.names[0].startswith("-")
-
-    @property
-    def choices(self):
-        """The words of an argument such as auto|near or {auto,near}."""
-        word = self.argument.strip("{}")
-        separator = "," if self.argument.startswith("{") else "|"
-        return word.split(separator) if re.fullmatch(r"[a-z0-9]+([|,][a-z0-9]+)+", word) else []
 
 
 @dataclasses.dataclass
@@ -43,15 +40,37 @@ class Help:
 
 def help_of(program, name):
     """The Help of a program."""
-    settings = {**os.environ, "COLUMNS": "120", "LC_ALL": "C.UTF-8", "PYTHONDONTWRITEBYTECODE": "1"}
-    text = subprocess.run([program, "--help"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          check=True, env=settings).stdout
-    return parse(text, name)
+    with open(program, "rb") as file:
+        is_in_python = b"python3" in file.readline()
+    if is_in_python:
+        return parse(python_help(program, name), name)
+    words = [program, "--help" if name == "pipeline" else "--help-fields"]
+    return parse(subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                check=True).stdout, name)
+
+
+def python_help(program, name):
+    """What a command in Python prints with --help, but each option as tools print it with --help-fields."""
+    with mock.patch.object(sys, "argv", [name, "--help"]), mock.patch.dict(os.environ, {"COLUMNS": "120"}), \
+            mock.patch.object(argparse.HelpFormatter, "_format_action", fields_of), \
+            contextlib.redirect_stdout(io.TextIOWrapper(io.BytesIO())) as text, \
+            contextlib.suppress(SystemExit):
+        runpy.run_path(os.path.realpath(program))["main"]()
+    text.seek(0)
+    return text.read()
+
+
+def fields_of(formatter, action):
+    """A line: names and what the option takes, a tab, what it does."""
+    head = ",".join(action.option_strings) or formatter._format_action_invocation(action)
+    if action.option_strings and action.nargs != 0:
+        head += " " + formatter._format_args(action, formatter._get_default_metavar_for_optional(action))
+    text = " ".join(formatter._expand_help(action).split()) if action.help else ""
+    return f"  {head}\t{text}\n"
 
 
 def parse(text, name):
     groups, exit_status, examples, usage, paragraphs = [], "", [], [], []
-    is_tool = "\nUsage: " in text
     for block in blocks_of(text):
         first = block[0]
         if first.lower().startswith("usage: "):
@@ -63,7 +82,7 @@ def parse(text, name):
         elif first.lower().startswith("exit status: "):
             exit_status = " ".join(block)[len("exit status: "):].rstrip(".")
         elif first.endswith(":") and len(block) > 1 and all(line.startswith("  ") for line in block[1:]):
-            groups.append((first[:-1], options_of(block[1:], is_tool)))
+            groups.append((first[:-1], options_of(block[1:])))
         else:
             paragraphs.append(block)
     sentence = re.match(r"(.*?)(?:[.:;](?: |$)|$)", " ".join(paragraphs[0]))
@@ -82,55 +101,20 @@ def blocks_of(text):
             block.append(line)
 
 
-def options_of(lines, is_tool):
+def options_of(lines):
+    """Those of lines of fields, or of columns with blanks between them."""
     options = []
     for line in lines:
-        is_new = len(line) - len(line.lstrip()) == 2
-        if is_new:
-            head, text = split_tool_line(line) if is_tool else split_line(line)
-            names, argument = names_of(head)
-            options.append(Option(names, argument, [text] if text else []))
-        else:
-            add_line(options[-1], line.strip())
+        if line.startswith("   "):
+            options[-1].paragraphs[-1] += " " + line.strip()
+            continue
+        head, *paragraphs = re.split(r"\t| {2,}", line.strip())
+        names, argument = [head], ""  # of an operand
+        if head.startswith("-"):
+            names, _, argument = head.partition(" ")
+            names = names.split(",")
+        options.append(Option(names, argument, paragraphs))
     return options
-
-
-def split_tool_line(line):
-    """The text begins at its column, one blank behind the name at least; a name that reaches beyond it stands
-    alone."""
-    if len(line) > TEXT_COLUMN and line[TEXT_COLUMN -
-                                        1] == " " and not re.fullmatch("[A-Z ]+", line[TEXT_COLUMN:]):
-        return line[:TEXT_COLUMN].strip(), line[TEXT_COLUMN:]
-    return line.strip(), ""
-
-
-def split_line(line):
-    head, _, text = re.match(r"  (\S.*?)(?:( {2,})(\S.*))?$", line).groups()
-    return head, text or ""
-
-
-def names_of(head):
-    """("-o FILE, --output FILE") -> (["-o", "--output"], "FILE"); an operand is its own name."""
-    if not head.startswith("-"):
-        return [head], ""
-    names, argument = [], ""
-    for part in re.split(r",\s*(?=-)", head):
-        name, _, argument = part.partition(" ")
-        names.append(name)
-    return names, argument
-
-
-def add_line(option, line):
-    """A line such as 'near: cut all triangles ...' begins a paragraph if `near` is a choice, and so does a
-    sentence behind such a paragraph."""
-    def is_about_choice(text):
-        return ":" in text and text.partition(":")[0] in option.choices
-
-    if not option.paragraphs or is_about_choice(line) or (is_about_choice(option.paragraphs[-1])
-                                                          and line[0].isupper()):
-        option.paragraphs.append(line)
-    else:
-        option.paragraphs[-1] += " " + line
 
 
 def commands_in(folder):
