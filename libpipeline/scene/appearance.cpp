@@ -34,23 +34,18 @@ Background read_background(LineScanner& line) {
 
 /// Takes the names of attributes to the end of the line: at least one, in the order of their columns.
 AttributeSet read_attributes(LineScanner& line, AttributeSource source) {
-  const bool may_be_w = source == AttributeSource::stage_text;
   AttributeSet set;
-  const auto take = [&](std::string_view name) {
-    const bool is_next = line.peek() == name;
-    if (is_next) line.word();
-    return is_next;
-  };
-  set.w = may_be_w && take("w");
-  set.color = take("color");
-  set.normal = take("normal");
-  set.material = may_be_w && take("material");
-  if (!set.any() || !line.at_end()) {
-    constexpr std::array<std::string_view, 4> kNames = {"w", "color", "normal", "material"};
-    line.fail(may_be_w ? "attributes of [w] [color] [normal] [material], in this order"
-                       : "attributes of [color] [normal], in this order",
-              spelling_hint(line.peek(), std::span(kNames).first(may_be_w ? 4 : 3)));
+  std::vector<std::string_view> names;
+  std::string expected = "attributes of";
+  for (const auto& [name, is_there] : kAttributes) {
+    if (source == AttributeSource::scene && (name == "w" || name == "material")) continue;
+    names.push_back(name);
+    expected.append(" [").append(name).append("]");
+    set.*is_there = line.peek() == name;
+    if (set.*is_there) line.word();
   }
+  if (!set.any() || !line.at_end())
+    line.fail(expected + ", in this order", spelling_hint(line.peek(), names));
   return set;
 }
 

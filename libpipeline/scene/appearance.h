@@ -73,7 +73,7 @@ struct Appearance {
   }
 };
 
-/// Where a line `attributes` stands: a scene may not name w, which the project stage adds.
+/// Where a line `attributes` stands: a scene names neither w, which `project` adds, nor material.
 enum class AttributeSource { scene, stage_text };
 
 /// `attributes`, `background`, `ambient`, `material`, `absorption`, `paint`, `attenuation` and `light`.

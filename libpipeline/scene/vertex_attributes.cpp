@@ -14,6 +14,13 @@ double read_channel(LineScanner& line, std::string_view name, std::string_view o
 
 }  // namespace
 
+std::string attributes_line(const AttributeSet& attributes) {
+  std::string line = "attributes";
+  for (const auto& [name, is_there] : kAttributes)
+    if (attributes.*is_there) line.append(" ").append(name);
+  return line;
+}
+
 std::string column_names(const AttributeSet& attributes) {
   std::string names = "x y z";
   if (attributes.w) names += " w";
@@ -22,12 +29,7 @@ std::string column_names(const AttributeSet& attributes) {
   if (attributes.material) names += " material";
   if (!attributes.any()) return names;
   // The line that asks for more columns may be far above, in another program's output.
-  names += ", by the line 'attributes";
-  if (attributes.w) names += " w";
-  if (attributes.color) names += " color";
-  if (attributes.normal) names += " normal";
-  if (attributes.material) names += " material";
-  return names + "'";
+  return names + ", by the line '" + attributes_line(attributes) + "'";
 }
 
 Vec3 read_color(LineScanner& line, std::string_view of) {

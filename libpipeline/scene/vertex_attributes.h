@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
@@ -26,6 +27,16 @@ struct AttributeSet {
   [[nodiscard]] bool any() const { return w || color || normal || material; }
   friend bool operator==(const AttributeSet&, const AttributeSet&) = default;
 };
+
+/// The names of attributes, in the order of their columns.
+constexpr std::array<std::pair<std::string_view, bool AttributeSet::*>, 4> kAttributes = {
+    {{"w", &AttributeSet::w},
+     {"color", &AttributeSet::color},
+     {"normal", &AttributeSet::normal},
+     {"material", &AttributeSet::material}}};
+
+/// The line of a header that names them: "attributes w color".
+std::string attributes_line(const AttributeSet& attributes);
 
 /// The values of a vertex line; those its text has no columns for are 0.
 struct VertexLine {

@@ -37,20 +37,11 @@ void print_projection(TextWriter& text, const Projection& projection) {
   }
 }
 
-void print_attribute_names(TextWriter& text, const AttributeSet& attributes) {
-  text.append("attributes");
-  if (attributes.w) text.append(" w");
-  if (attributes.color) text.append(" color");
-  if (attributes.normal) text.append(" normal");
-  if (attributes.material) text.append(" material");
-  text.append("\n");
-}
-
 void print_appearance(TextWriter& text, const Appearance& appearance) {
   const auto print_vec3 = [&](std::string_view keyword, const std::optional<Located<Vec3>>& v) {
     if (v) print_header_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
   };
-  if (appearance.attributes) print_attribute_names(text, appearance.attributes->value);
+  if (appearance.attributes) text.append(attributes_line(appearance.attributes->value) + "\n");
   if (appearance.background) {
     const auto& [color, alpha] = appearance.background->value;
     print_numbers(text, "background", {color.x, color.y, color.z});
