@@ -13,8 +13,8 @@ namespace pipeline {
 namespace {
 
 // Header keywords besides the appearance's.
-constexpr std::array<std::string_view, 8> kKeywords = {"framed",      "eye",     "look",  "up",
-                                                       "perspective", "frustum", "ortho", "projected"};
+constexpr std::array<std::string_view, 9> kKeywords = {
+    "framed", "eye", "look", "up", "perspective", "frustum", "ortho", "projected", "bounds"};
 
 bool is_header_keyword(std::string_view word) {
   return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end() ||
@@ -26,6 +26,17 @@ std::string keyword_hint(std::string_view word) {
   known.insert(known.end(), appearance_keywords().begin(), appearance_keywords().end());
   known.insert(known.end(), {"triangle", "sphere", "clipped"});
   return spelling_hint(word, known);
+}
+
+Bounds read_bounds(LineScanner& line) {
+  const auto number = [&](std::string_view name) {
+    return number_where(line, {name}, "of at least 0", [](double value) { return value >= 0; });
+  };
+  Bounds bounds;
+  bounds.error = {number("the absolute bound"), number("the relative bound")};
+  if (!line.at_end()) bounds.rounded = {number("the absolute rounding"), number("the relative rounding")};
+  line.expect_end("the bounds");
+  return bounds;
 }
 
 }  // namespace
@@ -58,6 +69,11 @@ bool StageReader::read_header_line(LineScanner& line) {
   const std::string_view keyword = line.word();
   if (is_appearance_keyword(keyword)) {
     read_appearance_part(keyword, location, line, AttributeSource::stage_text, header_.appearance);
+    return true;
+  }
+  if (keyword == "bounds") {
+    if (header_.bounds) throw given_twice("'bounds'", header_.bounds->location, location);
+    header_.bounds = {read_bounds(line), location};
     return true;
   }
   if (keyword != "framed") {

@@ -7,6 +7,7 @@
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/camera.h"
 #include "libpipeline/scene/header_line.h"
+#include "libpipeline/stream/bounds.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/text_reader.h"
 
@@ -19,6 +20,7 @@ namespace pipeline {
 //                    framed | eye X Y Z | look X Y Z | up X Y Z |
 //                    perspective FOVY ASPECT NEAR FAR | frustum L R B T N F | ortho L R B T N F |
 //                    projected frustum L R B T N F | projected ortho L R B T N F |
+//                    bounds A R [B S] (bounds.h) |
 //                    attributes [w] [color] [normal] [material] | background R G B [A] | ambient R G B |
 //                    material AMBIENT DIFFUSE SPECULAR SHININESS [REFLECTANCE INDEX ALPHA] (any number,
 //                    numbered from 0) | absorption R G B | paint R G B (of the material above, at most
@@ -46,6 +48,7 @@ struct StageHeader {
   CameraParameters camera;  // for stages that have not been run yet
   Appearance appearance = {};
   std::optional<Located<Projection>> projected = {};  // what `project` has done, a Frustum or an Orthographic
+  std::optional<Located<Bounds>> bounds = {};
   std::vector<Located<std::string>> camera_lines = {};  // the keywords of what was read of these two
 };
 

@@ -91,6 +91,12 @@ void StageWriter::write_header(const StageHeader& header) {
     text_.append("projected ");
     print_projection(text_, header.projected->value);
   }
+  if (header.bounds) {
+    const auto& [error, rounded] = header.bounds->value;
+    print_numbers(text_, "bounds", {error.absolute, error.relative});
+    if (rounded) print_numbers(text_, "", {rounded->absolute, rounded->relative});
+    text_.append("\n");
+  }
   print_appearance(text_, header.appearance);
   columns_ = header.appearance.columns();
 }

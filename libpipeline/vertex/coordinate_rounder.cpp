@@ -37,20 +37,40 @@ void CoordinateRounder::expect_finite(double coordinate, const char* name, LineA
                                                            std::string("an overflow of its ") + name));
 }
 
+// These two are seldom called, and not inlined, so that their callers are.
+[[gnu::noinline]] double CoordinateRounder::size_within_bounds(double input_size, const BallVec3& p) {
+  return std::min(input_size, std::max({p.x.magnitude(), p.y.magnitude(), p.z.magnitude(), kLeastSize}));
+}
+
+[[gnu::noinline]] void CoordinateRounder::add_uncertain(LineAndColumn vertex, const BallVec3& p,
+                                                        double input_size) {
+  uncertain_.add(vertex);
+  const double radius = std::max({p.x.radius(), p.y.radius(), p.z.radius()});
+  if (keeps_bounds_ && radius > 0x1p-62 * size_for_zero(input_size, p)) throw without_bounds(vertex);
+}
+
+InputError CoordinateRounder::without_bounds(LineAndColumn vertex) const {
+  return {location_of(vertex),
+          expected_but_found("a vertex within bounds", "numbers that cancel beyond 31 digits, or overflow")};
+}
+
 RoundedVertex CoordinateRounder::rounded_exactly(const BallVec3& p, LineAndColumn location, double input_size,
                                                  bool is_certain) {
-  const PrintableNumber x = round_to_text(p.x, format_, input_size);
-  const PrintableNumber y = round_to_text(p.y, format_, input_size);
-  const PrintableNumber z = round_to_text(p.z, format_, input_size);
+  const double size = size_for_zero(input_size, p);
+  const PrintableNumber x = round_to_text(p.x, format_, size);
+  const PrintableNumber y = round_to_text(p.y, format_, size);
+  const PrintableNumber z = round_to_text(p.z, format_, size);
   expect_finite(x.hi, "x", location);
   expect_finite(y.hi, "y", location);
   expect_finite(z.hi, "z", location);
-  if (!(is_certain && x.is_certain && y.is_certain && z.is_certain)) uncertain_.add(location);
+  if (!(is_certain && x.is_certain && y.is_certain && z.is_certain)) add_uncertain(location, p, input_size);
   return {{x.hi, y.hi, z.hi}, {x.lo, y.lo, z.lo}};
 }
 
-void CoordinateRounder::set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex,
-                                           const BallVec3& p, double input_size, bool is_certain) {
+// Flat, as every vertex of a cut triangle comes here.
+[[gnu::flatten]] void CoordinateRounder::set_vertex_exactly(TriangleBatch& batch, std::size_t triangle,
+                                                            std::size_t vertex, const BallVec3& p,
+                                                            double input_size, bool is_certain) {
   const auto [rounded, low_part] =
       rounded_exactly(p, batch.locations[triangle][vertex], input_size, is_certain);
   batch.triangles[triangle][vertex] = rounded;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "libpipeline/numbers/ball_vec.h"
+#include "libpipeline/stream/bounds.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_rounding.h"
@@ -58,8 +59,17 @@ class CoordinateRounder {
   /// Sets one vertex of a triangle of the batch so.
   void set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex, const BallVec3& p,
                           double input_size, bool is_certain = true);
-  /// Counts a vertex that was rounded elsewhere.
-  void add_uncertain(LineAndColumn vertex) { uncertain_.add(vertex); }
+  /// Counts a vertex with an uncertain digit. Where bounds must hold, an InputError at it if `p` is too wide.
+  void add_uncertain(LineAndColumn vertex, const BallVec3& p, double input_size);
+  /// The InputError for a vertex that has no bounds.
+  [[nodiscard]] InputError without_bounds(LineAndColumn vertex) const;
+  /// From now on, every number is within rounding_error (bounds.h) of the exact one, or an InputError.
+  void keep_bounds() { keeps_bounds_ = true; }
+  /// The size of which 2^-60 counts as 0: that of the numbers read, or, if bounds must hold, at most that of
+  /// the point written.
+  [[nodiscard]] double size_for_zero(double input_size, const BallVec3& p) const {
+    return keeps_bounds_ ? size_within_bounds(input_size, p) : input_size;
+  }
 
   /// The vertices printed with an uncertain digit: their balls were too wide to decide it.
   [[nodiscard]] const UncertainDigits& uncertain() const { return uncertain_; }
@@ -70,11 +80,13 @@ class CoordinateRounder {
 
  private:
   void expect_finite(double coordinate, const char* name, LineAndColumn vertex) const;
+  [[nodiscard]] static double size_within_bounds(double input_size, const BallVec3& p);
 
   Precision precision_;
   NumberFormat format_;
   std::string file_;
   UncertainDigits uncertain_;
+  bool keeps_bounds_ = false;
 };
 
 }  // namespace pipeline

@@ -84,6 +84,10 @@ TriangleOutcode outcode(const std::array<ClipVertex, 3>& corners) {
   return code;
 }
 
+BallVec3 point_of(const ClipVertex& vertex) {
+  return {vertex.x, vertex.y, vertex.z};
+}
+
 /// The point in NDC; w must not contain 0.
 // P4
 BallVec3 perspective_divide(const ClipVertex& p_clip) {
@@ -126,6 +130,7 @@ ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode
 
 void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc) {
   p_ndc.clear();
+  writes_w_ = error_ || has_attributes(p_view);
   for (std::size_t i = 0; i < p_view.size(); ++i) {
     if (i % VertexBlock::kTriangles == 0) {
       const std::size_t count = std::min(p_view.size() - i, VertexBlock::kTriangles);
@@ -158,7 +163,28 @@ void ProjectionStage::project_or_clip(const TriangleBatch& p_view, std::size_t i
                                         : certain_sides(coefficients_, p_view.triangles[index]));
   if (fate == Fate::stays_whole) return project_unclipped(p_view, index, p_ndc);
   if (fate == Fate::is_unsure) return project_clipped(p_view, index, p_ndc);
-  ++counts_.outside;
+  drop_outside(p_view, index, p_ndc);
+}
+
+/// Whether clipping might leave something of a triangle whose vertices are within the bounds of these.
+bool ProjectionStage::may_be_inside(const Triangle& p_view) const {
+  double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+  for (const Vec3& p : p_view) {
+    const double distance = -p.z + error_->at(largest_in(p)) + std::fabs(p.z) * 0x1p-50;
+    nearest = std::min(nearest, distance);
+    farthest = std::max(farthest, distance);
+  }
+  return farthest >= projection_.near || (clip_ == ClipMode::automatic && nearest * 1024 >= projection_.near);
+}
+
+/// Adds the whole of a triangle that clipping has dropped, with a piece that has no area.
+void ProjectionStage::add_possible(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
+  const Vec3 on_far = {0, 0, 1};
+  p_ndc.add({on_far, on_far, on_far}, p_view.numbers[index], p_view.locations[index]);
+  const double w = projection_.is_perspective ? projection_.far : 1;
+  add_attributes(p_view, index, {{{{1, 0, 0}, w}, {{0, 1, 0}, w}, {{0, 0, 1}, w}}}, p_ndc);
+  p_ndc.set_last_unclipped(
+      unclipped_in_clip_space(corners_in_clip_space(p_view.triangles[index]), p_view, index));
 }
 
 // P5
@@ -214,7 +240,7 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
                                   size_of(p_view.triangles[index]));
     }
   }
-  if (!has_attributes(p_view)) return;
+  if (!writes_w_) return;
   const auto& [a, b, c] = p_view.triangles[index];
   const AttributeArrays& attributes = p_view.attributes;
   p_ndc.attributes.w.push_back({w_of(a), w_of(b), w_of(c)});
@@ -252,17 +278,11 @@ std::vector<ClipVertex> ProjectionStage::clipped(const std::array<ClipVertex, 3>
 void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
   const std::array<ClipVertex, 3> corners = corners_in_clip_space(p_view.triangles[index]);
   const TriangleOutcode outside = outcode(corners);
-  if ((outside.all & planes()) != 0) {
-    ++counts_.outside;
-    return;
-  }
+  if ((outside.all & planes()) != 0) return drop_outside(p_view, index, p_ndc);
   if ((outside.any & planes()) == 0 || clip_ == ClipMode::reject)
     return project_unclipped(p_view, index, p_ndc);
   const std::vector<ClipVertex> polygon = clipped(corners, p_view.triangles[index]);
-  if (polygon.empty()) {
-    ++counts_.outside;
-    return;
-  }
+  if (polygon.empty()) return drop_outside(p_view, index, p_ndc);
   ++counts_.clipped;
   const auto unclipped = keeps_unclipped_ ? unclipped_in_clip_space(corners, p_view, index) : nullptr;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -281,10 +301,14 @@ std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
   ClipTriangle triangle;
   std::array<bool, 3> is_certain = {};
   for (std::size_t v = 0; v < 3; ++v) {
-    const PrintableNumber x = round_to_shortest(corners[v].x, input_size);
-    const PrintableNumber y = round_to_shortest(corners[v].y, input_size);
-    const PrintableNumber z = round_to_shortest(corners[v].z, input_size);
-    if (!std::isfinite(x.hi) || !std::isfinite(y.hi) || !std::isfinite(z.hi)) return nullptr;
+    const double size = rounder_.size_for_zero(input_size, point_of(corners[v]));
+    const PrintableNumber x = round_to_shortest(corners[v].x, size);
+    const PrintableNumber y = round_to_shortest(corners[v].y, size);
+    const PrintableNumber z = round_to_shortest(corners[v].z, size);
+    if (!std::isfinite(x.hi) || !std::isfinite(y.hi) || !std::isfinite(z.hi)) {
+      if (error_) throw rounder_.without_bounds(p_view.locations[index][v]);
+      return nullptr;
+    }
     triangle[v].position = {x.hi, y.hi, z.hi};
     triangle[v].w = w_of(p_view.triangles[index][v]);
     is_certain[v] = x.is_certain && y.is_certain && z.is_certain;
@@ -292,7 +316,7 @@ std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
     if (!attributes.normals.empty()) triangle[v].normal = attributes.normals[index][v];
   }
   for (std::size_t v = 0; v < 3; ++v)
-    if (!is_certain[v]) rounder_.add_uncertain(p_view.locations[index][v]);
+    if (!is_certain[v]) rounder_.add_uncertain(p_view.locations[index][v], point_of(corners[v]), input_size);
   return std::make_shared<const ClipTriangle>(triangle);
 }
 
@@ -304,7 +328,6 @@ void ProjectionStage::add_piece(const TriangleBatch& p_view, std::size_t index, 
   for (std::size_t v = 0; v < 3; ++v) locations[v] = location_of(*piece[v], p_view.locations[index]);
   p_ndc.add({}, p_view.numbers[index], locations);
   const double input_size = size_of(p_view.triangles[index]);
-  const bool prints_w = has_attributes(p_view);
   std::array<CornerMix, 3> mixes;
   for (std::size_t v = 0; v < 3; ++v) {
     // A divisor that may be 0 leaves the quotient unknown.
@@ -314,18 +337,22 @@ void ProjectionStage::add_piece(const TriangleBatch& p_view, std::size_t index, 
           expected_but_found("a cut that 31 digits can tell from the eye plane (a larger near helps)",
                              "one nearer to it"));
     PrintableNumber w;
-    if (prints_w) w = round_to_shortest(piece[v]->w, input_size);
+    if (writes_w_) w = round_to_shortest(piece[v]->w, input_size);
     mixes[v] = {piece[v]->weights, w.hi};
     rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(*piece[v]), input_size, w.is_certain);
   }
-  if (prints_w) add_attributes(p_view, index, mixes, p_ndc);
+  if (writes_w_) add_attributes(p_view, index, mixes, p_ndc);
 }
 
 StageHeader projected_header(const StageHeader& p_view, const Located<Projection>& given,
                              const ProjectionTransform& projection) {
   StageHeader header = {.framed = p_view.framed, .camera = {}, .appearance = p_view.appearance};
   if (header.appearance.attributes) header.appearance.attributes->value.w = true;
-  if (!header.appearance.lights.empty()) header.projected = {volume_of(given, projection), given.location};
+  header.bounds = p_view.bounds;
+  if (header.bounds && !header.appearance.attributes)
+    header.appearance.attributes = {{.w = true}, header.bounds->location};
+  if (!header.appearance.lights.empty() || header.bounds)
+    header.projected = {volume_of(given, projection), given.location};
   return header;
 }
 

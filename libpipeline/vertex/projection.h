@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "libpipeline/stream/stage_text.h"
@@ -57,6 +58,15 @@ class ProjectionStage {
   /// From now on pieces keep the triangle they were cut from (TriangleBatch::unclipped), as lighting needs.
   void keep_unclipped_triangles() { keeps_unclipped_ = true; }
 
+  /// From now on writes w with every vertex, and drops only triangles of which clipping leaves nothing
+  /// wherever the vertices are, within `error` of those read; any other it passes on as a piece without area
+  /// of the triangle. Pieces keep that, too. Not with the clip modes frustum and reject.
+  void keep_bounds(const ErrorBound& error) {
+    error_ = error;
+    keeps_unclipped_ = true;
+    rounder_.keep_bounds();
+  }
+
   [[nodiscard]] const ProjectionCounts& counts() const { return counts_; }
   /// Whether the triangle's winding is one that the stage drops.
   [[nodiscard]] bool culls(const Triangle& p_view) const {
@@ -101,6 +111,13 @@ class ProjectionStage {
   void project_unclipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   void project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   [[nodiscard]] std::array<ClipVertex, 3> corners_in_clip_space(const Triangle& p_view) const;
+  [[nodiscard]] bool may_be_inside(const Triangle& p_view) const;
+  /// Drops a triangle that is outside, or passes it on as one that the bounds leave possible.
+  void drop_outside(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
+    ++counts_.outside;
+    if (error_ && may_be_inside(p_view.triangles[index])) add_possible(p_view, index, p_ndc);
+  }
+  void add_possible(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   [[nodiscard]] std::vector<ClipVertex> clipped(const std::array<ClipVertex, 3>& corners,
                                                 const Triangle& p_view) const;
   void add_piece(const TriangleBatch& p_view, std::size_t index, const Piece& piece, TriangleBatch& p_ndc);
@@ -119,12 +136,14 @@ class ProjectionStage {
   SideBlock sides_;  // and where they lie, unless the clip mode is automatic or none
   bool mirrored_;    // one axis is, so clockwise and counterclockwise change places
   bool keeps_unclipped_ = false;
+  std::optional<ErrorBound> error_;  // of what is read, if bounds are kept
+  bool writes_w_ = false;            // with the triangles of this batch
   ProjectionCounts counts_;
 };
 
 /// The header of a text once it is projected by `projection`, which comes from `given`: without a camera,
-/// with w among the columns if there are any, and, if there are lights, with the view volume. An InputError
-/// at `given.location` if a plane of the volume is beyond a double's range.
+/// with w among the columns if there are any, and, if there are lights, with the view volume; with both if
+/// there are bounds. An InputError at `given.location` if a plane of the volume is beyond a double's range.
 StageHeader projected_header(const StageHeader& p_view, const Located<Projection>& given,
                              const ProjectionTransform& projection);
 

@@ -183,6 +183,7 @@ RUNS = (  # tool, its inputs, the words behind them, the options that name an ou
     ("view", {"--scene": SCENE_TEXT, "INPUT": WORLD}, [], ["--stats"]),
     ("project", {"--scene": SCENE_TEXT, "INPUT": VIEW}, [], ["--stats"]),
     ("zbuf", {"CONFIG": SCREEN, "INPUT": NDC}, [], [*PICTURES, "--fragments", "--seen"]),
+    ("zbuf", {"CONFIG": SCREEN, "INPUT": NDC}, ["--coverage", "center"], ["--certify"]),
     ("trace", {"--scene": SCENE_TEXT, "CONFIG": SCREEN, "INPUT": VIEW}, [], [*PICTURES]),
     ("cut-scene", {"SCENE": SCENE_TEXT}, ["2"], []),
     ("join-seen", {"PART": WORLD}, [], []),

@@ -1,11 +1,14 @@
 // model: carries out the commands of a scene. Model space in, world space out.
 
+#include <span>
+
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/vertex/model_stage.h"
 #include "tools/rim/empty_picture_note.h"
+#include "tools/rim/rare_option.h"
 #include "tools/rim/statistics.h"
 #include "tools/rim/tool.h"
 #include "tools/stages/stage_loop.h"
@@ -19,14 +22,18 @@ struct ModelOptions {
   bool bare = false;
   bool framed = false;
   std::string first;  // the number of the first triangle; empty: 0
+  bool bounds = false;
   std::string belts;  // of a sphere's facets; empty: spheres stay spheres
 };
 
-void add_options(CommandLine& options, ModelOptions& chosen) {
+void add_options(CommandLine& options, ModelOptions& chosen, std::span<char* const> words) {
   options.begin_group("Output");
   options.add_flag("--bare", chosen.bare, "Write the triangles alone (stage1.txt)");
   options.add_flag("--framed", chosen.framed,
                    "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
+  if (is_wanted("--bounds", words))
+    options.add_flag("--bounds", chosen.bounds,
+                     "Say in the header how far coordinates may be from those of exact arithmetic");
   options.add_word(
       "--first", "N", chosen.first,
       "Number the triangles from N on: of a part of a scene (cut-scene), so that joined texts of "
@@ -76,20 +83,26 @@ int main(int argc, char** argv) {
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   ModelOptions chosen;
-  add_options(tool.options(), chosen);
+  add_options(tool.options(), chosen, std::span(argv, static_cast<std::size_t>(argc)));
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
     tool.expect_separate({kStandardOutput, statistics.output()});
     const std::uint64_t first = first_number(chosen);
+    if (chosen.bounds && (chosen.bare || !chosen.belts.empty()))
+      throw UsageError("--bounds: " + expected_but_found("neither --bare nor --facets with it",
+                                                         chosen.bare ? "--bare" : "--facets"));
     expect_kind(tool.input(), TextKind::scene);
     SceneReader scene(tool.input());
     ModelStage stage(scene, first,
-                     {.is_refused = chosen.bare && chosen.belts.empty(), .belts = belt_count(chosen.belts)});
+                     {.is_refused = (chosen.bare && chosen.belts.empty()) || chosen.bounds,
+                      .belts = belt_count(chosen.belts)});
     StageWriter writer(tool.output(), numbers.format(), chosen.bare);
-    writer.write_header({chosen.framed, scene.camera(), stage.appearance()});
-
+    StageHeader header = {chosen.framed, scene.camera(), stage.appearance()};
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    if (chosen.bounds) header.bounds = {{numbers.kept_bounds(rounder), {}}, {}};
+    writer.write_header(header);
+
     const auto transform = [&](TriangleBatch& batch) { stage.transform(batch, rounder); };
     StageLoop loop(tool, writer, rounder, statistics);
     loop.run(stage, transform, stage.uncertain_lights());

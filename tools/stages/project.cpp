@@ -68,6 +68,17 @@ void check_inset(const ProjectOptions& chosen) {
                      expected_but_found("--clip near, frustum or reject with it", "none of these"));
 }
 
+/// A UsageError if an option excludes bounds.
+void expect_bounds_possible(const ProjectOptions& chosen) {
+  const auto refuse = [](const std::string& option) {
+    throw UsageError(option + ": " + expected_but_found("none with bounds in the text", "it"));
+  };
+  if (chosen.cull != CullMode::nothing) refuse("--cull");
+  if (chosen.clip != ClipMode::automatic && chosen.clip != ClipMode::near)
+    refuse("--clip frustum, reject or none");
+  if (chosen.clip_inset > 0) refuse("--clip-inset");
+}
+
 /// A number in words for people: two digits of it.
 std::string in_two_digits(double value) {
   std::array<char, 32> text = {};
@@ -97,12 +108,17 @@ void project(Tool& tool, const ProjectOptions& chosen, Statistics& statistics) {
   const Located<Projection> given = chosen.projections.projection(reader, tool);
   const ProjectionTransform projection = clip_from_view(given);
   StageWriter writer(tool.output(), chosen.numbers.format(), false);
-  const StageHeader header = projected_header(reader.header(), given, projection);
+  StageHeader header = projected_header(reader.header(), given, projection);
+  CoordinateRounder rounder = chosen.numbers.rounder(tool.input().file());
+  if (header.bounds) {
+    expect_bounds_possible(chosen);
+    header.bounds->value.rounded = chosen.numbers.kept_bounds(rounder);
+  }
   writer.write_header(header);
 
-  CoordinateRounder rounder = chosen.numbers.rounder(tool.input().file());
   ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);
   if (header.projected) stage.keep_unclipped_triangles();
+  if (header.bounds) stage.keep_bounds(header.bounds->value.error);
   ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
   report.suspect_radians(given);
   const NumberFormat format = chosen.numbers.format();

@@ -46,6 +46,13 @@ CoordinateRounder NumberOptions::rounder(const std::string& file) const {
   return {precision_, format(), file};
 }
 
+ErrorBound NumberOptions::kept_bounds(CoordinateRounder& rounder) const {
+  if (precision_ == Precision::in_doubles)
+    throw UsageError("--precision: " + expected_but_found("extended, as bounds need it", "'double'"));
+  rounder.keep_bounds();
+  return rounding_error(format());
+}
+
 CameraOptions::CameraOptions(CommandLine& options, Parts parts) {
   const auto add = [&](const std::string& name, std::size_t count, const std::string& type,
                        const std::string& help) { options.add_words(name, count, type, words_[name], help); };

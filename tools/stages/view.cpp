@@ -1,5 +1,7 @@
 // view: puts the camera at the origin, looking down -z. World space in, view space out.
 
+#include <algorithm>
+
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
@@ -38,6 +40,14 @@ ViewTransform view_of(const CameraParameters& camera, const StageReader& reader)
   return view_from_world(camera.eye->value, camera.look->value, camera.up->value);
 }
 
+/// At least the sum of the |entries| of any row of the rotation.
+double row_sum(const ViewTransform& view) {
+  const auto sum = [](const BallVec3& row) {
+    return (row.x.magnitude() + row.y.magnitude() + row.z.magnitude()) * ErrorBound::kRoundUp;
+  };
+  return std::max({sum(view.right), sum(view.up), sum(view.backward)});
+}
+
 /// The text's color and light, and the light of the command line, in view space.
 Appearance in_view_space(Appearance appearance, const LightOption& added, const ViewTransform& view,
                          UncertainDigits& uncertain_lights) {
@@ -64,17 +74,21 @@ int main(int argc, char** argv) {
     expect_kind(tool.input(), TextKind::world);
     StageReader reader(tool.input());
     expect_header(reader, TextKind::world);
-    if (!bare) reader.accept_spheres();
+    if (!bare && !reader.header().bounds) reader.accept_spheres();
     const CameraParameters camera = cameras.camera(reader.header().camera, tool);
     const ViewTransform view = view_of(camera, reader);
     const VertexTransform to_view(view);
     const NormalTransform normal_to_view(view);
     StageWriter writer(tool.output(), numbers.format(), bare);
     UncertainDigits uncertain_lights;
-    writer.write_header({reader.header().framed, without_position(camera),
-                         in_view_space(reader.header().appearance, light, view, uncertain_lights)});
-
+    StageHeader header = {reader.header().framed, without_position(camera),
+                          in_view_space(reader.header().appearance, light, view, uncertain_lights)};
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    if (const auto& world = reader.header().bounds; world && !bare)
+      header.bounds = {
+          {error_in_view(world->value.error, view.eye, row_sum(view), numbers.kept_bounds(rounder)), {}}, {}};
+    writer.write_header(header);
+
     const auto transform = [&](TriangleBatch& batch) {
       for (auto& normals : batch.attributes.normals)
         for (Vec3& normal : normals) normal = normal_to_view(normal);

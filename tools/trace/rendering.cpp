@@ -121,7 +121,7 @@ class Rendering {
     add_statistics();
     outputs_.close_reports();
     tool_.timing().lap(&Timing::work_seconds);
-    outputs_.open(screen_, 1, background_, "");
+    outputs_.open(screen_, 1, background_);
     for (int row = 0; row < screen_.rows; ++row) {
       if (rays_.has_depths) outputs_.write_depths(picture.row_of(picture.depths, row));
       if (outputs_.wants_triangles()) outputs_.write_triangles(picture.row_of(picture.triangles, row));

@@ -37,26 +37,25 @@ void PictureOutputs::close_reports() {
   statistics_.finish();
 }
 
-void PictureOutputs::open(const Viewport& screen, int sample_count, Color background,
-                          const std::string& seen_path) {
+void PictureOutputs::open(const Viewport& screen, int sample_count, Color background) {
   screen_ = screen;
   if (chosen_.has_image()) {
     image_ = image_writer(opened(image_file_of(chosen_.image_path)), chosen_.image_path, screen.columns,
                           screen.drawn_row_count(), !background.is_opaque());
     if (sample_count > 1) means_.emplace(screen.columns, sample_count, background);
   }
-  if (chosen_.z_buffer_path != "none") depths_ = text_writer(chosen_.z_buffer_path, depth_file_);
+  if (chosen_.z_buffer_path != "none") depths_ = open_text(chosen_.z_buffer_path);
   const auto open_pixels = [&](const std::string& path, auto& writer) {
     if (!path.empty()) writer.emplace(opened(path), path, screen);
   };
   open_pixels(chosen_.depth_image_path, depth_image_);
   open_pixels(chosen_.depth_array_path, depth_array_);
   open_pixels(chosen_.triangle_array_path, triangles_);
-  if (!seen_path.empty()) seen_ = text_writer(seen_path, seen_file_);
 }
 
-TextWriter* PictureOutputs::text_writer(const std::string& path, std::optional<TextWriter>& of_file) {
-  return path == "-" ? &tool_.output() : &of_file.emplace(opened(path), path);
+TextWriter* PictureOutputs::open_text(const std::string& path) {
+  if (path.empty()) return nullptr;
+  return texts_.emplace_back(path == "-" ? &tool_.output() : &text_files_.emplace_back(opened(path), path));
 }
 
 void PictureOutputs::write_colors(std::span<const Color> colors) {
@@ -76,8 +75,7 @@ void PictureOutputs::write_depths(std::span<const double> depths, std::span<cons
 }
 
 void PictureOutputs::finish(std::uint64_t covered_count) {
-  if (seen_ != nullptr) seen_->flush();
-  if (depths_ != nullptr) depths_->flush();
+  for (TextWriter* text : texts_) text->flush();
   if (depth_image_) depth_image_->finish();
   if (depth_array_) depth_array_->finish();
   if (triangles_) triangles_->finish();

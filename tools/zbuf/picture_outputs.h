@@ -37,12 +37,12 @@ class PictureOutputs {
   void close_reports();
   /// Opens all others. The image takes the colors of `sample_count` x `sample_count` samples a pixel. A
   /// background that is not opaque needs an image that can_hold_alpha.
-  void open(const Viewport& screen, int sample_count, Color background, const std::string& seen_path);
+  void open(const Viewport& screen, int sample_count, Color background);
+  /// Opens a text of one tool alone; null if `path` is empty.
+  TextWriter* open_text(const std::string& path);
 
   [[nodiscard]] bool wants_colors() const { return image_ != nullptr; }
   [[nodiscard]] bool wants_triangles() const { return triangles_.has_value(); }
-  /// Where the text of `--seen` goes; null if there is none.
-  [[nodiscard]] TextWriter* seen() { return seen_; }
   // Each takes the next row, from the top.
   void write_colors(std::span<const Color> colors);
   void write_depths(std::span<const double> depths, std::span<const Ball> exact = {});
@@ -54,7 +54,6 @@ class PictureOutputs {
 
  private:
   int opened(const std::string& path) { return files_.emplace_back(path).descriptor(); }
-  TextWriter* text_writer(const std::string& path, std::optional<TextWriter>& of_file);
 
   Tool& tool_;
   const PictureOptions& chosen_;
@@ -65,9 +64,9 @@ class PictureOutputs {
   std::deque<OutputFile> files_;  // the others
   std::unique_ptr<ImageWriter> image_;
   std::optional<Downsampler> means_;
-  std::optional<TextWriter> depth_file_, seen_file_;
-  TextWriter* depths_ = nullptr;  // standard output or that of the file; null: none
-  TextWriter* seen_ = nullptr;    // likewise
+  std::deque<TextWriter> text_files_;
+  std::vector<TextWriter*> texts_;  // standard output and those of files
+  TextWriter* depths_ = nullptr;    // one of these; null: none
   std::optional<DepthImageWriter> depth_image_;
   std::optional<PixelArrayWriter<double>> depth_array_;
   std::vector<double> array_row_;

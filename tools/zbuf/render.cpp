@@ -16,6 +16,7 @@
 #include "tools/rim/empty_picture_note.h"
 #include "tools/rim/progress.h"
 #include "tools/zbuf/all_edges.h"
+#include "tools/zbuf/certainty_report.h"
 #include "tools/zbuf/colored_rows.h"
 #include "tools/zbuf/drawing_report.h"
 #include "tools/zbuf/fragment_report.h"
@@ -34,17 +35,28 @@ std::size_t pixel_count(const Viewport& screen) {
   return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.drawn_row_count());
 }
 
-/// Reads the triangles into `batch()`, batch by batch, hands each to the report and calls `draw()`.
+/// Who takes every batch before it is drawn.
+struct Reports {
+  std::unique_ptr<DrawingReport> drawing;
+  std::optional<CertaintyReport> certainty;  // as far as it is requested
+
+  void add(const TriangleBatch& p_ndc) {
+    drawing->add(p_ndc);
+    if (certainty) certainty->add(p_ndc);
+  }
+};
+
+/// Reads the triangles into `batch()`, batch by batch, hands each to the reports and calls `draw()`.
 template <typename Source, typename Batch, typename Draw>
-void for_each_batch(Tool& tool, Source& source, const Appearance& appearance, DrawingReport& report,
-                    Batch&& batch, Draw&& draw) {
+void for_each_batch(Tool& tool, Source& source, const Appearance& appearance, Reports& reports, Batch&& batch,
+                    Draw&& draw) {
   Progress progress("zbuf");
   const bool is_painted = appearance.is_painted();
   while (source.read(batch())) {
     if (is_painted) add_material_colors(appearance, batch());
     tool.timing().triangle_count += batch().size();
     tool.timing().lap(&Timing::read_seconds);
-    report.add(batch());
+    reports.add(batch());
     draw();
     tool.timing().lap(&Timing::work_seconds);
     progress.show(tool.timing().triangle_count);
@@ -54,7 +66,7 @@ void for_each_batch(Tool& tool, Source& source, const Appearance& appearance, Dr
 // Not inlined: in a function of their own, the compiler inlines more of what the loops call.
 template <typename CoverageRule, typename Depth>
 [[gnu::noinline]] void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader,
-                                TriangleStore& store, DrawingReport& report,
+                                TriangleStore& store, Reports& reports,
                                 SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   visible.set_depth_epsilon(chosen.rules.depth_epsilon);
   ThreadPool pool(chosen.threads_for(pixel_count(visible.screen)));
@@ -74,14 +86,14 @@ template <typename CoverageRule, typename Depth>
   };
   ReadAhead ahead(reader, pool);
   for_each_batch(
-      tool, ahead, reader.header().appearance, report,
+      tool, ahead, reader.header().appearance, reports,
       [&]() -> TriangleBatch& { return drawing.next_batch(); }, draw);
   drawing.finish();
 }
 
 template <typename CoverageRule, typename Depth>
 [[gnu::noinline]] void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore& store,
-                                DrawingReport& report,
+                                Reports& reports,
                                 SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
@@ -93,7 +105,7 @@ template <typename CoverageRule, typename Depth>
     }
   };
   for_each_batch(
-      tool, reader, reader.header().appearance, report, [&]() -> TriangleBatch& { return p_ndc; }, draw);
+      tool, reader, reader.header().appearance, reports, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
 /// The depths of a row exactly; meaningless where no triangle is seen.
@@ -112,18 +124,20 @@ void set_exact_depths(const Coverage& rule, const TriangleStore& store, int row,
 template <VisibilityAlgorithm Visible>
 [[gnu::noinline]] void write_all(PictureOutputs& outputs, const ZbufOptions& chosen,
                                  const SampledVisible<Visible>& visible, const StageReader& reader,
-                                 TriangleStore& store, std::optional<SurfaceShader>& shader,
-                                 AllEdges* edges) {
+                                 TriangleStore& store, std::optional<SurfaceShader>& shader, AllEdges* edges,
+                                 std::optional<CertaintyReport>& certainty) {
   const Viewport& screen = visible.center_screen;
   // To light a sample by one light takes as long as to draw four.
   const std::size_t cost = shader ? 1 + 4 * shader->setup().lighting.lights.size() : 0;
-  outputs.open(screen, chosen.sample_count, store.background_color(), chosen.seen_path);
+  outputs.open(screen, chosen.sample_count, store.background_color());
+  TextWriter* const seen_text = outputs.open_text(chosen.seen_path);
+  TextWriter* const certainty_text = outputs.open_text(chosen.certainty_path);
   ColoredRows colors(store, shader, edges, chosen.sample_count * screen.drawn_rows().first,
                      chosen.threads_for(cost * pixel_count(visible.screen)), outputs);
   std::vector<std::int64_t> numbers;
   KeptIds seen(store.id_count());
   const auto mark = [&](std::span<const PixelTag> tags) {
-    if (outputs.seen() != nullptr) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
+    if (seen_text != nullptr) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
   };
   std::uint64_t covered_count = 0;
   const typename Visible::CoverageRule rule(screen);
@@ -134,6 +148,7 @@ template <VisibilityAlgorithm Visible>
     if (store.keeps_corners()) set_exact_depths(rule, store, number++, row.tags, exact);
     outputs.write_depths(row.depths, exact);
     if (outputs.wants_triangles()) outputs.write_triangles(store.numbers_of(row.tags, numbers));
+    if (certainty) certainty->add_row(store.numbers_of(row.tags, numbers));
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
@@ -146,7 +161,8 @@ template <VisibilityAlgorithm Visible>
     });
   }
   colors.finish();
-  if (outputs.seen() != nullptr) store.write_seen(*outputs.seen(), reader, seen);
+  if (seen_text != nullptr) store.write_seen(*seen_text, reader, seen);
+  if (certainty) certainty->write(*certainty_text);
   outputs.finish(covered_count);
 }
 
@@ -168,14 +184,19 @@ StageReader opened(Tool& tool, const ZbufOptions& chosen, bool uses_decimals) {
   expect_header(reader, TextKind::ndc);
   reader.accept_clipped();
   if (chosen.framed) reader.expect_framed();
-  if (!chosen.seen_path.empty()) reader.keep_text();
+  if (!chosen.seen_path.empty()) {
+    // What is seen leaves out triangles that might be.
+    if (reader.header().bounds)
+      throw UsageError("--seen: " + expected_but_found("a text without bounds", "'bounds'"));
+    reader.keep_text();
+  }
   return reader;
 }
 
 TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, const Viewport& of_samples,
                           AllEdges* edges) {
   return {.keeps_text = !chosen.seen_path.empty(),
-          .keeps_numbers = !chosen.triangle_array_path.empty(),
+          .keeps_numbers = !chosen.triangle_array_path.empty() || !chosen.certainty_path.empty(),
           .keeps_corners = chosen.z_buffer_path != "none" &&
                            std::max(-of_samples.front, of_samples.rear) > kMaxDepthInDoubles &&
                            std::holds_alternative<TypeValue<DepthF64>>(chosen.rules.depth),
@@ -195,18 +216,19 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   if (chosen.has_image()) shader = surface_shader(reader.header(), reader.header_end(), of_samples, surfaces);
   tool.timing().lap(&Timing::read_seconds);
   const auto fragments = fragment_report(chosen, screen, outputs.open_fragments(chosen.fragments_path));
-  const auto report = drawing_report(chosen.rules, screen, chosen.sample_count, statistics.is_wanted());
+  Reports reports = {drawing_report(chosen.rules, screen, chosen.sample_count, statistics.is_wanted()), {}};
+  if (!chosen.certainty_path.empty()) reports.certainty.emplace(reader, screen);
   const std::unique_ptr<AllEdges> edges = all_edges(chosen, of_samples);
   TriangleStore store(kept(chosen, reader, of_samples, edges.get()), shader, fragments.get());
   SampledVisible<Visible> visible(screen, chosen.sample_count, store.background());
   tool.timing().lap(&Timing::work_seconds);
-  draw_all(tool, chosen, reader, store, *report, visible);
+  draw_all(tool, chosen, reader, store, reports, visible);
   if (fragments) fragments->finish();
-  report->add_to(statistics);
+  reports.drawing->add_to(statistics);
   outputs.close_reports();
   tool.timing().lap(&Timing::work_seconds);
-  write_all(outputs, chosen, visible, reader, store, shader, edges.get());
-  if (chosen.has_image()) note_odd_picture(tool, *report, screen, shader, reader.header());
+  write_all(outputs, chosen, visible, reader, store, shader, edges.get(), reports.certainty);
+  if (chosen.has_image()) note_odd_picture(tool, *reports.drawing, screen, shader, reader.header());
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
               "model scene.txt | view | project | zbuf config.txt --coverage center -o picture.ppm > "
               "z_buffer.txt"}},
             OutputKind::other_text);
-  ZbufOptions chosen(tool.options());
+  ZbufOptions chosen(tool.options(), std::span(argv, static_cast<std::size_t>(argc)));
   Statistics statistics(tool.options());
   // A closed pipe is a failure to write like any other: the image that was begun has to be removed.
   std::signal(SIGPIPE, SIG_IGN);

@@ -5,6 +5,7 @@
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
+#include "tools/rim/rare_option.h"
 
 namespace pipeline {
 namespace {
@@ -23,7 +24,8 @@ void add_type_choice(CommandLine& options, const std::string& name, TypeList<Typ
 
 }  // namespace
 
-ZbufOptions::ZbufOptions(CommandLine& options) : PictureOptions(options, "zbuf", true) {
+ZbufOptions::ZbufOptions(CommandLine& options, std::span<char* const> words)
+    : PictureOptions(options, "zbuf", true) {
   options.add_word(
       "--rows", "A:B", rows,
       "Draw only the rows from A to before B of the picture, counted from 0 at the top, in memory "
@@ -37,6 +39,12 @@ ZbufOptions::ZbufOptions(CommandLine& options) : PictureOptions(options, "zbuf",
       "Write the triangles that a pixel or sample shows, as text that zbuf reads and that gives "
       "the same picture; - is standard output, and the input may be replaced. With it, no image and no "
       "depths unless asked for");
+  if (is_wanted("--certify", words))
+    options.add_word(
+        "--certify", "FILE", certainty_path,
+        "Write how many pixels certainly show what exact arithmetic shows, and the row and column "
+        "of each other; of a text with bounds (model --bounds), with --coverage center. - is "
+        "standard output, in place of the depths");
   add_pixels(options);
   options.begin_group("Color and light");
   add_shading(options);
@@ -74,12 +82,23 @@ void ZbufOptions::add_pixels(CommandLine& options) {
 }
 
 void ZbufOptions::complete(bool is_terminal) {
-  const bool writes_seen = !seen_path.empty(), seen_is_output = seen_path == "-";
-  if (seen_is_output && image_file_of(image_path) == "-")
-    throw UsageError("--image: " + expected_but_found("a file, as --seen is standard output", "'-'"));
-  if (seen_is_output && z_buffer_path == "-")
-    throw UsageError("--z-buffer: " +
-                     expected_but_found("a file or none, as --seen is standard output", "'-'"));
+  const bool writes_seen = !seen_path.empty(), certifies = !certainty_path.empty();
+  if (seen_path == "-" || certainty_path == "-") {
+    const std::string taken =
+        seen_path == "-" ? ", as --seen is standard output" : ", as --certify is standard output";
+    if (seen_path == certainty_path)
+      throw UsageError("--certify: " + expected_but_found("a file" + taken, "'-'"));
+    if (image_file_of(image_path) == "-")
+      throw UsageError("--image: " + expected_but_found("a file" + taken, "'-'"));
+    if (z_buffer_path == "-")
+      throw UsageError("--z-buffer: " + expected_but_found("a file or none" + taken, "'-'"));
+    if (certainty_path == "-" && z_buffer_path.empty()) z_buffer_path = "none";
+  }
+  if (certifies && !std::holds_alternative<TypeValue<CenterCoverage>>(rules.coverage))
+    throw UsageError("--certify: " + expected_but_found("--coverage center with it", "'nearest'"));
+  if (certifies && sample_count > 1)
+    throw UsageError("--certify: " + expected_but_found("--samples 1 with it",
+                                                        pipeline::quoted(std::to_string(sample_count))));
   if (writes_seen && has_all_edges)
     throw UsageError("--seen: " + expected_but_found("no --wireframe all, which shows hidden triangles, too",
                                                      pipeline::quoted(seen_path)));
@@ -123,7 +142,8 @@ void ZbufOptions::check_limits(const Viewport& screen) const {
 std::vector<NamedFile> ZbufOptions::outputs(const Statistics& statistics) const {
   NamedFile seen = file_or_stream("--seen", seen_path, kStandardOutput);
   seen.is_in_place = true;
-  return outputs_of(*this, {{"--fragments", fragments_path}, seen}, statistics);
+  const NamedFile certainty = file_or_stream("--certify", certainty_path, kStandardOutput);
+  return outputs_of(*this, {{"--fragments", fragments_path}, seen, certainty}, statistics);
 }
 
 }  // namespace pipeline

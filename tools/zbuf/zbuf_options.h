@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -24,12 +25,14 @@ struct PixelRules {
 
 /// The options of `zbuf`, as members with their defaults.
 struct ZbufOptions : PictureOptions {
-  explicit ZbufOptions(CommandLine& options);
+  /// `words` are those of the command line.
+  ZbufOptions(CommandLine& options, std::span<char* const> words);
 
   PixelRules rules;
   Algorithm algorithm = Algorithm::zbuffer;
-  std::string seen_path;  // "-": standard output; empty: no file
-  std::string rows;       // "A:B", if the option is given
+  std::string seen_path;       // "-": standard output; empty: no file
+  std::string certainty_path;  // likewise
+  std::string rows;            // "A:B", if the option is given
   bool wireframe = false;
   bool has_all_edges = false;  // the wireframe, hidden ones too
   std::string fragments_path;  // empty: no file

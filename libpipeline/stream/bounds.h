@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "libpipeline/numbers/decimal_units.h"
+#include "libpipeline/numbers/vec.h"
+#include "libpipeline/text/number_printer.h"
+
+namespace pipeline {
+
+/// How far a vertex's coordinates may be from the truth: |coordinate - truth| <= absolute + relative * m,
+/// where m is the vertex's largest |coordinate|. The truth is what the stages give if none of them rounds.
+struct ErrorBound {
+  double absolute = 0, relative = 0;
+
+  [[nodiscard]] double at(double largest) const { return (absolute + relative * largest) * kRoundUp; }
+
+  /// More than a few sums and products of doubles can lose.
+  static constexpr double kRoundUp = 1 + 0x1p-40;
+};
+
+/// The header line `bounds` of a stage text.
+struct Bounds {
+  ErrorBound error;                   // of the vertices; of a projected text, as they were in view space
+  std::optional<ErrorBound> rounded;  // in a projected text: of its vertices against exact projection
+};
+
+/// Rounding to the nearest double and, in the shortest form, what 0 may stand for.
+constexpr double kRelativeRounding = 0x1p-53 * (1 + 0x1p-6);
+/// Below this, numbers in the shortest form have an absolute bound: where numbers cancel, 0 may stand for
+/// 2^-60 of it (number_rounding.h).
+constexpr double kLeastSize = 0x1p-30;
+
+/// The distance between an exact coordinate and the double that a stage reads from its text.
+inline ErrorBound rounding_error(NumberFormat format) {
+  if (format.shortest) return {0x1p-60 * kLeastSize, kRelativeRounding};
+  // Ties may go either way within 2^-20 of a unit.
+  return {0.500001 / kPowersOfTen[static_cast<std::size_t>(format.decimals)], kRelativeRounding};
+}
+
+/// The bound of a rotated text that rounding has changed by `own` (tests/proofs/bounds.g). `row_sum` bounds
+/// the sums of the rotation's |entries| by row. A vertex p and its image v = R (p - eye) have |p| <= |eye| +
+/// sqrt(3) |v| in their largest coordinates.
+inline ErrorBound error_in_view(const ErrorBound& world, const Vec3& eye, double row_sum,
+                                const ErrorBound& own) {
+  constexpr double kRoot3 = 1.7320509;
+  const double eye_size = std::fmax(std::fabs(eye.x), std::fmax(std::fabs(eye.y), std::fabs(eye.z)));
+  const double size_error = world.relative * (eye_size + kRoot3 * own.absolute);
+  return {(row_sum * (world.absolute + size_error) + own.absolute) * ErrorBound::kRoundUp,
+          (row_sum * kRoot3 * world.relative * (1 + own.relative) + own.relative) * ErrorBound::kRoundUp};
+}
+
+}  // namespace pipeline

@@ -1,0 +1,43 @@
+#include "tools/zbuf/certainty_report.h"
+
+#include <string>
+
+#include "libpipeline/text/error.h"
+
+namespace pipeline {
+namespace {
+
+CertainPixels certain_pixels(const StageReader& reader, const Viewport& screen) {
+  const StageHeader& header = reader.header();
+  if (!header.bounds || !header.bounds->value.rounded || !header.projected || !header.appearance.columns().w)
+    throw InputError(reader.header_end(),
+                     expected_but_found("a text with 'bounds', 'projected' and the column 'w' for --certify "
+                                        "(model --bounds, and stages that keep them)",
+                                        "none"));
+  return {screen, header.bounds->value, header.projected->value};
+}
+
+}  // namespace
+
+CertaintyReport::CertaintyReport(const StageReader& reader, const Viewport& screen)
+    : pixels_(certain_pixels(reader, screen)), row_(screen.drawn_rows().first) {}
+
+void CertaintyReport::add_row(std::span<const std::int64_t> numbers) {
+  int column = 0;
+  for (const std::int64_t number : numbers) {
+    const bool is_certain = pixels_.is_certain(row_, column, number);
+    ++(is_certain ? certain_count_ : uncertain_count_);
+    if (!is_certain && uncertain_.size() < kMaxLines) uncertain_.emplace_back(row_, column);
+    ++column;
+  }
+  ++row_;
+}
+
+void CertaintyReport::write(TextWriter& text) const {
+  text.append("certain " + std::to_string(certain_count_) + "\nuncertain " +
+              std::to_string(uncertain_count_) + "\n");
+  for (const auto& [row, column] : uncertain_)
+    text.append(std::to_string(row) + " " + std::to_string(column) + "\n");
+}
+
+}  // namespace pipeline
