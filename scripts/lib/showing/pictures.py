@@ -103,7 +103,7 @@ def unfiltered(kind, row, above, size=3):
     out = bytearray(len(row))
     for channel in range(size):
         if kind == 1:
-            sums = itertools.accumulate(row[channel::size], lambda a, x: (a + x) & 255)
+            sums = (sum_ & 255 for sum_ in itertools.accumulate(row[channel::size]))
         else:
             sums = itertools.accumulate(zip(row[channel::size], above[channel::size]), lambda a, x:
                                         (x[0] + (a + x[1]) // 2) & 255, initial=0)
@@ -131,14 +131,14 @@ def laid_over(row, behind):
     return bytes(out)
 
 
-def read_png(data, size, behind):
-    """A PNG with alpha is laid over the color `behind`; without one it is refused."""
+def png_rows(data, size=None, takes_alpha=True):
+    """Width, height and rows of a PNG, with alpha if it has one."""
     if data[12:16] != b"IHDR":
         raise PictureError("expected a PNG with a header, found none")
     width, height, *form = struct.unpack_from(">IIBBBBB", data, 16)
     expect_size(width, height, size)
     has_alpha = form == [8, 6, 0, 0, 0]
-    if form != [8, 2, 0, 0, 0] and (not has_alpha or behind is None):
+    if form != [8, 2, 0, 0, 0] and not (has_alpha and takes_alpha):
         raise PictureError("expected a PNG of 8 bits RGB without interlacing" +
                            ", found one with alpha (an opaque background leaves it out)" * has_alpha)
     if width * height > MAX_PNG_PIXELS:
@@ -153,8 +153,15 @@ def read_png(data, size, behind):
     rows, above = [], bytes(channels * width)
     for begin in range(0, stride * height, stride):
         above = unfiltered(pixels[begin], bytes(pixels[begin + 1:begin + stride]), above, channels)
-        rows.append(laid_over(above, behind) if has_alpha else above)
+        rows.append(above)
     return width, height, rows
+
+
+def read_png(data, size, behind):
+    """A PNG with alpha is laid over the color `behind`; without one it is refused."""
+    width, height, rows = png_rows(data, size, behind is not None)
+    has_alpha = len(rows[0]) == 4 * width
+    return width, height, [laid_over(row, behind) for row in rows] if has_alpha else rows
 
 
 READERS = {b"BM": read_bmp, b"P6": read_ppm, b"\x89P": read_png}
@@ -188,8 +195,29 @@ def png_chunk(kind, body):
 
 
 def png(width, height, rows):
-    """The bytes of a PNG."""
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    """The bytes of a PNG, whose rows may have alpha."""
+    header = struct.pack(">IIBBBBB", width, height, 8, 6 if len(rows[0]) == 4 * width else 2, 0, 0, 0)
     pixels = zlib.compress(b"".join(b"\0" + row for row in rows), 9)
     return b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(
         b"IEND", b"")
+
+
+def with_pixels_of(picture, other, pixels):
+    """A picture file as zbuf writes it, with these pixels, pairs of row and column, of another one like it."""
+    if picture[:2] == b"\x89P":
+        (width, height, rows), (_, _, others) = png_rows(picture), png_rows(other)
+        rows, size = list(map(bytearray, rows)), len(rows[0]) // width
+        for row, column in pixels:
+            place = slice(size * column, size * (column + 1))
+            rows[row][place] = others[row][place]
+        return png(width, height, rows)
+    width, height, _ = picture_of(picture, "the picture")
+    stride, first = 3 * width, len(picture) - 3 * width * height
+    if picture[:2] == b"BM":  # rows from the bottom
+        stride = -((3 * width + 3) // 4 * 4)
+        first = len(picture) + stride
+    picture = bytearray(picture)
+    for row, column in pixels:
+        place = slice(first + row * stride + 3 * column, first + row * stride + 3 * column + 3)
+        picture[place] = other[place]
+    return bytes(picture)

@@ -1,0 +1,86 @@
+"""Draws until every pixel is what exact arithmetic shows: with more and more digits, and keeps what is
+certain."""
+import argparse
+import os
+import re
+import sys
+import tempfile
+import textwrap
+
+from lib.rim.command import CommandFailure
+from lib.rim.output_file import expect_writable, write_file
+from lib.showing.pictures import with_pixels_of
+
+DIGITS = "7", "9", "12", "exact"  # the default's first
+MOST_LISTED = 100
+FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)$")
+
+
+def refuse(parser, options):
+    """Ends the program if there are options that --certain excludes."""
+    samples = options.samples not in (None, "1")
+    for is_given, option, reason in (
+            (options.trace, "--trace", "zbuf tells which pixels are certain"),
+            (samples, f"--samples {options.samples}", "a mean of samples is no triangle's color"),
+            (options.stages is not None, "--stages", "the stages may run more than once"),
+            (not FORMAT.match(options.output), f"-o {options.output}", "it takes a .png, .bmp or .ppm file")):
+        if is_given:
+            parser.error(f"{option} does not go with --certain: {reason}")
+
+
+class Certainty:
+    """What zbuf --certify tells: how many pixels there are, how many of them are uncertain, and which, as
+    pairs of row and column; None if the list breaks off."""
+
+    def __init__(self, path):
+        with open(path) as file:
+            certain, self.uncertain_count, *pixels = (line.split() for line in file)
+        self.uncertain_count = int(self.uncertain_count[1])
+        self.pixel_count = int(certain[1]) + self.uncertain_count
+        self.first = [(int(row), int(column)) for row, column in pixels]
+        self.uncertain = set(self.first) if len(pixels) == self.uncertain_count else None
+
+
+def draw_for_certain(options, draw):
+    """Draws the picture, says how much of it is certain, and gives the notes of the last run; `draw` takes
+    options, and gives notes."""
+    is_stream = options.image == "-"
+    if not is_stream:
+        expect_writable(options.image)
+    picture = left = None  # left: which pixels are not certain yet, None for all
+    for digits in DIGITS:
+        notes, certainty, drawn = run(options, draw, digits)
+        picture = drawn if left is None else with_pixels_of(picture, drawn, left)
+        if certainty.uncertain is not None:
+            left = certainty.uncertain if left is None else left & certainty.uncertain
+        if left is not None and not left:
+            break
+    write_file("/dev/stdout" if is_stream else options.image, picture)
+    count = certainty.uncertain_count if left is None else len(left)
+    print(told(certainty.pixel_count, count, sorted(left or certainty.first)),
+          file=sys.stderr if is_stream else sys.stdout)
+    return notes
+
+
+def run(options, draw, digits):
+    """The notes, the Certainty and the picture file of a run with these digits."""
+    kind = next(filter(None, FORMAT.match(options.output).groups()))
+    with tempfile.TemporaryDirectory() as folder:
+        image, report = os.path.join(folder, "image." + kind), os.path.join(folder, "certain.txt")
+        of_run = {"output": image, "bounds": ["--bounds"], "digits": ["--digits", digits],
+                  "certify": ["--certify", report]}
+        notes = draw(argparse.Namespace(**{**vars(options), **of_run}))
+        with open(image, "rb") as file:
+            return notes, Certainty(report), file.read()
+
+
+def told(pixel_count, count, pixels):
+    """What a user reads; `pixels` are those uncertain, or the first of them."""
+    text = f"{pixel_count - count:,} of {pixel_count:,} pixels are what exact arithmetic shows"
+    if count == 0:
+        return text
+    listed = [f"{column},{row}" for row, column in pixels[:MOST_LISTED]]
+    more = f" and {count - len(listed):,} more" if count > len(listed) else ""
+    return text + "\n" + textwrap.fill(
+        "undecided with all digits, and drawn by the rules for ties (column,row): " + " ".join(listed) + more,
+        110)

@@ -1,0 +1,178 @@
+#!/usr/bin/env python3
+"""After `picture --certain`, every pixel shows the triangle that exact arithmetic shows, but for those that it
+lists; pixels that a run has called certain stay as this run drew them.
+
+usage: certain_picture_test.py BIN_DIR SCENES [FIRST]
+"""
+import os
+import pathlib
+import random
+import re
+import subprocess
+import tempfile
+import unittest
+
+import certain_test
+import exact_picture
+from certain_test import BIN, FIRST, SCENES
+from lib.showing.pictures import png_rows, read_picture
+from picture_parts.certain import DIGITS, MOST_LISTED
+
+PICTURE = pathlib.Path(__file__).resolve().parents[2] / "scripts/picture"
+CAMERA = ["0 0 5", "0 0 0", "0 1 0", "ortho -1 1 -1 1 1 9"]
+CONFIG = "8 8\n-1\n-1\n-1 1\n"
+NUMBERED = """#!/bin/sh
+number=$(($(cat number) + 1)); echo $number > number
+exec '%s/zbuf' --background 00000$number "$@"
+"""
+
+
+def triangle(*points):
+    return "\n".join(["triangle", *points])
+
+
+CENTERED = triangle("-.625 -.625 0", ".625 -.625 0", ".125 .875 0")  # all corners are centers
+
+
+def colored(lines):
+    """The scene, each triangle in a color of its own."""
+    numbers = iter(range(1, len(lines)))
+    return "\n".join(f"color {next(numbers)} 255 0\n{line}" if line.startswith("triangle") else line
+                     for line in [*lines, "end\n"])
+
+
+def scene(rng):
+    """Half of them have layers that so many decimals confuse."""
+    kind = rng.choice((7, 7, 9, 12, None, None, None, None))
+    return colored(certain_test.opposed(rng, kind) if kind else certain_test.scene(rng))
+
+
+class CertainPictures(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+
+    def picture(self, *words, folder=BIN):
+        return subprocess.run([PICTURE, *words], capture_output=True, text=True,
+                              env={**os.environ, "BIN": str(folder)})
+
+    def certain(self, text, config, output="out.ppm", **settings):
+        """The picture's rows of colors, the pixels listed, and whether there are more."""
+        pathlib.Path("scene.txt").write_text(text)
+        pathlib.Path("config.txt").write_text(config)
+        done = self.picture("scene.txt", "config.txt", "--certain", "-o", output, **settings)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told, _, pixels = done.stdout.partition("\n")
+        count, total = re.fullmatch("([0-9,]+) of ([0-9,]+) pixels are what exact arithmetic shows",
+                                    told).groups()
+        listed, _, more = pixels.partition(" and ")[2].partition(":")[2].partition("and")
+        listed = [tuple(map(int, pixel.split(","))) for pixel in listed.split()]
+        self.assertIn(len(listed), [MOST_LISTED] if more else range(MOST_LISTED + 1))
+        numbers = [int(number.replace(",", "")) for number in (total, count, more.split()[0] if more else "0")]
+        self.assertEqual(numbers[0], numbers[1] + numbers[2] + len(listed))
+        return self.colors(output.removeprefix("png:")), {(row, column) for column, row in listed}, bool(more)
+
+    def colors(self, path):
+        _, _, rows = read_picture(path)
+        return [[tuple(row[i:i + 3]) for i in range(0, len(row), 3)] for row in rows]
+
+    def drawn(self, *digits, background="000000"):
+        """The colors of a run of the pipe, and the pixels that it calls uncertain."""
+        text, digits = pathlib.Path("scene.txt").read_bytes(), ["--digits", *digits]
+        for words in (["model", "--bounds", *digits], ["view", *digits], ["project", *digits],
+                      ["zbuf", "config.txt", "--coverage", "center", "--image", "run.ppm", "--certify", "-",
+                       "--background", background]):
+            text = certain_test.run(*words, stdin=text)
+        return self.colors("run.ppm"), {tuple(map(int, line.split())) for line in text.splitlines()[2:]}
+
+    def test_no_pixel_is_wrong_but_those_listed(self):
+        wrong_by_default = undecided = 0
+        for seed in range(FIRST, FIRST + SCENES):
+            rng = random.Random(seed)
+            text, config = scene(rng), rng.choice(certain_test.CONFIGS)
+            true = exact_picture.Exact(text.encode(), "auto").picture(config)
+            found, listed, has_more = self.certain(text, config.decode())
+            by_default, _ = self.drawn("7")
+            undecided += len(listed)
+            for row, numbers in enumerate(true):
+                for column, number in enumerate(numbers):
+                    color = (0, 0, 0) if number is None else (number + 1, 255, 0) if number != "tie" else None
+                    wrong_by_default += by_default[row][column] != color
+                    if (row, column) not in listed and not (has_more and (row, column) > max(listed)):
+                        self.assertEqual(found[row][column], color, f"seed {seed}: {row} {column}")
+        print(f"{wrong_by_default} pixels of {SCENES} pictures wrong by default, {undecided} undecided")
+        self.assertGreater(wrong_by_default, SCENES)
+
+    def test_a_certain_pixel_stays_as_it_was_drawn(self):
+        """Each run has a background of its own, which shows where its pixels are."""
+        pathlib.Path("tools").mkdir()
+        for tool in ("model", "view", "project"):
+            os.symlink(BIN / tool, f"tools/{tool}")
+        pathlib.Path("tools/zbuf").write_text(NUMBERED % BIN)
+        pathlib.Path("tools/zbuf").chmod(0o755)
+        pathlib.Path("number").write_text("0")
+        text = colored([*CAMERA, CENTERED, *(
+            triangle(f"{x} {edge} -1", f"{x + 0.5} {edge} -1", f"{x} -1 -1") for x, edge in (
+                (-1, "-.87500001"), (-0.5, "-.8750000001"), (0, "-.8750000000001")))])
+        found, listed, _ = self.certain(text, CONFIG, folder="tools")
+        left, expected = {(row, column) for row in range(8) for column in range(8)}, {}
+        for number, digits in enumerate(DIGITS, 1):
+            colors, uncertain = self.drawn(digits, background=f"00000{number}")
+            expected.update({(row, column): colors[row][column] for row, column in left})
+            left &= uncertain
+        self.assertEqual(listed, left)
+        self.assertEqual({(row, column): found[row][column] for row in range(8) for column in range(8)},
+                         expected)
+        self.assertEqual({color for color in expected.values() if color[0] == 0},
+                         {(0, 0, number) for number in range(1, len(DIGITS) + 1)})
+
+    def test_what_stays_undecided_is_listed(self):
+        """The centers on a left edge are covered, those on a right or a lower one are not."""
+        pathlib.Path("scene.txt").write_text(colored([*CAMERA, CENTERED]))
+        pathlib.Path("config.txt").write_text(CONFIG)
+        done = self.picture("scene.txt", "config.txt", "--certain", "-o", "out.ppm")
+        self.assertEqual((done.stdout, done.stderr), (
+            "54 of 64 pixels are what exact arithmetic shows\nundecided with all digits, and drawn by the rules "
+            "for ties (column,row): 4,0 3,2 5,3 2,4 1,6 2,6 3,6 4,6 5,6\n6,6\n", ""))
+        drawn = self.colors("out.ppm")
+        self.assertEqual([drawn[6][column][1] > 0 for column in range(1, 7)], [False] * 6)
+        self.assertEqual((drawn[4][2][1], drawn[3][5][1]), (255, 0))
+
+    def test_all_formats_have_the_same_pixels(self):
+        text = colored([*CAMERA, "background 9 8 7", CENTERED, 
+                        triangle("-1 -1 0", ".125 -1 0", "0.12500000001 1 -1")])
+        pictures = [self.certain(text, CONFIG.replace("8 8", "9 8"), name)[0]
+                    for name in ("out.ppm", "out.bmp", "out.png", "png:out.file")]
+        self.assertEqual(pictures[1:], pictures[:1] * 3)
+        self.assertEqual(self.picture("scene.txt", "config.txt", "--certain", "-o", "clear.png",
+                                      "--background", "01020300").returncode, 0)
+        _, _, rows = png_rows(pathlib.Path("clear.png").read_bytes())
+        clear = [[(9, 8, 7) if row[i + 3] == 0 else tuple(row[i:i + 3]) for i in range(0, len(row), 4)]
+                 for row in rows]
+        self.assertEqual(clear, pictures[0])
+        done = subprocess.run(f"{PICTURE} - config.txt --certain < scene.txt > piped.png", shell=True,
+                              capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
+        self.assertEqual((done.stdout, done.stderr.count("exact arithmetic")), ("", 1))
+        self.assertEqual(self.colors("piped.png"), pictures[0])
+
+    def test_what_has_no_certain_pixels_is_refused_with_the_reason(self):
+        pathlib.Path("scene.txt").write_text(colored([*CAMERA, CENTERED, "sphere 0 0 0 1"]))
+        for words, status, reason in (
+                (["-o", "a.png"], 1, "picture: model: scene.txt:"),
+                (["-o", "a.png", "--samples", "3"], 2, "--samples 3 does not go with --certain: a mean of"),
+                (["-o", "a.png", "--trace"], 2, "--trace does not go with --certain: zbuf tells which"),
+                (["-o", "a.png", "--stages", "."], 2, "--stages does not go with --certain: the stages"),
+                (["-o", "a.gif"], 2, "-o a.gif does not go with --certain: it takes a .png, .bmp"),
+                (["-o", "no/a.png"], 1, "picture: cannot open no/a.png: No such file or directory"),
+                (["-o", "a.png", "--size", "9x9"], 2, "expected no --size with CONFIG, found 9x9")):
+            config = ["config.txt"] * ("--size" in words)
+            done = self.picture("scene.txt", *config, "--certain", *words)
+            self.assertEqual((done.returncode, done.stdout), (status, ""), words)
+            self.assertIn(reason, done.stderr)
+        self.assertEqual(os.listdir(), ["scene.txt"])
+
+
+if __name__ == "__main__":
+    unittest.main()
