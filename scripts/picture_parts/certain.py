@@ -9,9 +9,9 @@ import textwrap
 
 from lib.rim.command import CommandFailure
 from lib.rim.output_file import expect_writable, write_file
-from lib.showing.pictures import with_pixels_of
+from lib.showing.pictures import blended, size_of, with_pixels_of
 
-DIGITS = "7", "9", "12", "exact"  # the default's first
+DIGITS = "7", "12", "exact"  # the default's first; 9 would cost as much as 12 and decide less
 MOST_LISTED = 100
 FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)$")
 
@@ -29,16 +29,21 @@ def refuse(parser, options):
 
 
 class Certainty:
-    """What zbuf --certify tells: how many pixels there are, how many of them are uncertain, and which, as
-    pairs of row and column; None if the list breaks off."""
+    """What zbuf --certify tells: how many pixels there are, how many of them are uncertain, and which, as a
+    mask with the byte 255 for each, else 0; None if its list breaks off."""
 
-    def __init__(self, path):
+    def __init__(self, path, width):
         with open(path) as file:
-            certain, self.uncertain_count, *pixels = (line.split() for line in file)
-        self.uncertain_count = int(self.uncertain_count[1])
-        self.pixel_count = int(certain[1]) + self.uncertain_count
-        self.first = [(int(row), int(column)) for row, column in pixels]
-        self.uncertain = set(self.first) if len(pixels) == self.uncertain_count else None
+            _, certain, _, uncertain, *places = file.read().split()
+        self.uncertain_count = int(uncertain)
+        self.pixel_count = int(certain) + self.uncertain_count
+        self.first = [row * width + column
+                      for row, column in zip(map(int, places[::2]), map(int, places[1::2]))]
+        self.mask = None
+        if len(self.first) == self.uncertain_count:
+            self.mask = bytearray(self.pixel_count)
+            for place in self.first:
+                self.mask[place] = 255
 
 
 def draw_for_certain(options, draw):
@@ -47,17 +52,20 @@ def draw_for_certain(options, draw):
     is_stream = options.image == "-"
     if not is_stream:
         expect_writable(options.image)
-    picture = left = None  # left: which pixels are not certain yet, None for all
+    picture = left = None  # left: the mask of the pixels that are not certain yet, None for all
     for digits in DIGITS:
         notes, certainty, drawn = run(options, draw, digits)
         picture = drawn if left is None else with_pixels_of(picture, drawn, left)
-        if certainty.uncertain is not None:
-            left = certainty.uncertain if left is None else left & certainty.uncertain
-        if left is not None and not left:
+        if left is None:
+            left = certainty.mask
+        elif certainty.mask is not None:
+            left = blended(bytes(len(left)), certainty.mask, left)
+        if left is not None and not any(left):
             break
     write_file("/dev/stdout" if is_stream else options.image, picture)
-    count = certainty.uncertain_count if left is None else len(left)
-    print(told(certainty.pixel_count, count, sorted(left or certainty.first)),
+    places = certainty.first if left is None else [place for place, byte in enumerate(left) if byte]
+    count = certainty.uncertain_count if left is None else len(places)
+    print(told(certainty.pixel_count, count, places, size_of(picture)[0]),
           file=sys.stderr if is_stream else sys.stdout)
     return notes
 
@@ -71,15 +79,16 @@ def run(options, draw, digits):
                   "certify": ["--certify", report]}
         notes = draw(argparse.Namespace(**{**vars(options), **of_run}))
         with open(image, "rb") as file:
-            return notes, Certainty(report), file.read()
+            picture = file.read()
+        return notes, Certainty(report, size_of(picture)[0]), picture
 
 
-def told(pixel_count, count, pixels):
-    """What a user reads; `pixels` are those uncertain, or the first of them."""
+def told(pixel_count, count, places, width):
+    """What a user reads; `places` are those of the uncertain pixels, or the first of them."""
     text = f"{pixel_count - count:,} of {pixel_count:,} pixels are what exact arithmetic shows"
     if count == 0:
         return text
-    listed = [f"{column},{row}" for row, column in pixels[:MOST_LISTED]]
+    listed = [f"{place % width},{place // width}" for place in places[:MOST_LISTED]]
     more = f" and {count - len(listed):,} more" if count > len(listed) else ""
     return text + "\n" + textwrap.fill(
         "undecided with all digits, and drawn by the rules for ties (column,row): " + " ".join(listed) + more,

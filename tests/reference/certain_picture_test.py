@@ -15,7 +15,7 @@ import unittest
 import certain_test
 import exact_picture
 from certain_test import BIN, FIRST, SCENES
-from lib.showing.pictures import png_rows, read_picture
+from lib.showing.pictures import picture_of, read_picture
 from picture_parts.certain import DIGITS, MOST_LISTED
 
 PICTURE = pathlib.Path(__file__).resolve().parents[2] / "scripts/picture"
@@ -75,7 +75,9 @@ class CertainPictures(unittest.TestCase):
         return self.colors(output.removeprefix("png:")), {(row, column) for column, row in listed}, bool(more)
 
     def colors(self, path):
-        _, _, rows = read_picture(path)
+        return self.colors_of(read_picture(path)[2])
+
+    def colors_of(self, rows):
         return [[tuple(row[i:i + 3]) for i in range(0, len(row), 3)] for row in rows]
 
     def drawn(self, *digits, background="000000"):
@@ -147,11 +149,11 @@ class CertainPictures(unittest.TestCase):
                     for name in ("out.ppm", "out.bmp", "out.png", "png:out.file")]
         self.assertEqual(pictures[1:], pictures[:1] * 3)
         self.assertEqual(self.picture("scene.txt", "config.txt", "--certain", "-o", "clear.png",
-                                      "--background", "01020300").returncode, 0)
-        _, _, rows = png_rows(pathlib.Path("clear.png").read_bytes())
-        clear = [[(9, 8, 7) if row[i + 3] == 0 else tuple(row[i:i + 3]) for i in range(0, len(row), 4)]
-                 for row in rows]
-        self.assertEqual(clear, pictures[0])
+                                      "--background", "00000000").returncode, 0)
+        for behind in (b"\t\b\a", b"abc"):  # the first is the scene's background
+            _, _, rows = picture_of(pathlib.Path("clear.png").read_bytes(), "clear.png", behind)
+            self.assertEqual(self.colors_of(rows), [[color if color != (9, 8, 7) else tuple(behind)
+                                                     for color in row] for row in pictures[0]])
         done = subprocess.run(f"{PICTURE} - config.txt --certain < scene.txt > piped.png", shell=True,
                               capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual((done.stdout, done.stderr.count("exact arithmetic")), ("", 1))

@@ -131,8 +131,8 @@ def laid_over(row, behind):
     return bytes(out)
 
 
-def png_rows(data, size=None, takes_alpha=True):
-    """Width, height and rows of a PNG, with alpha if it has one."""
+def png_lines(data, size=None, takes_alpha=True):
+    """Width, height, the bytes of a pixel, and the rows of a PNG, each with its filter before it."""
     if data[12:16] != b"IHDR":
         raise PictureError("expected a PNG with a header, found none")
     width, height, *form = struct.unpack_from(">IIBBBBB", data, 16)
@@ -150,18 +150,18 @@ def png_rows(data, size=None, takes_alpha=True):
         if kind == b"IDAT" and len(pixels) < stride * height:  # the stream may hold more than the header says
             pixels += stream.decompress(body, stride * height - len(pixels))
     expect_bytes(width, height, stride, len(pixels) - 1, channels)
-    rows, above = [], bytes(channels * width)
-    for begin in range(0, stride * height, stride):
-        above = unfiltered(pixels[begin], bytes(pixels[begin + 1:begin + stride]), above, channels)
-        rows.append(above)
-    return width, height, rows
+    begins = range(0, stride * height, stride)
+    return width, height, channels, [bytes(pixels[begin:begin + stride]) for begin in begins]
 
 
 def read_png(data, size, behind):
     """A PNG with alpha is laid over the color `behind`; without one it is refused."""
-    width, height, rows = png_rows(data, size, behind is not None)
-    has_alpha = len(rows[0]) == 4 * width
-    return width, height, [laid_over(row, behind) for row in rows] if has_alpha else rows
+    width, height, channels, lines = png_lines(data, size, behind is not None)
+    rows, above = [], bytes(channels * width)
+    for line in lines:
+        above = unfiltered(line[0], line[1:], above, channels)
+        rows.append(laid_over(above, behind) if channels == 4 else above)
+    return width, height, rows
 
 
 READERS = {b"BM": read_bmp, b"P6": read_ppm, b"\x89P": read_png}
@@ -195,29 +195,50 @@ def png_chunk(kind, body):
 
 
 def png(width, height, rows):
-    """The bytes of a PNG, whose rows may have alpha."""
-    header = struct.pack(">IIBBBBB", width, height, 8, 6 if len(rows[0]) == 4 * width else 2, 0, 0, 0)
-    pixels = zlib.compress(b"".join(b"\0" + row for row in rows), 9)
+    """The bytes of a PNG."""
+    return png_of_lines(width, height, 3, [b"\0" + row for row in rows])
+
+
+def png_of_lines(width, height, channels, lines, level=9):
+    """The same of rows with their filters."""
+    header = struct.pack(">IIBBBBB", width, height, 8, 6 if channels == 4 else 2, 0, 0, 0)
+    pixels = zlib.compress(b"".join(lines), level)
     return b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(
         b"IEND", b"")
 
 
-def with_pixels_of(picture, other, pixels):
-    """A picture file as zbuf writes it, with these pixels, pairs of row and column, of another one like it."""
-    if picture[:2] == b"\x89P":
-        (width, height, rows), (_, _, others) = png_rows(picture), png_rows(other)
-        rows, size = list(map(bytearray, rows)), len(rows[0]) // width
-        for row, column in pixels:
-            place = slice(size * column, size * (column + 1))
-            rows[row][place] = others[row][place]
-        return png(width, height, rows)
-    width, height, _ = picture_of(picture, "the picture")
+def size_of(picture):
+    """Width and height of a picture file as zbuf writes it."""
+    if picture[:2] == b"P6":
+        return tuple(map(int, PPM_HEADER.match(picture[:MAX_PPM_HEADER]).groups()[:2]))
+    return struct.unpack_from(*((">II", picture, 16) if picture[:2] == b"\x89P" else ("<ii", picture, 18)))
+
+
+def blended(row, other, mask):
+    """The pixels of a row, but those of another one where `mask` has the byte 255, not 0, for a pixel."""
+    size, wide = len(row) // len(mask), bytearray(len(row))
+    for channel in range(size):
+        wide[channel::size] = mask
+    a, b, m = (int.from_bytes(part, "big") for part in (row, other, wide))
+    return (a ^ (a ^ b) & m).to_bytes(len(row), "big")
+
+
+def with_pixels_of(picture, other, mask):
+    """A picture file as zbuf writes it, blended with another one like it."""
+    width, height = size_of(picture)
+    masks = {row: part for row in range(height) if any(part := mask[row * width:(row + 1) * width])}
+    if picture[:2] == b"\x89P":  # no filter of zbuf's looks at the row above, so other rows stay as they are
+        (*_, size, lines), (*_, others) = png_lines(picture), png_lines(other)
+        for row, part in masks.items():
+            pixels = (unfiltered(line[0], line[1:], None, size) for line in (lines[row], others[row]))
+            lines[row] = b"\0" + blended(*pixels, part)
+        return png_of_lines(width, height, size, lines, level=4)  # as zbuf does
     stride, first = 3 * width, len(picture) - 3 * width * height
     if picture[:2] == b"BM":  # rows from the bottom
         stride = -((3 * width + 3) // 4 * 4)
         first = len(picture) + stride
-    picture = bytearray(picture)
-    for row, column in pixels:
-        place = slice(first + row * stride + 3 * column, first + row * stride + 3 * column + 3)
-        picture[place] = other[place]
-    return bytes(picture)
+    whole = bytearray(picture)
+    for row, part in masks.items():
+        place = slice(first + row * stride, first + row * stride + 3 * width)
+        whole[place] = blended(picture[place], other[place], part)
+    return bytes(whole)
