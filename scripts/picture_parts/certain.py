@@ -7,8 +7,8 @@ import sys
 import tempfile
 import textwrap
 
-from lib.rim.command import CommandFailure
 from lib.rim.output_file import expect_writable, write_file
+from lib.running.pipe_tools import ToolFailure
 from lib.showing.pictures import blended, size_of, with_pixels_of
 
 DIGITS = "7", "12", "exact"  # the default's first; 9 would cost as much as 12 and decide less
@@ -54,7 +54,14 @@ def draw_for_certain(options, draw):
         expect_writable(options.image)
     picture = left = None  # left: the mask of the pixels that are not certain yet, None for all
     for digits in DIGITS:
-        notes, certainty, drawn = run(options, draw, digits)
+        try:
+            notes, certainty, drawn = run(options, draw, digits)
+        except ToolFailure as failure:
+            if picture is None:
+                raise
+            notes.append(f"picture: note: no more digits than {most}: {failure}")
+            break
+        most = "all" if digits == DIGITS[-1] else digits
         picture = drawn if left is None else with_pixels_of(picture, drawn, left)
         if left is None:
             left = certainty.mask
@@ -65,7 +72,7 @@ def draw_for_certain(options, draw):
     write_file("/dev/stdout" if is_stream else options.image, picture)
     places = certainty.first if left is None else [place for place, byte in enumerate(left) if byte]
     count = certainty.uncertain_count if left is None else len(places)
-    print(told(certainty.pixel_count, count, places, size_of(picture)[0]),
+    print(told(certainty.pixel_count, count, places, size_of(picture)[0], most),
           file=sys.stderr if is_stream else sys.stdout)
     return notes
 
@@ -83,13 +90,13 @@ def run(options, draw, digits):
         return notes, Certainty(report, size_of(picture)[0]), picture
 
 
-def told(pixel_count, count, places, width):
-    """What a user reads; `places` are those of the uncertain pixels, or the first of them."""
+def told(pixel_count, count, places, width, digits):
+    """What a user reads; `places` are those of the pixels uncertain with `digits`, or the first of them."""
     text = f"{pixel_count - count:,} of {pixel_count:,} pixels are what exact arithmetic shows"
     if count == 0:
         return text
     listed = [f"{place % width},{place // width}" for place in places[:MOST_LISTED]]
     more = f" and {count - len(listed):,} more" if count > len(listed) else ""
     return text + "\n" + textwrap.fill(
-        "undecided with all digits, and drawn by the rules for ties (column,row): " + " ".join(listed) + more,
-        110)
+        f"undecided with {digits} digits, and drawn by the rules for ties (column,row): " + " ".join(listed) +
+        more, 110)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""After `picture --certain`, every pixel shows the triangle that exact arithmetic shows, but for those that it
-lists; pixels that a run has called certain stay as this run drew them.
+"""After `picture --certain`, every pixel shows the triangle that exact arithmetic shows, but for those that
+it lists; pixels that a run has called certain stay as this run drew them.
 
 usage: certain_picture_test.py BIN_DIR SCENES [FIRST]
 """
@@ -9,16 +9,22 @@ import pathlib
 import random
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(SOURCE / "scripts/measure"))
 
 import certain_test
 import exact_picture
 from certain_test import BIN, FIRST, SCENES
 from lib.showing.pictures import picture_of, read_picture
+from parts.extremes_scenes import SIZE, Case, scene_text
+from parts.extremes_truth import true_owners, true_vertices
 from picture_parts.certain import DIGITS, MOST_LISTED
 
-PICTURE = pathlib.Path(__file__).resolve().parents[2] / "scripts/picture"
+PICTURE = SOURCE / "scripts/picture"
 CAMERA = ["0 0 5", "0 0 0", "0 1 0", "ortho -1 1 -1 1 1 9"]
 CONFIG = "8 8\n-1\n-1\n-1 1\n"
 NUMBERED = """#!/bin/sh
@@ -36,9 +42,14 @@ CENTERED = triangle("-.625 -.625 0", ".625 -.625 0", ".125 .875 0")  # all corne
 
 def colored(lines):
     """The scene, each triangle in a color of its own."""
-    numbers = iter(range(1, len(lines)))
-    return "\n".join(f"color {next(numbers)} 255 0\n{line}" if line.startswith("triangle") else line
-                     for line in [*lines, "end\n"])
+    numbers = iter(range(len(lines)))
+    return "\n".join("color %d %d %d\n%s" % (*color_of(next(numbers)), line)
+                     if line.startswith("triangle") else line for line in [*lines, "end\n"])
+
+
+def color_of(number):
+    """That of a triangle, or None of none."""
+    return (0, 0, 0) if number is None else (number % 256, 255 - number // 256, 0)
 
 
 def scene(rng):
@@ -70,7 +81,7 @@ class CertainPictures(unittest.TestCase):
         listed, _, more = pixels.partition(" and ")[2].partition(":")[2].partition("and")
         listed = [tuple(map(int, pixel.split(","))) for pixel in listed.split()]
         self.assertIn(len(listed), [MOST_LISTED] if more else range(MOST_LISTED + 1))
-        numbers = [int(number.replace(",", "")) for number in (total, count, more.split()[0] if more else "0")]
+        numbers = [int(number.replace(",", "")) for number in (total, count, (more or "0").split()[0])]
         self.assertEqual(numbers[0], numbers[1] + numbers[2] + len(listed))
         return self.colors(output.removeprefix("png:")), {(row, column) for column, row in listed}, bool(more)
 
@@ -100,12 +111,26 @@ class CertainPictures(unittest.TestCase):
             undecided += len(listed)
             for row, numbers in enumerate(true):
                 for column, number in enumerate(numbers):
-                    color = (0, 0, 0) if number is None else (number + 1, 255, 0) if number != "tie" else None
+                    color = color_of(number) if number != exact_picture.TIE else None
                     wrong_by_default += by_default[row][column] != color
                     if (row, column) not in listed and not (has_more and (row, column) > max(listed)):
                         self.assertEqual(found[row][column], color, f"seed {seed}: {row} {column}")
         print(f"{wrong_by_default} pixels of {SCENES} pictures wrong by default, {undecided} undecided")
         self.assertGreater(wrong_by_default, SCENES)
+
+    def test_no_pixel_is_wrong_at_the_extremes(self):
+        """Those of docs/extremes.md; only far from the origin do all digits leave pixels undecided."""
+        for case in (Case("distance", 1e12), Case("depth", 1e12), Case("size", 1e-12),
+                     Case("angle", 179.999)):
+            text = scene_text(case)
+            marks = true_owners(true_vertices(text), SIZE)
+            found, listed, has_more = self.certain(colored(text.splitlines()[:-1]), f"{SIZE} {SIZE}\n")
+            self.assertEqual(bool(listed), case.axis == "distance")
+            self.assertFalse(has_more)
+            for place, mark in enumerate(marks):
+                row, column = divmod(place, SIZE)
+                if (row, column) not in listed:
+                    self.assertEqual(found[row][column], color_of(mark - 1 if mark else None), case)
 
     def test_a_certain_pixel_stays_as_it_was_drawn(self):
         """Each run has a background of its own, which shows where its pixels are."""
@@ -127,7 +152,7 @@ class CertainPictures(unittest.TestCase):
         self.assertEqual(listed, left)
         self.assertEqual({(row, column): found[row][column] for row in range(8) for column in range(8)},
                          expected)
-        self.assertEqual({color for color in expected.values() if color[0] == 0},
+        self.assertEqual({color for color in expected.values() if color[1] == 0},
                          {(0, 0, number) for number in range(1, len(DIGITS) + 1)})
 
     def test_what_stays_undecided_is_listed(self):
@@ -136,14 +161,28 @@ class CertainPictures(unittest.TestCase):
         pathlib.Path("config.txt").write_text(CONFIG)
         done = self.picture("scene.txt", "config.txt", "--certain", "-o", "out.ppm")
         self.assertEqual((done.stdout, done.stderr), (
-            "54 of 64 pixels are what exact arithmetic shows\nundecided with all digits, and drawn by the rules "
-            "for ties (column,row): 4,0 3,2 5,3 2,4 1,6 2,6 3,6 4,6 5,6\n6,6\n", ""))
+            "54 of 64 pixels are what exact arithmetic shows\nundecided with all digits, and drawn by the "
+            "rules for ties (column,row): 4,0 3,2 5,3 2,4 1,6 2,6 3,6 4,6 5,6\n6,6\n", ""))
         drawn = self.colors("out.ppm")
         self.assertEqual([drawn[6][column][1] > 0 for column in range(1, 7)], [False] * 6)
         self.assertEqual((drawn[4][2][1], drawn[3][5][1]), (255, 0))
 
+    def test_many_undecided_are_counted(self):
+        """More than zbuf lists: everywhere are two triangles."""
+        found, listed, _ = self.certain(colored([*CAMERA, *[triangle("-9 -9 0", "9 -9 0", "0 9 0")] * 2]),
+                                        "400 300\n-1\n-1\n-1 1\n")
+        self.assertEqual((listed, set(sum(found, []))), (
+            {(0, column) for column in range(MOST_LISTED)}, {color_of(0)}))
+
+    def test_where_more_digits_are_refused_fewer_have_the_say(self):
+        pathlib.Path("scene.txt").write_text(scene_text(Case("angle", 1e-9)))
+        done = self.picture("scene.txt", "--size", f"{SIZE}x{SIZE}", "--certain", "-o", "out.ppm")
+        self.assertRegex(done.stdout, "^[0-9,]+ of 9,216 .*\nundecided with 12 digits, and drawn by ")
+        self.assertRegex(done.stderr, "picture: note: no more digits than 12: view: <stdin>:96:1: expected a "
+                         "vertex within bounds, found numbers that cancel beyond 31 digits, or overflow\n$")
+
     def test_all_formats_have_the_same_pixels(self):
-        text = colored([*CAMERA, "background 9 8 7", CENTERED, 
+        text = colored([*CAMERA, "background 9 8 7", CENTERED,
                         triangle("-1 -1 0", ".125 -1 0", "0.12500000001 1 -1")])
         pictures = [self.certain(text, CONFIG.replace("8 8", "9 8"), name)[0]
                     for name in ("out.ppm", "out.bmp", "out.png", "png:out.file")]
