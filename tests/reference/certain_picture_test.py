@@ -193,8 +193,9 @@ class CertainPictures(unittest.TestCase):
             _, _, rows = picture_of(pathlib.Path("clear.png").read_bytes(), "clear.png", behind)
             self.assertEqual(self.colors_of(rows), [[color if color != (9, 8, 7) else tuple(behind)
                                                      for color in row] for row in pictures[0]])
-        done = subprocess.run(f"{PICTURE} - config.txt --certain < scene.txt > piped.png", shell=True,
-                              capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
+        done = subprocess.run(f"{PICTURE} - <(cat config.txt) --certain < scene.txt > piped.png",
+                              shell=True, executable="bash", capture_output=True, text=True,
+                              env={**os.environ, "BIN": str(BIN)})
         self.assertEqual((done.stdout, done.stderr.count("exact arithmetic")), ("", 1))
         self.assertEqual(self.colors("piped.png"), pictures[0])
 
