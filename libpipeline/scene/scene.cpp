@@ -56,7 +56,7 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const std::string_view text = text_.buffered();
   if (!text.starts_with("triangle\n")) return 0;
-  std::array<DecimalMarks, 8> marks;
+  std::array<DecimalMarks, 24> marks;
   const FixedTextPart part =
       vertex_line_.read_triangles(text, TriangleFrame::scene, limit, marks, p_model, attributes);
   const bool has_current_color = appearance_.columns().color && !vertex_line_.attributes().color;

@@ -37,17 +37,53 @@ const char* read_line(const char* p, const FixedColumns& columns, std::size_t tr
   return has_material ? read_material(p, vertex, columns.materials[triangle]) : p;
 }
 
+/// Vertex lines that were read, without w and material, for the triangles that share them: of those with the
+/// same hash, the last.
+class LinesRead {
+ public:
+  /// Reads the line at `p`, or copies the numbers of the same text.
+  const char* read(const char* p, const FixedColumns& columns, std::size_t triangle, std::size_t vertex,
+                   std::span<DecimalMarks> marks) {
+    constexpr std::uint64_t kMixer = 0x9e3779b97f4a7c15;
+    Line& line = lines_[((load_eight(p) * kMixer) ^ load_eight(p + 8)) * kMixer >> 58];
+    if (line.length == 0 || std::memcmp(p, line.text, line.length) != 0) {
+      const char* const end = read_line(p, columns, triangle, vertex, marks[triangle]);
+      if (end != nullptr) line = {p, static_cast<std::size_t>(end - p), triangle, vertex};
+      return end;
+    }
+    for (std::size_t group = 0; group < columns.group_count(); ++group)
+      columns.groups[group][triangle][vertex] = columns.groups[group][line.triangle][line.vertex];
+    const unsigned marks_of_line = marks[line.triangle] >> (3 * line.vertex) & 7u;
+    marks[triangle] = static_cast<DecimalMarks>(marks[triangle] | marks_of_line << (3 * vertex));
+    return p + line.length;
+  }
+
+ private:
+  struct Line {
+    const char* text;
+    std::size_t length = 0;  // 0: none yet
+    std::size_t triangle, vertex;
+  };
+  std::array<Line, 64> lines_;
+};
+
 /// Reads triangles number by number.
 FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
                               std::span<DecimalMarks> marks) {
   const char* const end = text.data() + text.size();
   const std::size_t limit = std::min(columns.triangle_count(), marks.size());
+  const bool are_shared = frame == TriangleFrame::scene && columns.w.empty() && columns.materials.empty();
+  LinesRead lines;
   FixedTextPart part;
   for (std::size_t i = 0; i < limit && part.length < text.size(); ++i) {
     const char* p = vertex_lines(text.data() + part.length, frame);
     marks[i] = 0;
     for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
-      p = p < end ? read_line(p, columns, i, vertex, marks[i]) : nullptr;
+      if (p >= end)
+        p = nullptr;
+      else
+        p = are_shared ? lines.read(p, columns, i, vertex, marks)
+                       : read_line(p, columns, i, vertex, marks[i]);
     if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
     ++part.triangle_count;
     part.length = static_cast<std::size_t>(p - text.data());

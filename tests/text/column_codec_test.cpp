@@ -109,6 +109,35 @@ TEST(ColumnCodec, ReadsAsTheGeneralReaderDoes) {
   EXPECT_GT(read_count, 19'900);
 }
 
+// Some of them begin alike, where lines are looked up by their first characters.
+TEST(ColumnCodec, ReadsLinesThatTrianglesShare) {
+  struct Line {
+    std::string text;
+    Vec3 position, normal;
+    unsigned marks;
+  };
+  const std::array<Line, 5> lines = {
+      {{"1.5 -2 0.123456789 0 1 0.5\n", {1.5, -2, 0.123456789}, {0, 1, 0.5}, 3},
+       {"1.5 -2 0.123456788 0 1 0.5\n", {1.5, -2, 0.123456788}, {0, 1, 0.5}, 3},
+       {"1.5 -2 0.123456788 0 1 0.25\n", {1.5, -2, 0.123456788}, {0, 1, 0.25}, 3},
+       {"1.5 -2 0.125 0 1 0.5\n", {1.5, -2, 0.125}, {0, 1, 0.5}, 7},
+       {"0.00000001 7 1.234567890123 0 0 -1\n", {0.00000001, 7, 1.234567890123}, {0, 0, -1}, 2}}};
+  RandomNumbers random(4);
+  std::string text;
+  std::vector<const Line*> chosen;
+  for (int i = 0; i < 300; ++i) {
+    chosen.push_back(&lines[static_cast<std::size_t>(random.whole(0, 4))]);
+    text += (i % 3 == 0 ? "triangle\n" : "") + chosen.back()->text;
+  }
+  Columns columns(2, false, 100);
+  ASSERT_EQ(read(text, columns, TriangleFrame::scene).triangle_count, 100u);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    ASSERT_EQ(columns.groups[0][i / 3][i % 3], chosen[i]->position) << i;
+    ASSERT_EQ(columns.groups[1][i / 3][i % 3], chosen[i]->normal) << i;
+    ASSERT_EQ(columns.marks[i / 3] >> 3 * (i % 3) & 7u, chosen[i]->marks) << i;
+  }
+}
+
 const std::string kLine = "1.5 -2 0.123456789 0.25 255 0 9.5\n";
 
 TEST(ColumnCodec, ReadsWholeTrianglesAlone) {
