@@ -145,6 +145,24 @@ char* print_shortest(char* out, double value) {
   return std::to_chars(out, out + kMaxNumberLength, value == 0 ? 0.0 : value).ptr;
 }
 
+char* print_shortest_float(char* out, float value) {
+  const double size = std::fabs(value);
+  if (size >= 0x1p-9 && size < 0x1p12) {
+    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52;
+    const double half_gap = std::bit_cast<double>(exponent << 52) * 0x1p-24;
+    // Decimals with so many digits after the point are farther apart than floats: at most one is near enough,
+    // and no shorter one. With two digits more they are closer. The products are exact, and no decimal lies
+    // on the border.
+    const std::size_t fewest = 9 - (exponent - 1023 + 9) / 3;
+    for (std::size_t decimals = fewest; decimals <= fewest + 2; ++decimals) {
+      const double scale = kPowersOfTen[decimals], units = nearest_whole(size * scale);
+      if (std::fabs(units - size * scale) < half_gap * scale)
+        return print_shortest(out, std::copysign(units / scale, value));
+    }
+  }
+  return std::to_chars(out, out + kMaxFloatLength, value == 0 ? 0.0F : value).ptr;
+}
+
 char* print_number(char* out, double hi, double lo, NumberFormat format) {
   assert(std::isfinite(hi) && std::isfinite(lo));
   if (format.shortest) return print_shortest(out, hi);

@@ -28,6 +28,10 @@ char* print_number(char* out, double hi, double lo, NumberFormat format);
 
 /// The same in the shortest form.
 char* print_shortest(char* out, double value);
+/// Prints the shortest text that reads back to the same float; 0 has no sign. `out` must have room for
+/// kMaxFloatLength characters.
+constexpr std::size_t kMaxFloatLength = 24;
+char* print_shortest_float(char* out, float value);
 
 /// Prints three numbers with a blank after each; `low_part` is the part that their doubles do not hold.
 inline char* print_three(char* out, const Vec3& numbers, const Vec3& low_part, NumberFormat format) {

@@ -198,5 +198,16 @@ TEST(PrintNumber, TheLocaleHasNoInfluence) {
   if (!is_set) GTEST_SKIP() << "no locale with a decimal comma is installed";
 }
 
+TEST(PrintShortestFloat, AgreesWithToChars) {
+  RandomNumbers random(6);
+  for (int i = 0; i < 600'000; ++i) {
+    const double wide = i % 2 == 0 ? random.with_exponent(-12, 14) : random.with_exponent(-140, 120);
+    const auto value = static_cast<float>(i % 3 == 0 ? std::nearbyint(wide * 1e6) / 1e6 : wide);
+    char text[kMaxFloatLength], expected[kMaxFloatLength];
+    char* const end = std::to_chars(expected, expected + sizeof expected, value == 0 ? 0.0F : value).ptr;
+    ASSERT_EQ(std::string(text, print_shortest_float(text, value)), std::string(expected, end));
+  }
+}
+
 }  // namespace
 }  // namespace pipeline

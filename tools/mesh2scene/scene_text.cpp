@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -19,20 +18,9 @@
 
 namespace pipeline {
 
-namespace {
-
-constexpr std::size_t kMaxFloatLength = 15;  // -1.17549435e-38
-
-/// Prints the shortest text that reads back to the same float; 0 has no sign.
-char* print_float(char* out, float value) {
-  return std::to_chars(out, out + kMaxFloatLength, value == 0 ? 0.0F : value).ptr;
-}
-
-}  // namespace
-
 std::string float_text(double value) {
   std::array<char, kMaxFloatLength> text{};
-  return {text.data(), print_float(text.data(), static_cast<float>(value))};
+  return {text.data(), print_shortest_float(text.data(), static_cast<float>(value))};
 }
 
 std::string text_of(const Vec3& v) {
@@ -84,7 +72,7 @@ class VertexLines {
   static void print(const VertexNumbers& vertex, Line& line) {
     char* p = line.text.data();
     for (std::size_t i = 0; i < vertex.count; ++i) {
-      p = print_float(p, vertex.numbers[i]);
+      p = print_shortest_float(p, vertex.numbers[i]);
       *p++ = ' ';
     }
     p[-1] = '\n';
