@@ -147,7 +147,8 @@ bool ImportedModel::has_coordinate_from(float least) const {
 }
 
 void ImportedModel::check_vertices() const {
-  for (const auto& [mesh, model_from_mesh] : meshes_) {
+  for (const PlacedMesh& placed : meshes_) {
+    const aiMesh* const mesh = placed.mesh;
     // A file that ends within a face may leave one with fewer corners.
     for (unsigned i = 0; i < mesh->mNumFaces; ++i)
       if (const aiFace& face = mesh->mFaces[i];
@@ -155,12 +156,10 @@ void ImportedModel::check_vertices() const {
           std::max({face.mIndices[0], face.mIndices[1], face.mIndices[2]}) >= mesh->mNumVertices)
         throw std::runtime_error(name() +
                                  ": expected triangles, found a face that is none: the file is broken");
-    const auto is_fine = [&matrix = model_from_mesh](const aiVector3D& v) {
-      return are_floats(matrix.point(vec(v)));
-    };
-    if (!std::all_of(mesh->mVertices, mesh->mVertices + mesh->mNumVertices, is_fine))
-      throw std::runtime_error(name() + ": expected finite coordinates, found others in mesh " +
-                               quoted(mesh->mName.C_Str()));
+    for (unsigned i = 0; i < mesh->mNumVertices; ++i)
+      if (!are_floats(placed.position(i)))
+        throw std::runtime_error(name() + ": expected finite coordinates, found others in mesh " +
+                                 quoted(mesh->mName.C_Str()));
   }
 }
 
@@ -260,13 +259,6 @@ std::uint64_t ImportedModel::triangle_count() const {
   std::uint64_t count = 0;
   for (const PlacedMesh& placed : meshes_) count += placed.mesh->mNumFaces;
   return count;
-}
-
-void ImportedModel::for_each_corner(const std::function<void(const Vec3&)>& visit) const {
-  for (const auto& [mesh, model_from_mesh] : meshes_)
-    for (unsigned i = 0; i < mesh->mNumFaces; ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        visit(model_from_mesh.point(vec(mesh->mVertices[mesh->mFaces[i].mIndices[k]])));
 }
 
 bool ImportedModel::has_vertex_colors() const {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <assimp/mesh.h>
+
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,6 @@
 #include "tools/mesh2scene/smooth_normals.h"
 
 struct aiMaterial;
-struct aiMesh;
 struct aiNode;
 struct aiScene;
 
@@ -42,8 +43,16 @@ NodeMatrix matrix_of(const aiNode& node);
 
 /// A mesh of triangles where it stands in the model.
 struct PlacedMesh {
-  const aiMesh* mesh = nullptr;
+  const aiMesh* mesh;
   NodeMatrix model_from_mesh;
+  bool is_in_place = model_from_mesh.is_identity();
+
+  /// Of a vertex, in the model's space.
+  [[nodiscard]] Vec3 position(unsigned index) const {
+    const aiVector3D& v = mesh->mVertices[index];
+    const Vec3 p = {v.x + 0.0, v.y + 0.0, v.z + 0.0};  // a zero without a sign, as the product's
+    return is_in_place ? p : model_from_mesh.point(p);
+  }
 };
 
 /// Angles in degrees, points and directions in the model's space.
@@ -82,7 +91,12 @@ class ImportedModel {
   /// The normals made for a mesh; null if it has its own.
   [[nodiscard]] const CornerNormals* made_normals(const aiMesh& mesh) const;
   /// Calls `visit` with every vertex of every triangle, in the model's space.
-  void for_each_corner(const std::function<void(const Vec3&)>& visit) const;
+  template <typename Visit>
+  void for_each_corner(const Visit& visit) const {
+    for (const PlacedMesh& placed : meshes_)
+      for (const aiFace& face : std::span(placed.mesh->mFaces, placed.mesh->mNumFaces))
+        for (const unsigned index : std::span(face.mIndices, 3)) visit(placed.position(index));
+  }
   [[nodiscard]] const std::optional<ModelCamera>& camera() const { return camera_; }
   [[nodiscard]] const std::vector<ModelLight>& lights() const { return lights_; }
   [[nodiscard]] Vec3 ambient() const { return ambient_; }

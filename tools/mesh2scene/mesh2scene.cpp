@@ -183,7 +183,8 @@ int main(int argc, char** argv) {
     const std::string name = path == "-" ? "<stdin>" : path;
     const std::string extension = extension_of(path);
     const ViewChoice view = view_of(chosen, extension);
-    const ImportedModel model = imported(path, name, chosen);
+    // Never destroyed: to free every face would keep the next stage waiting for the end of the scene.
+    static const ImportedModel& model = *new ImportedModel(imported(path, name, chosen));
     tool.timing().lap(&Timing::read_seconds);
     tool.timing().triangle_count = model.triangle_count();
     const bool has_own_view = model.camera() && !chooses_view(tool.options());

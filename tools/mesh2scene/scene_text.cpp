@@ -37,35 +37,39 @@ std::string float_text(const Vec3& v) {
 
 /// The content of a vertex's line.
 struct VertexNumbers {
-  std::array<float, 9> numbers{};  // position, perhaps a color, normal
+  std::array<float, 10> numbers{};  // position, perhaps a color, normal, which is never 0
   std::size_t count = 0;
 
   void add(const Vec3& v) {
     for (const double x : {v.x, v.y, v.z}) numbers[count++] = static_cast<float>(x);
   }
-  friend bool operator==(const VertexNumbers&, const VertexNumbers&) = default;
+  using Words = std::array<std::uint64_t, 5>;
+  [[nodiscard]] Words words() const { return std::bit_cast<Words>(numbers); }
 };
 
 /// The lines of vertices, kept for the triangles that share them: of lines with the same hash, the last.
 class VertexLines {
  public:
   [[nodiscard]] std::string_view line_of(const VertexNumbers& vertex) {
-    Line& line = lines_[hash(vertex) % kPlaces];
-    if (line.vertex != vertex) print(vertex, line);
+    const VertexNumbers::Words words = vertex.words();
+    Line& line = lines_[hash(words) % kPlaces];
+    if (line.words != words) {
+      line.words = words;
+      print(vertex, line);
+    }
     return {line.text.data(), line.length};
   }
 
  private:
   struct Line {
-    VertexNumbers vertex;
+    VertexNumbers::Words words{};
     std::size_t length = 0;
     std::array<char, 9 * (kMaxFloatLength + 1)> text;
   };
 
-  static std::size_t hash(const VertexNumbers& vertex) {
+  static std::size_t hash(const VertexNumbers::Words& words) {
     std::uint64_t mixed = 0;
-    for (std::size_t i = 0; i < vertex.count; ++i)
-      mixed = (mixed ^ std::bit_cast<std::uint32_t>(vertex.numbers[i])) * 0x9e3779b97f4a7c15;
+    for (const std::uint64_t word : words) mixed = ((mixed ^ word) + (mixed >> 32)) * 0x9e3779b97f4a7c15;
     return static_cast<std::size_t>(mixed >> 40);
   }
 
@@ -77,7 +81,6 @@ class VertexLines {
     }
     p[-1] = '\n';
     line.length = static_cast<std::size_t>(p - line.text.data());
-    line.vertex = vertex;
   }
 
   static constexpr std::size_t kPlaces = 8192;
@@ -235,15 +238,9 @@ class SceneWriter {
     if (material != material_in_force_) line("use " + std::to_string(material));
     material_in_force_ = material;
     placed_ = &placed;
-    is_identity_ = placed.model_from_mesh.is_identity();
     made_normals_ = model_.made_normals(mesh);
     color_ = color;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) write_triangle(i);
-  }
-
-  [[nodiscard]] Vec3 position(unsigned index) const {
-    const aiVector3D& p = placed_->mesh->mVertices[index];
-    return placed_->model_from_mesh.point({p.x, p.y, p.z});
   }
 
   /// The normal at a triangle's corner, from the file or made; the triangle's own if there is none of use.
@@ -258,14 +255,15 @@ class SceneWriter {
       const aiVector3D& n = mesh.mNormals[indices[corner]];
       in_mesh = {n.x, n.y, n.z};
     }
-    const Vec3 in_model = is_identity_ ? in_mesh : unit_vector(placed_->model_from_mesh.normal(in_mesh));
+    const Vec3 in_model =
+        placed_->is_in_place ? in_mesh : unit_vector(placed_->model_from_mesh.normal(in_mesh));
     return is_direction(in_model) ? in_model : face_normal(indices);
   }
 
   /// Any for a triangle without area, which is not seen.
   [[nodiscard]] Vec3 face_normal(const unsigned* indices) const {
-    const Vec3 n = unit_vector(
-        pipeline::face_normal({position(indices[0]), position(indices[1]), position(indices[2])}));
+    const Vec3 n = unit_vector(pipeline::face_normal(
+        {placed_->position(indices[0]), placed_->position(indices[1]), placed_->position(indices[2])}));
     return is_direction(n) ? n : setting_.camera.up;
   }
 
@@ -282,7 +280,7 @@ class SceneWriter {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const unsigned index = placed_->mesh->mFaces[face].mIndices[corner];
       VertexNumbers vertex;
-      vertex.add(position(index));
+      vertex.add(placed_->position(index));
       if (has_color_columns_) vertex.add(color_of(index));
       vertex.add(normal(face, corner));
       const std::string_view line = lines_.line_of(vertex);
@@ -306,7 +304,6 @@ class SceneWriter {
   std::size_t material_in_force_ = 0;
   // Of the mesh that is being written:
   const PlacedMesh* placed_ = nullptr;
-  bool is_identity_ = true;
   const CornerNormals* made_normals_ = nullptr;
   Vec3 color_;
   VertexLines lines_;
