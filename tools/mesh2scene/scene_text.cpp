@@ -77,9 +77,8 @@ class VertexLines {
     char* p = line.text.data();
     for (std::size_t i = 0; i < vertex.count; ++i) {
       p = print_shortest_float(p, vertex.numbers[i]);
-      *p++ = ' ';
+      *p++ = i + 1 < vertex.count ? ' ' : '\n';
     }
-    p[-1] = '\n';
     line.length = static_cast<std::size_t>(p - line.text.data());
   }
 

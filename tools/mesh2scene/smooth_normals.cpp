@@ -9,9 +9,10 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
-#include <utility>
+#include <thread>
 
 #include "libpipeline/numbers/vec_math.h"
+#include "libpipeline/stream/thread_pool.h"
 
 namespace pipeline {
 namespace {
@@ -108,11 +109,11 @@ constexpr std::size_t kMany = 256;
 
 class Smoothing {
  public:
-  Smoothing(const aiMesh& mesh, double crease_degrees)
+  Smoothing(const aiMesh& mesh, double crease_degrees, CornerNormals& normals)
       : mesh_(mesh),
         least_cosine_(cosine(crease_degrees)),
         half_way_cosine_(cosine(crease_degrees / 2)),
-        normals_(std::size_t{3} * mesh.mNumFaces) {}
+        normals_(normals) {}
 
   void smooth(std::span<const std::size_t> corners) {
     shares_.clear();
@@ -136,8 +137,6 @@ class Smoothing {
     }
   }
 
-  CornerNormals take() { return std::move(normals_); }
-
  private:
   static double cosine(double degrees) {
     // A little less, so that a crease of 0 smooths a plane.
@@ -158,7 +157,7 @@ class Smoothing {
 
   const aiMesh& mesh_;
   double least_cosine_, half_way_cosine_;
-  CornerNormals normals_;
+  CornerNormals& normals_;
   std::vector<Share> shares_;
 };
 
@@ -166,9 +165,20 @@ class Smoothing {
 
 CornerNormals smooth_normals(const aiMesh& mesh, double crease_degrees) {
   const CornersByPosition corners(mesh);
-  Smoothing smoothing(mesh, crease_degrees);
-  for (std::size_t i = 0; i < corners.count(); ++i) smoothing.smooth(corners[i]);
-  return smoothing.take();
+  CornerNormals normals(std::size_t{3} * mesh.mNumFaces);
+  constexpr std::size_t kAtOnce = 4096, kMostTasks = 64;
+  const std::size_t task_count = std::min(corners.count() / kAtOnce + 1, kMostTasks);
+  ThreadPool pool(task_count < 4 ? 1
+                                 : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)));
+  pool.start(static_cast<int>(task_count), [&](int task, int) {
+    Smoothing smoothing(mesh, crease_degrees, normals);
+    const auto begin_of = [&](int number) {
+      return corners.count() * static_cast<std::size_t>(number) / task_count;
+    };
+    for (std::size_t i = begin_of(task); i < begin_of(task + 1); ++i) smoothing.smooth(corners[i]);
+  });
+  pool.finish();
+  return normals;
 }
 
 }  // namespace pipeline
