@@ -62,9 +62,9 @@ class ClassTest(ToolTest):
                 BIN / "zbuf", "tests/square/config.txt", f"{where}/stage3.txt", "--z-buffer",
                 f"{where}/z_buffer.txt", "-o", f"{where}/out.bmp"], check=True)
 
-    def grade(self, *words, status=0):
-        done = subprocess.run([SOURCE / "scripts/grade", "hand-ins", "tests", *words], capture_output=True,
-                              text=True, timeout=120, env={**os.environ, "BIN": str(BIN)})
+    def grade(self, *words, status=0, folders=("hand-ins", "tests")):
+        done = subprocess.run([SOURCE / "scripts/grade", *folders, *words], capture_output=True, text=True,
+                              timeout=120, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual(done.returncode, status, done.stderr)
         self.assertNotIn("Traceback", done.stderr)
         return done
@@ -87,12 +87,10 @@ class Results(ClassTest):
     def test_swapped_folders_are_told(self):
         self.add("anna", files=("scene.txt", *FILES))  # one that has its scene, too
         self.add("ben")
-        done = subprocess.run([SOURCE / "scripts/grade", "tests", "hand-ins"], capture_output=True, text=True,
-                              timeout=120, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual(
-            (done.returncode, done.stderr),
-            (2, "grade: tests holds tests, folders with a scene.txt: expected the hand-ins first, "
-             "grade HANDINS TESTS\n"))
+            self.grade(status=2, folders=("tests", "hand-ins")).stderr,
+            "grade: tests holds tests, folders with a scene.txt: expected the hand-ins first, "
+            "grade HANDINS TESTS\n")
         self.assertFalse(pathlib.Path("graded").exists())
 
     def test_points_pages_and_table(self):
@@ -350,9 +348,8 @@ class Results(ClassTest):
             subprocess.run([SOURCE / "scripts/stages", scene, scene.parent / "config.txt",
                             f"hand-ins/anna/{scene.parent.name}"], check=True, stderr=subprocess.DEVNULL,
                            env={**os.environ, "BIN": str(BIN)})
-        done = subprocess.run([SOURCE / "scripts/grade", "hand-ins"], capture_output=True, text=True,
-                              timeout=120, env={**os.environ, "BIN": str(BIN)})
-        self.assertEqual((done.returncode, self.scores()), (0, {"anna": 6.0}), done.stderr)
+        self.grade(folders=("hand-ins",))
+        self.assertEqual(self.scores(), {"anna": 6.0})
 
     @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
     def test_a_program_whose_runs_differ_is_told(self):
