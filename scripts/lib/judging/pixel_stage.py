@@ -97,7 +97,8 @@ class PixelStage:
         """The FileVerdict of a picture whose triangles have colors of their own, or light: every color
         counts, by either rule of coverage."""
         name, verdicts = self.files["picture"].name, []
-        texts = [self.ours.stage3] if self.thin or "right" in self.readings else []
+        is_right_asked = self.thin or "right" in self.readings
+        texts = [self.ours.stage3, self.ours.stage3_of_exact] if is_right_asked else []
         texts += [] if self.thin else [self.files["stage3"].data or b""]
         rules = ("nearest", RIGHT, ""), ("center", ANOTHER_RULE, "the center rule")
         for text, (coverage, verdict, rule) in itertools.product(texts, rules):

@@ -91,10 +91,12 @@ class Reference:
     @functools.cached_property
     def stage3(self):
         """The scene after our project, as bytes."""
-        text = self.scene_data
-        for tool in ("model", "view", "project"):
-            text = self.tools.output(tool, stdin=text)
-        return text
+        return self.tools.through(["model"], ["view"], ["project"], stdin=self.scene_data)
+
+    @functools.cached_property
+    def stage3_of_exact(self):
+        """The same, if the stages before have passed on exact numbers."""
+        return self.tools.through(["model", *EXACT], ["view", *EXACT], ["project"], stdin=self.scene_data)
 
     @functools.cached_property
     def exact(self):
