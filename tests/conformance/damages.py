@@ -62,3 +62,14 @@ def deep_colors(bmp):
 def generated_colors(count):
     """The colors of triangles that have none (docs/stages.md, Z10), blue first, as a BMP has them."""
     return [bytes(reference.generated_color(number)[::-1]) for number in range(count)]
+
+
+def numbered_triangles(stage3):
+    """(number, lines) of each triangle of a text, or piece of one."""
+    found = []
+    for part in stage3.rstrip().split("\n\n"):
+        head, _, rest = part.partition("\n")
+        is_numbered = head.startswith("triangle ")
+        number = int(head.split()[1]) if is_numbered else found[-1][0] + 1 if found else 0
+        found.append((number, rest if is_numbered else part))
+    return found

@@ -7,8 +7,8 @@ right run.
 usage: judge_test.py STUDENT BIN_DIR SOURCE_DIR [SCENES [SHARE]]
 
 Of each scene every SHARE-th switch is tried (by default every fourth), others at the next scene; every other
-scene is drawn by the center rule. If SHARE is 1, all switches are tried on plain samples, too. The scenes
-are the same in every run; the processors share them.
+scene is drawn by the center rule. From MANY scenes on, all switches are tried on plain samples, too, and all
+samples are damaged. The scenes are the same in every run; the processors share them.
 """
 import concurrent.futures
 import itertools
@@ -30,23 +30,20 @@ import course_scenes  # noqa: E402
 import damages  # noqa: E402
 from lib.judging.hand_in import find_files  # noqa: E402
 from lib.judging.judge import judge  # noqa: E402
+from lib.judging.mistakes import sentences  # noqa: E402
 from lib.text.stage_text import parse_stage_text  # noqa: E402
 
 NOTHING_IN_VIEW = "nothing is in view"  # of what the stages before have made
 SAMPLES = ("tilted-camera", "nested-transforms", "worked-example")
+SWEPT = sorted(path.parent.name for path in source.glob("samples/*/out.bmp"))
 DAMAGES = 4  # of each scene, besides a missing triangle
+DAMAGES_OF_SAMPLE = 5
+MANY = 100
 LEAST_NAMED = 0.9  # of the mistakes whose numbers differ
 FILES_OF = {
     "model": ("stage1.txt", ), "view": ("stage2.txt", ), "project": ("stage3.txt", ),
     "zbuf": ("z_buffer.txt", "out.bmp")}
-
-
-def listed(name):
-    lines = (source / "tests/conformance" / name).read_text().splitlines()
-    return [line.split(":")[0].removeprefix("judge ") for line in lines if line and line[0] != "#"]
-
-
-MISTAKES, HABITS = listed("mistakes.txt"), listed("habits.txt")
+MISTAKES, HABITS = [*sentences()], [*sentences("habits.txt")]
 
 
 def tool(name, *words, stdin=b""):
@@ -54,22 +51,23 @@ def tool(name, *words, stdin=b""):
 
 
 class Scene:
-    def __init__(self, seed):
+    def __init__(self, seed, is_ours=False):
         self.habits = ()
-        if seed in SAMPLES:
+        if isinstance(seed, str):
             folder = source / "samples" / seed
             self.scene, self.config = ((folder / name).read_bytes() for name in ("scene.txt", "config.txt"))
-            self.right = self.run()[0]
+            self.right = {name: (folder / name).read_bytes()
+                          for name in damages.NAMES} if is_ours else self.made()
             return
         rng = random.Random(seed)
         self.scene = course_scenes.scene(rng).encode()
         stage3 = tool("project", "--clip", "none", stdin=tool("view", stdin=tool("model", stdin=self.scene)))
         depths = [p[2] for p in parse_stage_text(stage3.decode(), "stage3").points]
         self.config = course_scenes.config(rng, depths).encode()
-        self.right = self.run()[0]
+        self.right = self.made()
 
-    def run(self, *switches):
-        """The files of the student's program, and the Verdict."""
+    def made(self, *switches):
+        """The files of the student's program."""
         switches += self.habits
         words = [word for name in switches for word in ("--habit" if name in HABITS else "--mistake", name)]
         with tempfile.TemporaryDirectory() as top:
@@ -79,54 +77,54 @@ class Scene:
             pathlib.Path(config).write_bytes(self.config)
             os.mkdir(folder)
             subprocess.run([student, "all", scene, config, "--folder", folder, *words], check=True)
-            files = {path.name: path.read_bytes() for path in pathlib.Path(folder).iterdir()}
-            return files, judge(find_files(folder), self.scene, self.config)
+            return {path.name: path.read_bytes() for path in pathlib.Path(folder).iterdir()}
 
-    def verdicts(self, files):
-        """{name: whether the judge gives a file its point}."""
+    def judged(self, files, has_config=True):
+        """The Verdict."""
         with tempfile.TemporaryDirectory() as top:
             for name, data in files.items():
                 pathlib.Path(top, name).write_bytes(data)
-            return {file.file: file.is_good for file in judge(find_files(top), self.scene, self.config).files}
+            return judge(find_files(top), self.scene, self.config if has_config else None)
 
     def damaged(self, rng, other):
-        """(what was done, what of it, the files judged otherwise than they earn) of damaged hand-ins."""
+        """(what was done, to which files, those judged otherwise than they earn, or said to have a mistake)
+        of a damaged hand-in."""
         how, names = rng.choice(damages.HOWS), rng.choice(damages.SUBSETS)
         files = {
             name: damages.damaged(name, data, how, other[name]) if name in names else data
             for name, data in self.right.items()}
-        found, wanted = self.verdicts(files), damages.expected(self.right, files, how)
-        return how, names, [name for name, is_good in wanted.items() if found[name] != is_good]
+        found, wanted = self.judged(files).files, damages.expected(self.right, files, how)
+        return how, names, [
+            file.file for file in found if wanted.get(file.file, file.is_good) != file.is_good
+            or file.stage == "zbuf" and any(cause.name for cause in file.causes
+                                            if how != "cut in half" or cause.name != "zbuf/half-triangle")]
 
     def without_a_triangle(self, rng):
         """The same of depths and a picture that lack a triangle which can be seen; None if there is none."""
-        triangles = self.right["stage3.txt"].rstrip().split(b"\n\n")
+        triangles = damages.numbered_triangles(self.right["stage3.txt"].decode())
         deep = damages.deep_colors(self.right["out.bmp"])
-        seen = [i for i, color in enumerate(damages.generated_colors(len(triangles))) if color in deep]
+        colors = enumerate(damages.generated_colors(triangles[-1][0] + 1))
+        seen = [i for i, color in colors if color in deep]
         if not seen:
             return None
         lost = rng.choice(seen)
-        text = "".join(f"triangle {i}\n{part.decode()}\n\n" for i, part in enumerate(triangles) if i != lost)
+        text = "".join(f"triangle {i}\n{part}\n\n" for i, part in triangles if i != lost)
         with tempfile.TemporaryDirectory() as top:
             pathlib.Path(top, "config.txt").write_bytes(self.config)
             picture = os.path.join(top, "out.bmp")
             depths = tool("zbuf", os.path.join(top, "config.txt"), "-o", picture, stdin=text.encode())
             files = {**self.right, "z_buffer.txt": depths, "out.bmp": pathlib.Path(picture).read_bytes()}
-        found = self.verdicts(files)
-        wanted = {name: name.startswith("stage") for name in damages.NAMES}
-        return "a triangle missing", lost, [name for name in damages.NAMES if found[name] != wanted[name]]
+        return "a triangle missing", lost, [
+            file.file for file in self.judged(files).files if file.is_good != file.file.startswith("stage")]
 
     def changed(self, change, rng):
         """The FileVerdict of a stage whose right text is changed, and the words that its cause has to begin
         with."""
-        with tempfile.TemporaryDirectory() as top:
-            for name, text in self.right.items():
-                pathlib.Path(top, name).write_bytes(text)
-            number = ("model", "view", "project").index(change.stage) + 1
-            texts = [self.scene.decode(), *(self.right[f"stage{i}.txt"].decode() for i in (1, 2, 3))]
-            text, words = change.make(texts, number, rng)
-            pathlib.Path(top, f"stage{number}.txt").write_text(text)
-            return judge(find_files(top), self.scene).of(change.stage)[0], words
+        number = ("model", "view", "project").index(change.stage) + 1
+        texts = [self.scene.decode(), *(self.right[f"stage{i}.txt"].decode() for i in (1, 2, 3))]
+        text, words = change.make(texts, number, rng)
+        verdict = self.judged({**self.right, f"stage{number}.txt": text.encode()}, has_config=False)
+        return verdict.of(change.stage)[0], words
 
 
 # What the judge makes of one run: the scene's number, the switch (or none), the FileVerdicts, the exit
@@ -149,19 +147,20 @@ def runs_of(seed):
     except subprocess.CalledProcessError:
         return None
     runs, right = [], scene.right
-    turn = seed % share if seed not in SAMPLES else 0
+    turn, step = (0, 1) if seed in SAMPLES else (seed % share, share)
     for switch in (None, *HABITS, *MISTAKES):
         place = (MISTAKES if switch in MISTAKES else HABITS).index(switch) if switch else 0
         if switch == MISTAKES[0] and seed not in SAMPLES and seed // share % 2:
             scene.habits = ("zbuf/center",)
-            right = scene.run()[0]
-        if not switch or place % share == turn:
+            right = scene.made()
+        if not switch or place % step == turn:
             try:
-                files, verdict = scene.run(*([switch] if switch else []))
+                files = scene.made(*([switch] if switch else []))
             except subprocess.CalledProcessError:  # a mistake that divides by 0 where this sample is exact
                 if seed in SAMPLES:
                     continue
                 raise
+            verdict = scene.judged(files)
             for file in verdict.files:
                 file.places = []  # thousands of pixels that nobody asks for
             runs.append(
@@ -173,18 +172,26 @@ def runs_of(seed):
     for place, change in enumerate(changes.CHANGES):
         if place % share == turn:
             runs.append(ChangedRun(seed, change.name, *scene.changed(change, rng)))
-    other = Scene(next_seed(seed)).right
-    tried = [*(scene.damaged(rng, other) for _ in range(DAMAGES)), scene.without_a_triangle(rng)]
-    return runs + [DamagedRun(seed, *one) for one in tried if one]
+    return runs + damaged_runs(seed, scene, next_scene(seed), DAMAGES)
 
 
-def next_seed(seed):
-    """Of a scene without a vertex behind the eye."""
+def damaged_runs(seed, scene, other, count):
+    rng = random.Random(seed)
+    tried = [*(scene.damaged(rng, other.right) for _ in range(count)), scene.without_a_triangle(rng)]
+    return [DamagedRun(seed, *one) for one in tried if one]
+
+
+def damaged_sample(name):
+    other = SWEPT[SWEPT.index(name) - 1]
+    return damaged_runs(name, Scene(name, True), Scene(other, True), DAMAGES_OF_SAMPLE)
+
+
+def next_scene(seed):
+    """The next one without a vertex behind the eye."""
     try:
-        Scene(seed + 1)
-        return seed + 1
+        return Scene(seed + 1)
     except subprocess.CalledProcessError:
-        return next_seed(seed + 1)
+        return next_scene(seed + 1)
 
 
 def described(run):
@@ -204,8 +211,9 @@ class Judged(unittest.TestCase):
                     cls.changed += [run for run in runs or [] if isinstance(run, ChangedRun)]
                     cls.damaged += [run for run in runs or [] if isinstance(run, DamagedRun)]
                     count += runs is not None
-            for runs in pool.map(runs_of, SAMPLES if share == 1 else ()):
-                cls.runs += runs
+            if scene_count >= MANY:
+                cls.damaged += itertools.chain(*pool.map(damaged_sample, SWEPT))
+                cls.runs += itertools.chain(*pool.map(runs_of, SAMPLES))
 
     def of(self, switches):
         return [run for run in self.runs if run.switch in switches]
@@ -224,8 +232,8 @@ class Judged(unittest.TestCase):
                 self.assertEqual(run.status, 0, described(run))
 
     def test_right_by_exact_numbers_where_depths_need_them(self):
-        verdict = Scene(5003).run("all/exact-in-memory")[
-            1]  # a triangle is seen so much from its edge that 7 decimals are too few
+        scene = Scene(5003)  # a triangle is seen so much from its edge that 7 decimals are too few
+        verdict = scene.judged(scene.made("all/exact-in-memory"))
         self.assertIn("by the exact numbers, kept in memory", verdict.of("zbuf")[0].remarks)
         self.assertEqual(verdict.status, 0)
 
@@ -263,6 +271,8 @@ class Judged(unittest.TestCase):
         self.assertGreaterEqual(named, LEAST_NAMED * len(differing))
 
     def test_what_is_damaged_earns_nothing_and_what_is_whole_keeps_its_points(self):
+        print(f"{len(self.damaged)} damaged hand-ins, {sum(bool(run.misjudged) for run in self.damaged)} "
+              "misjudged", file=sys.stderr)
         self.assertGreater(len(self.damaged), scene_count * DAMAGES)
         for run in self.damaged:
             with self.subTest(run.how, scene=run.scene, files=run.files):
