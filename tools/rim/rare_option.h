@@ -10,7 +10,7 @@ namespace pipeline {
 /// runs use is added only then, as each costs every start.
 inline bool is_wanted(std::string_view name, std::span<char* const> words) {
   return std::ranges::any_of(words, [start = name.substr(0, 4)](std::string_view word) {
-    return word.starts_with(start) || word == "--help" || word == "-h";
+    return word.starts_with(start) || word.starts_with("--help") || word == "-h";
   });
 }
 
