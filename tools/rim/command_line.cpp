@@ -171,7 +171,7 @@ class HelpForm : public CLI::Formatter {
     for (const std::string& group : groups) {
       const auto options = app->get_options(
           [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
-      if (!options.empty() && !group.empty()) text += make_group(group, false, options);
+      if (!options.empty()) text += make_group(group, false, options);
     }
     return text;
   }
@@ -197,7 +197,6 @@ CommandLine::CommandLine(const std::string& tool, const std::string& description
                "\nExit status: 0 done; 1 bad input, or reading or writing failed; 2 a wrong command line");
   app_->option_defaults()->group(kLastGroup);
   app_->get_help_ptr()->group(kLastGroup);
-  app_->set_help_all_flag("--help-fields")->group("");  // hidden
   app_->set_version_flag("--version", version);
 }
 
@@ -308,12 +307,13 @@ void CommandLine::add_choice_of_words(const std::string& name, const std::vector
 }
 
 std::optional<std::string> CommandLine::parse(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "--help-fields") {
+    help_form_->use_fields();
+    return app_->help();
+  }
   try {
     app_->parse(words_for_parsing(argc, argv, flag_words_));
   } catch (const CLI::CallForHelp&) {
-    return app_->help();
-  } catch (const CLI::CallForAllHelp&) {
-    help_form_->use_fields();
     return app_->help();
   } catch (const CLI::CallForVersion& version) {
     return std::string(version.what()) + "\n";
