@@ -1,11 +1,13 @@
 """The triangle that each pixel shows, by rule `center` and in doubles, once the vertices of a projected text
 have moved as far as its bounds let them.
 """
+import math
 import random
 
 from reference import cross, dot
 
 WITHIN = 1 - 1e-6  # of the bounds, more than doubles lose
+NO_AREA = 1e-13  # of its points' sizes: where a triangle's points coincide, doubles cannot tell where it is
 
 
 class Moved:
@@ -59,6 +61,8 @@ class Moved:
                   for place, w in zip(places, ws)]
         edges = [cross(points[k - 2], points[k - 1]) for k in range(3)]
         area = dot(points[0], edges[0])
+        if abs(area) < NO_AREA * math.prod(max(map(abs, point)) for point in points):
+            return
         is_cut = self.clips_all or not self.is_ortho and min(ws) * 1024 < self.near
         width, height = self.config.width, self.config.height
         left, bottom, front, rear = map(float, (self.config.left, self.config.bottom, self.config.front,
