@@ -21,8 +21,9 @@ const char* read_three(const char* p, char separator, Vec3& numbers, unsigned& m
 }
 
 /// Reads the vertex line at `p` and returns its end; null if the form differs.
-const char* read_line(const char* p, const FixedColumns& columns, std::size_t triangle, std::size_t vertex,
-                      DecimalMarks& marks) {
+[[gnu::always_inline]] inline const char* read_line(const char* p, const FixedColumns& columns,
+                                                    std::size_t triangle, std::size_t vertex,
+                                                    DecimalMarks& marks) {
   const std::size_t group_count = columns.group_count();
   const bool has_material = !columns.materials.empty();
   for (std::size_t group = 0; group < group_count; ++group) {
@@ -67,28 +68,39 @@ class LinesRead {
   std::array<Line, 64> lines_;
 };
 
-/// Reads triangles number by number.
-FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
-                              std::span<DecimalMarks> marks) {
+/// Reads at most `limit` triangles; `read_vertex(p, triangle, vertex)` reads the line at `p` and returns its
+/// end, or null.
+template <typename ReadVertex>
+FixedTextPart read_by_lines(std::string_view text, TriangleFrame frame, std::size_t limit,
+                            const ReadVertex& read_vertex) {
   const char* const end = text.data() + text.size();
-  const std::size_t limit = std::min(columns.triangle_count(), marks.size());
-  const bool are_shared = frame == TriangleFrame::scene && columns.w.empty() && columns.materials.empty();
-  LinesRead lines;
   FixedTextPart part;
   for (std::size_t i = 0; i < limit && part.length < text.size(); ++i) {
     const char* p = vertex_lines(text.data() + part.length, frame);
-    marks[i] = 0;
     for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
-      if (p >= end)
-        p = nullptr;
-      else
-        p = are_shared ? lines.read(p, columns, i, vertex, marks)
-                       : read_line(p, columns, i, vertex, marks[i]);
+      p = p < end ? read_vertex(p, i, vertex) : nullptr;
     if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
     ++part.triangle_count;
     part.length = static_cast<std::size_t>(p - text.data());
   }
   return part;
+}
+
+/// Reads triangles number by number.
+FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
+                              std::span<DecimalMarks> marks) {
+  const std::size_t limit = std::min(columns.triangle_count(), marks.size());
+  std::ranges::fill(marks.first(limit), DecimalMarks{0});
+  // Models have normals. A line without is read faster than it is looked up.
+  if (frame != TriangleFrame::scene || columns.group_count() == 1 || !columns.w.empty() ||
+      !columns.materials.empty())
+    return read_by_lines(text, frame, limit, [&](const char* p, std::size_t triangle, std::size_t vertex) {
+      return read_line(p, columns, triangle, vertex, marks[triangle]);
+    });
+  LinesRead lines;
+  return read_by_lines(text, frame, limit, [&](const char* p, std::size_t triangle, std::size_t vertex) {
+    return lines.read(p, columns, triangle, vertex, marks);
+  });
 }
 
 /// The counts of decimals of the groups of columns on the vertex line that `text` begins with.
