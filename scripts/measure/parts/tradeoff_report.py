@@ -106,8 +106,7 @@ default.
 
 ![Cost and errors of every setting](../scripts/measure/results/tradeoff.svg)
 
-Settings that another one beats are nowhere better in cost or error, and worse somewhere, in every scene
-in which both were measured:
+Settings that another one beats: in every scene with both never better in cost or error, and worse somewhere:
 
 {beaten_table(results)}"""
 
