@@ -537,8 +537,8 @@ class Shared(unittest.TestCase):
         self.assertRegex(done.stdout, r"\n# Its output is random: two runs on model/translate-\S+ differ.\n")
 
     def test_a_program_that_reads_only_numbers_is_told_of_the_header(self):
-        told = ("It wrote nothing: it must read past the lines before the first triangle, such as 'perspective "
-                r"[\d. ]+' \(--assignment feeds none\)\.\n")
+        told = (r"It wrote nothing: it must read past the lines before the first triangle, such as "
+                r"'perspective [\d. ]+' \(--assignment feeds none\)\.\n")
         for program, words, count in (("true", (), 1), ("true", ("--assignment",), 0), (
                 'text=$(cat); case $text in *"perspective 6"*) echo "$text";; esac', (), 0)):
             done = conform("--stage", "project", "--only", "fov-*", *words, "--", *sh(program))

@@ -42,7 +42,7 @@ class Advice(unittest.TestCase):
         self.assertEqual([row for row in rows if not list(claims(row))], [])
 
     def test_every_number_of_an_advice_is_in_a_claim(self):
-        """A number before 'times' or '%' can be wrong after the next measurement, but in consoles, which run."""
+        """A number before 'times' or '%' can be wrong after the next measurement, except in a console."""
         advice = re.sub(r"^```.*?^```", "", ACCURACY, flags=re.DOTALL | re.MULTILINE)
         for line in advice.split("<!-- tradeoff: begin -->")[0].splitlines():
             words = re.sub(r"<!--.*?-->", "", line)

@@ -466,8 +466,8 @@ class PixelJudge:
         return "; ".join(words)
 
     def of_blank(self, plain):
-        """The Finding where nothing is drawn, which has too many causes to name one; of one of two files, none
-        that both would have."""
+        """The Finding where nothing is drawn, which has too many causes to name one; of one of two files,
+        none that both would have."""
         finding = self.unknown(plain)
         mistakes = () if self.is_of_one else MISTAKES
         names = [name for (name, *_), changes in mistakes if name in BLANK and not any(
