@@ -85,20 +85,20 @@ std::pair<double, double> TrueOutline::widened(double least, double greatest) co
 }
 
 std::pair<double, double> TrueOutline::distances(double at_u, double at_v) const {
-  double nearest = low, farthest = high;
+  double least_there = low, greatest_there = high;
   if (may_be_sure) {
     const double most_below = bottom.at(at_u, at_v) + bottom.error,
                  least_below = most_below - 2 * bottom.error;
     if (most_below <= 0) return {kInfinity, -kInfinity};  // behind the eye
     const double least = top.at(at_u, at_v) - top.error, most = least + 2 * top.error;
     if (least_below > 0) {
-      nearest = std::max(low, least / (least > 0 ? most_below : least_below));
-      farthest = std::min(high, most / (most > 0 ? least_below : most_below));
+      least_there = std::max(low, least / (least > 0 ? most_below : least_below));
+      greatest_there = std::min(high, most / (most > 0 ? least_below : most_below));
     } else if (least > 0) {
-      nearest = std::max(low, least / most_below);
+      least_there = std::max(low, least / most_below);
     }
   }
-  return widened(nearest, farthest);
+  return widened(least_there, greatest_there);
 }
 
 /// A triangle in clip space as a pixel's center sees it, q and w, and how far a point of the true triangle
