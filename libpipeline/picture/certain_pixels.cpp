@@ -4,14 +4,19 @@
 #include <cmath>
 #include <span>
 
+#include "libpipeline/stream/memory.h"
+
 namespace pipeline {
 
 CertainPixels::CertainPixels(const Viewport& screen, const Bounds& bounds, const Projection& projected)
     : screen_(screen),
       outlines_(screen, bounds, projected),
       front_(outlines_.distance_at(screen.front)),
-      rear_(outlines_.distance_at(screen.rear)),
-      pixels_(index_of(screen.drawn_rows().end, 0)) {}
+      rear_(outlines_.distance_at(screen.rear)) {
+  const std::size_t count = index_of(screen.drawn_rows().end, 0);
+  expect_available_memory(count * sizeof(Pixel));
+  pixels_.resize(count);
+}
 
 std::size_t CertainPixels::index_of(int row, int column) const {
   return static_cast<std::size_t>(row - screen_.drawn_rows().first) *

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/numbers/vec.h"
@@ -20,10 +22,14 @@ struct ErrorBound {
   static constexpr double kRoundUp = 1 + 0x1p-40;
 };
 
-/// The header line `bounds` of a stage text.
+/// The header line `bounds` of a stage text. It names the text's space, so that no stage takes one that a
+/// program before it passed on unchanged.
 struct Bounds {
+  static constexpr std::array<std::string_view, 3> kSpaces = {"world", "view", "ndc"};
+
   ErrorBound error;                   // of the vertices; of a projected text, as they were in view space
-  std::optional<ErrorBound> rounded;  // in a projected text: of its vertices against exact projection
+  std::optional<ErrorBound> rounded;  // in NDC: of its vertices against exact projection
+  std::string_view space = kSpaces[0];
 };
 
 /// Rounding to the nearest double and, in the shortest form, what 0 may stand for.

@@ -32,9 +32,14 @@ Bounds read_bounds(LineScanner& line) {
   const auto number = [&](std::string_view name) {
     return number_where(line, {name}, "of at least 0", [](double value) { return value >= 0; });
   };
+  const auto space = std::ranges::find(Bounds::kSpaces, line.peek());
+  if (space == Bounds::kSpaces.end()) line.fail("the space 'world', 'view' or 'ndc'");
+  line.word();
   Bounds bounds;
+  bounds.space = *space;
   bounds.error = {number("the absolute bound"), number("the relative bound")};
-  if (!line.at_end()) bounds.rounded = {number("the absolute rounding"), number("the relative rounding")};
+  if (bounds.space == "ndc")
+    bounds.rounded = {number("the absolute rounding"), number("the relative rounding")};
   line.expect_end("the bounds");
   return bounds;
 }

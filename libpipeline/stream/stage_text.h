@@ -20,7 +20,7 @@ namespace pipeline {
 //                    framed | eye X Y Z | look X Y Z | up X Y Z |
 //                    perspective FOVY ASPECT NEAR FAR | frustum L R B T N F | ortho L R B T N F |
 //                    projected frustum L R B T N F | projected ortho L R B T N F |
-//                    bounds A R [B S] (bounds.h) |
+//                    bounds world|view A R | bounds ndc A R B S (bounds.h) |
 //                    attributes [w] [color] [normal] [material] | background R G B [A] | ambient R G B |
 //                    material AMBIENT DIFFUSE SPECULAR SHININESS [REFLECTANCE INDEX ALPHA] (any number,
 //                    numbered from 0) | absorption R G B | paint R G B (of the material above, at most

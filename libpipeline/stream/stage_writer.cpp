@@ -92,8 +92,9 @@ void StageWriter::write_header(const StageHeader& header) {
     print_projection(text_, header.projected->value);
   }
   if (header.bounds) {
-    const auto& [error, rounded] = header.bounds->value;
-    print_numbers(text_, "bounds", {error.absolute, error.relative});
+    const auto& [error, rounded, space] = header.bounds->value;
+    text_.append("bounds ");
+    print_numbers(text_, space, {error.absolute, error.relative});
     if (rounded) print_numbers(text_, "", {rounded->absolute, rounded->relative});
     text_.append("\n");
   }

@@ -195,6 +195,12 @@ void expect_header(const StageReader& reader, TextKind expected) {
       refuse(line,
              "this text has not been through project; a project of your own must " + duty_of_project(header));
   }
+  const std::string_view space = expected == TextKind::world  ? "world"
+                                 : expected == TextKind::view ? "view"
+                                                              : "ndc";
+  if (header.bounds && header.bounds->value.space != space)
+    refuse({"bounds " + std::string(header.bounds->value.space), header.bounds->location},
+           "a stage before this one has passed on a line that holds for its input");
   if (expected != TextKind::ndc) return expect_no_w(header.appearance);
   if (!header.appearance.lights.empty() && !header.projected)
     throw InputError(

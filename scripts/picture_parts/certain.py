@@ -7,13 +7,14 @@ import sys
 import tempfile
 import textwrap
 
+from lib.rim.command import shown
 from lib.rim.output_file import expect_writable, write_file
 from lib.running.pipe_tools import ToolFailure
 from lib.showing.pictures import blended, size_of, with_pixels_of
 
 DIGITS = "7", "12", "exact"  # the default's first; 9 would cost as much as 12 and decide less
 MOST_LISTED = 100
-FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)$")
+FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)\Z", re.DOTALL)
 
 
 def refuse(parser, options):
@@ -23,7 +24,8 @@ def refuse(parser, options):
             (options.trace, "--trace", "zbuf tells which pixels are certain"),
             (samples, f"--samples {options.samples}", "a mean of samples is no triangle's color"),
             (options.stages is not None, "--stages", "the stages may run more than once"),
-            (not FORMAT.match(options.output), f"-o {options.output}", "it takes a .png, .bmp or .ppm file")):
+            (not FORMAT.match(options.output), f"-o {shown(options.output)}",
+             "it takes a .png, .bmp or .ppm file")):
         if is_given:
             parser.error(f"{option} does not go with --certain: {reason}")
 

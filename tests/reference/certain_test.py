@@ -112,7 +112,7 @@ def run(tool, *words, stdin, **settings):
 
 
 def bounds_of(text):
-    return [Fraction(float(word)) for word in re.search(rb"^bounds (.*)$", text, re.M)[1].split()]
+    return [Fraction(float(word)) for word in re.search(rb"^bounds \w+ (.*)$", text, re.M)[1].split()]
 
 
 class Run:
@@ -199,7 +199,7 @@ def points_of(found):
 def with_bounds(text, change):
     """The text with other bounds: `change` takes their numbers, and gives as many."""
     words = b" ".join(b"%r" % float(number) for number in change(*bounds_of(text)))
-    return re.sub(rb"(?m)^bounds .*$", b"bounds " + words, text)
+    return re.sub(rb"(?m)^(bounds \w+) .*$", rb"\1 " + words, text)
 
 
 class Certain(unittest.TestCase):

@@ -9,7 +9,7 @@ import unittest
 from toolbox import CAMERA, SCENE, ToolTest, pipe, run, stage_texts
 
 # x, y and w of clip space are those of view space; each may be off by 1/8.
-NDC = "projected frustum -1 1 -1 1 1 9\nbounds 0.125 0 0 0\nattributes w\n"
+NDC = "projected frustum -1 1 -1 1 1 9\nbounds ndc 0.125 0 0 0\nattributes w\n"
 CENTER = ("--coverage", "center", "--certify")
 WINDOW, MIDDLE = "8 8\n-4\n-4\n-1 1\n", "8 8\n-.1\n-.1\n-1 1\n"
 
@@ -33,21 +33,22 @@ class Bounds(ToolTest):
         for plain, bounded in zip(stage_texts(), stage_texts(SCENE, "--bounds")):
             self.assertNotIn(b"bounds", plain)
             self.assertEqual(bounded.count(b"bounds"), 1)
-        line = b"bounds 5.00001e-08 1.1275702593849246e-16\n"
+        line = b"bounds world 5.00001e-08 1.1275702593849246e-16\n"
         self.assertEqual(pipe(["model", "--bounds"], stdin=SCENE),
                          pipe(["model"], stdin=SCENE).replace(b"1 100\n", b"1 100\n" + line))
 
     def test_each_stage_adds_what_it_rounds(self):
         """Of 2 decimals 0.005 and of 3 0.0005, the more by a turned camera: by sqrt(3) at most."""
-        text = "eye 2 2 2\nlook 0 0 0\nup 0 0 1\northo -1 1 -1 1 1 9\nbounds 0.005 0\n1 0 0\n0 1 0\n0 0 1\n\n"
+        text = ("eye 2 2 2\nlook 0 0 0\nup 0 0 1\northo -1 1 -1 1 1 9\nbounds world 0.005 0\n"
+                "1 0 0\n0 1 0\n0 0 1\n\n")
         view = pipe(["view", "--digits", "3"], stdin=text)
-        absolute = float(view.split(b"bounds ")[1].split()[0])
+        absolute = float(view.split(b"bounds view ")[1].split()[0])
         self.assertAlmostEqual(absolute, 0.005 * 3 ** 0.5 + 0.0005, 8)
-        ndc = pipe(["project", "--digits", "2"], stdin=text.split("\n", 3)[3])
-        self.assertIn(b"bounds 0.005 0 0.005", ndc)
+        ndc = pipe(["project", "--digits", "2"], stdin=text.split("\n", 3)[3].replace("world", "view"))
+        self.assertIn(b"bounds ndc 0.005 0 0.005", ndc)
 
     def test_what_has_no_bounds_is_refused(self):
-        sphere, bounded = CAMERA + "sphere 0 0 0 1\nend\n", "ortho -1 1 -1 1 1 9\nbounds 0 0\n"
+        sphere, bounded = CAMERA + "sphere 0 0 0 1\nend\n", "ortho -1 1 -1 1 1 9\nbounds view 0 0\n"
         zbuf = ["zbuf", "config.txt", *CENTER]
         for words, text, status, message in (
             (["model", "--bounds", "--bare"], SCENE, 2, "neither --bare nor --facets with it, found --bare"),
@@ -61,14 +62,19 @@ class Bounds(ToolTest):
               for mode in ("frustum", "reject", "none")),
             (["project", "--clip", "near", "--clip-inset", "0.5"], bounded, 2, "--clip-inset: "),
             (["project"], bounded.replace("0 0\n", "0 -1\n"), 1, "the relative bound of at least 0"),
-            (["project"], bounded + "bounds 0 0\n", 1, "expected one 'bounds'"),
+            (["project"], bounded + "bounds view 0 0\n", 1, "expected one 'bounds'"),
+            (["project"], bounded.replace("view 0", "world 0"), 1,
+             "'bounds world': a stage before this one has passed on a line that holds for its input"),
+            (["project"], bounded.replace("0 0\n", "0 0 0 0\n"), 1,
+             "expected the end of the line after the bounds, found '0'"),
+            (["project"], bounded.replace("view 0", "0"), 1, "expected the space 'world', 'view' or 'ndc'"),
             (["zbuf", "config.txt", "--certify", "c"], NDC, 2,
              "--certify: expected --coverage center with it, found 'nearest'"),
             ([*zbuf, "c", "--samples", "2"], NDC, 2, "--certify: expected --samples 1 with it, found '2'"),
             ([*zbuf, "-", "-o", "-"], NDC, 2, "expected a file, as --certify is standard output, found '-'"),
             ([*zbuf, "-", "--seen", "-"], NDC, 2, "--certify: expected a file, as --seen is"),
             ([*zbuf, "c", "--seen", "s"], NDC, 2, "--seen: expected a text without bounds, found 'bounds'"),
-            ([*zbuf, "c"], NDC.replace("0.125 0 0 0", "0 0"), 1, "for --certify"),
+            ([*zbuf, "c"], NDC.replace("ndc 0.125 0 0 0", "view 0 0"), 1, "'bounds view': "),
             ([*zbuf, "c"], "0 0 0\n" * 3, 1, "for --certify"),
         ):
             with self.subTest(words=words):
@@ -110,7 +116,7 @@ class Certify(ToolTest):
 
     def test_an_edge_on_triangle_is_no_nearer_than_what_is_shown(self):
         """Of what may be nearer, the front limit shows none, nor does what is cut at the near plane."""
-        header = "frustum -1 1 -1 1 1 9\nbounds 0.125 0\n"
+        header = "frustum -1 1 -1 1 1 9\nbounds view 0.125 0\n"
         for front, slope, count in ((-1, 0.13, 16), (-1, 0.16, 0), (-3, 0.28, 16), (-3, 0.33, 0)):
             with self.subTest(front=front, slope=slope):
                 vertices = "".join(f"{x} {slope * w} {-w}\n" for x, w in ((-60, -0.05), (60, -0.05), (0, 8)))
@@ -120,7 +126,7 @@ class Certify(ToolTest):
                 self.assertEqual(lines[1], f"uncertain {count}")
 
     def test_a_triangle_is_dropped_only_if_it_is_outside_for_certain(self):
-        header = "frustum -1 1 -1 1 1 9\nbounds 0.125 0\n"
+        header = "frustum -1 1 -1 1 1 9\nbounds view 0.125 0\n"
         outside, possible = ("-60 -20 {0}\n60 -20 {0}\n0 80 {0}\n\n".format(z)
                              for z in ("-0.8125", "-0.9375"))
         text = pipe(["project", "--clip", "near"], stdin=header + outside).decode()

@@ -113,6 +113,7 @@ void project(Tool& tool, const ProjectOptions& chosen, Statistics& statistics) {
   if (header.bounds) {
     expect_bounds_possible(chosen);
     header.bounds->value.rounded = chosen.numbers.kept_bounds(rounder);
+    header.bounds->value.space = "ndc";
   }
   writer.write_header(header);
 

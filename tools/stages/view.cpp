@@ -86,7 +86,10 @@ int main(int argc, char** argv) {
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     if (const auto& world = reader.header().bounds; world && !bare)
       header.bounds = {
-          {error_in_view(world->value.error, view.eye, row_sum(view), numbers.kept_bounds(rounder)), {}}, {}};
+          {error_in_view(world->value.error, view.eye, row_sum(view), numbers.kept_bounds(rounder)),
+           {},
+           "view"},
+          {}};
     writer.write_header(header);
 
     const auto transform = [&](TriangleBatch& batch) {
