@@ -68,8 +68,8 @@ void check_inset(const ProjectOptions& chosen) {
                      expected_but_found("--clip near, frustum or reject with it", "none of these"));
 }
 
-/// A UsageError if an option excludes bounds.
-void expect_bounds_possible(const ProjectOptions& chosen) {
+/// Turns the bounds of view space into those of NDC; a UsageError if an option excludes them.
+void add_rounding(Bounds& bounds, const ProjectOptions& chosen, CoordinateRounder& rounder) {
   const auto refuse = [](const std::string& option) {
     throw UsageError(option + ": " + expected_but_found("none with bounds in the text", "it"));
   };
@@ -77,6 +77,8 @@ void expect_bounds_possible(const ProjectOptions& chosen) {
   if (chosen.clip != ClipMode::automatic && chosen.clip != ClipMode::near)
     refuse("--clip frustum, reject or none");
   if (chosen.clip_inset > 0) refuse("--clip-inset");
+  bounds.rounded = chosen.numbers.kept_bounds(rounder);
+  bounds.space = "ndc";
 }
 
 /// A number in words for people: two digits of it.
@@ -110,11 +112,7 @@ void project(Tool& tool, const ProjectOptions& chosen, Statistics& statistics) {
   StageWriter writer(tool.output(), chosen.numbers.format(), false);
   StageHeader header = projected_header(reader.header(), given, projection);
   CoordinateRounder rounder = chosen.numbers.rounder(tool.input().file());
-  if (header.bounds) {
-    expect_bounds_possible(chosen);
-    header.bounds->value.rounded = chosen.numbers.kept_bounds(rounder);
-    header.bounds->value.space = "ndc";
-  }
+  if (header.bounds) add_rounding(header.bounds->value, chosen, rounder);
   writer.write_header(header);
 
   ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);

@@ -48,6 +48,11 @@ double row_sum(const ViewTransform& view) {
   return std::max({sum(view.right), sum(view.up), sum(view.backward)});
 }
 
+/// Of a text in world space, after the rotation and the rounding.
+Bounds bounds_in_view(const Bounds& world, const ViewTransform& view, const ErrorBound& rounding) {
+  return {error_in_view(world.error, view.eye, row_sum(view), rounding), {}, "view"};
+}
+
 /// The text's color and light, and the light of the command line, in view space.
 Appearance in_view_space(Appearance appearance, const LightOption& added, const ViewTransform& view,
                          UncertainDigits& uncertain_lights) {
@@ -85,13 +90,8 @@ int main(int argc, char** argv) {
                           in_view_space(reader.header().appearance, light, view, uncertain_lights)};
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     if (const auto& world = reader.header().bounds; world && !bare)
-      header.bounds = {
-          {error_in_view(world->value.error, view.eye, row_sum(view), numbers.kept_bounds(rounder)),
-           {},
-           "view"},
-          {}};
+      header.bounds = {bounds_in_view(world->value, view, numbers.kept_bounds(rounder)), {}};
     writer.write_header(header);
-
     const auto transform = [&](TriangleBatch& batch) {
       for (auto& normals : batch.attributes.normals)
         for (Vec3& normal : normals) normal = normal_to_view(normal);
