@@ -60,7 +60,7 @@ class ProjectionStage {
 
   /// From now on writes w with every vertex, and drops only triangles of which clipping leaves nothing
   /// wherever the vertices are, within `error` of those read; any other it passes on as a piece without area
-  /// of the triangle. Pieces keep that, too. Not with the clip modes frustum and reject.
+  /// of the triangle. Pieces keep that, too. Not with the clip modes frustum, reject and none.
   void keep_bounds(const ErrorBound& error) {
     error_ = error;
     keeps_unclipped_ = true;

@@ -67,6 +67,8 @@ class Bounds(ToolTest):
              "'bounds world': a stage before this one has passed on a line that holds for its input"),
             (["project"], bounded.replace("0 0\n", "0 0 0 0\n"), 1,
              "expected the end of the line after the bounds, found '0'"),
+            (["view"], "eye 0 0 5\nlook 0 0 0\nup 0 1 0\nbounds world 1e308 1e308\n", 1,
+             "expected bounds that stay finite in view space"),
             (["project"], bounded.replace("view 0", "0"), 1, "expected the space 'world', 'view' or 'ndc'"),
             (["zbuf", "config.txt", "--certify", "c"], NDC, 2,
              "--certify: expected --coverage center with it, found 'nearest'"),

@@ -1,6 +1,7 @@
 // view: puts the camera at the origin, looking down -z. World space in, view space out.
 
 #include <algorithm>
+#include <cmath>
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
@@ -49,8 +50,12 @@ double row_sum(const ViewTransform& view) {
 }
 
 /// Of a text in world space, after the rotation and the rounding.
-Bounds bounds_in_view(const Bounds& world, const ViewTransform& view, const ErrorBound& rounding) {
-  return {error_in_view(world.error, view.eye, row_sum(view), rounding), {}, "view"};
+Bounds bounds_in_view(const Located<Bounds>& world, const ViewTransform& view, const ErrorBound& rounding) {
+  const ErrorBound error = error_in_view(world.value.error, view.eye, row_sum(view), rounding);
+  if (!std::isfinite(error.absolute) || !std::isfinite(error.relative))
+    throw InputError(world.location,
+                     expected_but_found("bounds that stay finite in view space", "larger ones"));
+  return {error, {}, "view"};
 }
 
 /// The text's color and light, and the light of the command line, in view space.
@@ -90,7 +95,7 @@ int main(int argc, char** argv) {
                           in_view_space(reader.header().appearance, light, view, uncertain_lights)};
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     if (const auto& world = reader.header().bounds; world && !bare)
-      header.bounds = {bounds_in_view(world->value, view, numbers.kept_bounds(rounder)), {}};
+      header.bounds = {bounds_in_view(*world, view, numbers.kept_bounds(rounder)), {}};
     writer.write_header(header);
     const auto transform = [&](TriangleBatch& batch) {
       for (auto& normals : batch.attributes.normals)
