@@ -63,10 +63,14 @@ def end_all(keep=()):
 class Worker:
     """A process that answers a number by task(number)."""
 
-    def __init__(self, task):
+    def __init__(self, task, others):
         self.connection, theirs = Pipe()
         self.pid = os.fork()
         if not self.pid:
+            # So that the connection ends when the process that began it does: it may be killed before this one
+            # has asked to be told.
+            for worker in (self, *others):
+                worker.connection.close()
             serve(theirs, task)
         theirs.close()
 
@@ -113,7 +117,7 @@ def spread(task, count, jobs, seconds):
         for number in range(count):
             while number not in done:
                 while left and len(workers) < jobs:
-                    workers.append(Worker(task))
+                    workers.append(Worker(task, workers))
                     workers[-1].give(left.popleft(), seconds)
                 ready = wait([worker.connection for worker in workers], timeout=1)
                 for worker in list(workers):
