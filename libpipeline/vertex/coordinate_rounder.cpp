@@ -33,8 +33,10 @@ RoundingTest CoordinateRounder::rounding_test() const {
 
 void CoordinateRounder::expect_finite(double coordinate, const char* name, LineAndColumn vertex) const {
   if (std::isfinite(coordinate)) return;
-  throw InputError(location_of(vertex), expected_but_found("a vertex whose image is within a double's range",
-                                                           std::string("an overflow of its ") + name));
+  std::string found = "an overflow of its ";
+  found += name;
+  throw InputError(location_of(vertex),
+                   expected_but_found("a vertex whose image is within a double's range", found));
 }
 
 // These two are seldom called, and not inlined, so that their callers are.
