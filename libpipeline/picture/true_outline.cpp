@@ -223,7 +223,9 @@ TrueOutlines::Seen TrueOutlines::seen_from_middle(const std::array<Vertex, 3>& v
     errors[i] = is_perspective_ ? vertices[i].error : vertices[i].error + vertices[i].own_depth_error;
     seen.w_error = std::max(seen.w_error, is_perspective_ ? errors[i] : 0);
   }
-  seen.w_shift = bound_of(errors, w, bounds_.error.absolute);
+  // A distance is w in perspective alone.
+  seen.w_shift = is_perspective_ ? bound_of(errors, w, bounds_.error.absolute)
+                                 : FixedAndPerW{std::max({errors[0], errors[1], errors[2]}) * kUp, 0};
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const Axis& a = axes_[axis];
     const RowRange& cells = axis == 0 ? outline.columns : outline.rows;

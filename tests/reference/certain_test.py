@@ -92,9 +92,10 @@ def opposed(rng, decimals):
     unit = Fraction(1, 10**decimals)
     a, b = rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2)
     away = [-1 if a > 0 else 1, -1 if b > 0 else 1, 1]  # from the plane, the farthest
-    lines = ["0 0 5", "0 0 0", "0 1 0", rng.choice(
-        ("60 1 0.5 100", "ortho -2 2 -2 2 0.5 20",
-         "frustum -.3 .3 -.3 .3 .25 40", "frustum -.1 .9 -1 1 .5 1e4"))]
+    eye, projection = rng.choice((
+        ("0 0 5", "60 1 0.5 100"), ("0 0 5", "ortho -2 2 -2 2 0.5 20"), ("0 0 .2", "ortho -2 2 -2 2 -9 9"),
+        ("0 0 5", "frustum -.3 .3 -.3 .3 .25 40"), ("0 0 5", "frustum -.1 .9 -1 1 .5 1e4")))
+    lines = [eye, "0 0 0", "0 1 0", projection]
     corners = [[round((x + rng.uniform(-0.4, 0.4)) / unit) for x in corner] for corner in (
         (-1.5, -1), (1.5, -1.2), (0, 1.5))]
     gap = rng.choice((0, 1, 1, 2, 3))
@@ -158,9 +159,9 @@ class Run:
 
     def parts(self):
         """Yields a stage, whether it wrote all digits, and errors as parts of their bounds."""
-        world, view = stage_of(self.world, "view"), stage_of(self.view, "project")
+        world, view = Stage(self.world, "view"), Stage(self.view, "project")
         triangles, volume = list(view.triangles()), reference.volume_of(view.header["projection"])
-        whole = [found for found in stage_of(self.ndc, "zbuf").triangles() if not found.whole]
+        whole = [found for found in Stage(self.ndc, "zbuf").triangles() if not found.whole]
         divided = [[reference.times(1 / clip.w, clip[:3]) for clip in (
             reference.to_clip_space(p, volume, None) for p in points_of(triangles[found.number]))]
                    for found in whole]
@@ -173,12 +174,11 @@ class Run:
                 error = max(abs(x - y) for x, y in zip(p, q))
                 yield stage, self.digits[digits] == "exact", error / (absolute + relative * max(map(abs, p)))
 
-
     def moved(self, count):
         """Pixels that change as vertices move within their bounds, those that are certain and show something
         else then, and those that are uncertain."""
         config = reference.read_config(reference.Text(self.config))
-        moved = moved_picture.Moved(stage_of(self.ndc, "zbuf"), bounds_of(self.ndc), config,
+        moved = moved_picture.Moved(Stage(self.ndc, "zbuf"), bounds_of(self.ndc), config,
                                     self.clip == "near")
         pictures, (certain, uncertain) = [moved.picture() for _ in range(count)], self.certified()
         changing = {(row, column) for row in range(config.height) for column in range(config.width)
@@ -186,10 +186,6 @@ class Run:
         wrong = [(row, column) for (row, column), number in certain.items()
                  if any(picture[row][column] != number for picture in pictures)]
         return changing, wrong, uncertain
-
-
-def stage_of(text, reader):
-    return Stage(re.sub(rb"(?m)^bounds .*\n", b"", text), reader)
 
 
 def points_of(found):
