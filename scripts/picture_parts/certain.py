@@ -1,5 +1,4 @@
-"""Draws until every pixel is what exact arithmetic shows: with more and more digits, and keeps what is
-certain."""
+"""Draws every pixel as exact arithmetic shows it: with 12 digits, and what these leave uncertain with all."""
 import argparse
 import os
 import re
@@ -10,9 +9,9 @@ import textwrap
 from lib.rim.command import shown
 from lib.rim.output_file import expect_writable, write_file
 from lib.running.pipe_tools import ToolFailure
-from lib.showing.pictures import blended, size_of, with_pixels_of
+from lib.showing.pictures import size_of, with_pixels_of
 
-DIGITS = "7", "12", "exact"  # the default's first; 9 would cost as much as 12 and decide less
+DIGITS = "12"  # of the first run; 7 take a tenth less, and leave pixels of most large pictures uncertain
 MOST_LISTED = 100
 FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)\Z", re.DOTALL)
 
@@ -31,21 +30,33 @@ def refuse(parser, options):
 
 
 class Certainty:
-    """What zbuf --certify tells: how many pixels there are, how many of them are uncertain, and which, as a
-    mask with the byte 255 for each, else 0; None if its list breaks off."""
+    """What zbuf --certify tells: how many pixels there are, how many of them are uncertain, and the places of
+    these, or of the first."""
 
     def __init__(self, path, width):
         with open(path) as file:
             _, certain, _, uncertain, *places = file.read().split()
         self.uncertain_count = int(uncertain)
         self.pixel_count = int(certain) + self.uncertain_count
-        self.first = [row * width + column
-                      for row, column in zip(map(int, places[::2]), map(int, places[1::2]))]
-        self.mask = None
-        if len(self.first) == self.uncertain_count:
-            self.mask = bytearray(self.pixel_count)
-            for place in self.first:
-                self.mask[place] = 255
+        self.places = [row * width + column
+                       for row, column in zip(map(int, places[::2]), map(int, places[1::2]))]
+
+    @property
+    def is_complete(self):
+        return len(self.places) == self.uncertain_count
+
+    @property
+    def mask(self):
+        """Of the uncertain pixels, if all are listed: the byte 255 for each, else 0."""
+        mask = bytearray(self.pixel_count)
+        for place in self.places:
+            mask[place] = 255
+        return mask
+
+    def keep_certain(self, earlier):
+        """Makes certain what an earlier run, whose list is complete, has called certain."""
+        self.places = sorted({*earlier.places} & {*self.places}) if self.is_complete else earlier.places
+        self.uncertain_count = len(self.places)
 
 
 def draw_for_certain(options, draw):
@@ -54,28 +65,21 @@ def draw_for_certain(options, draw):
     is_stream = options.image == "-"
     if not is_stream:
         expect_writable(options.image)
-    picture = left = None  # left: the mask of the pixels that are not certain yet, None for all
-    for digits in DIGITS:
+    notes, certainty, picture = run(options, draw, DIGITS)
+    most = DIGITS
+    if certainty.uncertain_count:
         try:
-            notes, certainty, drawn = run(options, draw, digits)
+            notes, again, drawn = run(options, draw, "exact")
         except ToolFailure as failure:
-            if picture is None:
-                raise
-            notes.append(f"picture: note: no more digits than {most}: {failure}")
-            break
-        most = "all" if digits == DIGITS[-1] else digits
-        picture = drawn if left is None else with_pixels_of(picture, drawn, left)
-        if left is None:
-            left = certainty.mask
-        elif certainty.mask is not None:
-            left = blended(bytes(len(left)), certainty.mask, left)
-        if left is not None and not any(left):
-            break
+            notes.append(f"picture: note: no more digits than {DIGITS}: {failure}")
+        else:
+            most = "all"
+            picture = with_pixels_of(picture, drawn, certainty.mask) if certainty.is_complete else drawn
+            if certainty.is_complete:
+                again.keep_certain(certainty)
+            certainty = again
     write_file("/dev/stdout" if is_stream else options.image, picture)
-    places = certainty.first if left is None else [place for place, byte in enumerate(left) if byte]
-    count = certainty.uncertain_count if left is None else len(places)
-    print(told(certainty.pixel_count, count, places, size_of(picture)[0], most),
-          file=sys.stderr if is_stream else sys.stdout)
+    print(told(certainty, size_of(picture)[0], most), file=sys.stderr if is_stream else sys.stdout)
     return notes
 
 
@@ -92,12 +96,14 @@ def run(options, draw, digits):
         return notes, Certainty(report, size_of(picture)[0]), picture
 
 
-def told(pixel_count, count, places, width, digits):
-    """What a user reads; `places` are those of the pixels uncertain with `digits`, or the first of them."""
-    text = f"{pixel_count - count:,} of {pixel_count:,} pixels are what exact arithmetic shows"
+def told(certainty, width, digits):
+    """What a user reads of a picture whose pixels are uncertain with so many `digits`."""
+    count, places = certainty.uncertain_count, certainty.places[:MOST_LISTED]
+    total = certainty.pixel_count
+    text = f"{total - count:,} of {total:,} pixels are what exact arithmetic shows"
     if count == 0:
         return text
-    listed = [f"{place % width},{place // width}" for place in places[:MOST_LISTED]]
+    listed = [f"{place % width},{place // width}" for place in places]
     more = f" and {count - len(listed):,} more" if count > len(listed) else ""
     return text + "\n" + textwrap.fill(
         f"undecided with {digits} digits, and drawn by the rules for ties (column,row): " + " ".join(listed) +
