@@ -259,6 +259,20 @@ class Words(ToolTest):
             "background\n",
             report)
 
+    def test_why_a_pixel_is_uncertain(self):
+        """The last of 7 decimals is off by up to half a unit in x, y and z, and a pixel is 1/4."""
+        line = "  uncertain: rounding may have moved edges here by 4.0e-7 pixels, depths by 5.0e-8; %s\n"
+        self.assertIn(line % "edge 1-2 is as near", self.on_centers("3,4"))
+        self.assertNotIn("uncertain", self.on_centers("2,5") + self.on_centers("3,4", "nearest"))
+        walls = [f"triangle\n-9 -9 {z}\n9 -9 {z}\n0 9 {z}\n" for z in ("-.25", "-.25000004", "1")]
+        for text, number, why in ((walls[0] + walls[1], 0, "triangle 1 is as near"),
+                                  (walls[2], 0, "the front limit is as near"),
+                                  (walls[0] + "triangle\n-1 -1 -.5\n-.5 -1 -.5\n-1 -.5 -.5\n" + walls[0], 1,
+                                   "other triangles are why")):
+            report = self.report(text, "--triangle", number, "--pixel", "4,4", "--coverage", "center",
+                                 camera=self.FLAT)
+            self.assertTrue(report.endswith(line % why), report)
+
     def test_the_transforms_in_force(self):
         report = self.report("translate\n1 2 3\npush\nscale\n9 9 9\npop\nrotate 90 0 0 1\n" + self.ON_CENTERS,
                              "--triangle", 0)

@@ -5,9 +5,9 @@ from lib.maths.window import OWNING, PixelOfTriangle
 
 
 def pixel_section(stages, window, pieces, number, pixel):
-    """Lines about the pixel and triangle `number`, whose pieces are pairs of names and points in NDC; and the
-    Fragments there."""
-    fragments = stages.fragments(*pixel)
+    """Lines about the pixel and triangle `number`, whose pieces are pairs of names and points in NDC; the
+    Fragments there; and the PixelOfTriangle of the piece that covers the pixel, or is nearest to it."""
+    fragments, rule, shown = stages.fragments(*pixel), stages.settings.coverage, None
     x, y = window.grid.x_of(pixel[0]), window.grid.y_of(pixel[1])
     lines = [
         f"PIXEL    {pixel[0]},{pixel[1]}: its center is at column {pixel[0]}, row {pixel[1]} of the window, "
@@ -16,13 +16,12 @@ def pixel_section(stages, window, pieces, number, pixel):
     if pieces:
         is_drawn = any(fragment.triangle == number for fragment in fragments)
         pixels = [PixelOfTriangle(window, names, points, pixel) for names, points in pieces]
-        lines += coverage_lines(pixels, stages.settings.coverage, is_drawn)
-    return lines, fragments
+        shown = max(pixels, key=lambda p: (p.is_covered(rule), p.distance))
+        lines += coverage_lines(shown, rule, is_drawn)
+    return lines, fragments, shown
 
 
-def coverage_lines(pixels, rule, is_drawn):
-    """About the piece that covers the pixel, or is nearest to it."""
-    shown = max(pixels, key=lambda p: (p.is_covered(rule), p.distance))
+def coverage_lines(shown, rule, is_drawn):
     lines = edge_lines(shown.edges, rule) if shown.has_area else []
     lines += center_lines(shown) if rule == "center" else nearest_lines(shown)
     is_covered = shown.is_covered(rule)

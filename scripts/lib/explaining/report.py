@@ -1,5 +1,6 @@
 """The whole report: what happens to one triangle, stage by stage, and at a pixel."""
 from lib.explaining.calculation import Calculation
+from lib.explaining.certainty import certainty_lines
 from lib.explaining.pixel_section import pixel_section, winner_lines
 from lib.explaining.stage_sections import model_section, project_section, view_section, window_section
 from lib.maths.exact import decimal_or_double
@@ -8,12 +9,14 @@ MAX_LINES = 60
 
 
 def report(stages, triangle, window, name, options):
-    lines, pieces = triangle_report(stages, triangle, window, name, options.triangle)
+    number = options.triangle
+    lines, pieces = triangle_report(stages, triangle, window, name, number)
     if not options.pixel:
         return lines + suggestion(window, pieces)
-    coverage, fragments = pixel_section(stages, window, pieces, options.triangle, options.pixel)
+    coverage, fragments, shown = pixel_section(stages, window, pieces, number, options.pixel)
     lines += ["", *coverage]
-    return lines + winner_lines(fragments, options.triangle, MAX_LINES - len(lines))
+    certainty = certainty_lines(stages, triangle, shown, number, fragments) if shown else []
+    return lines + winner_lines(fragments, number, MAX_LINES - len(lines) - len(certainty)) + certainty
 
 
 def triangle_report(stages, triangle, window, name, number):

@@ -7,9 +7,10 @@ import pathlib
 import re
 import tempfile
 
+from lib.maths.exact import double
 from lib.maths.window import Window
 from lib.rim.input_file import read_input
-from lib.running.pipe_tools import opaque_background
+from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.running.tool_options import words_of_project
 from lib.text.stage_text import parse_stage_text, text_of
 
@@ -87,10 +88,27 @@ class Stages:
 
     def fragments(self, column, row):
         """Every Fragment of the whole scene at a pixel, in the order they come."""
-        project = ["project", "--digits", self.settings.digits, *self.settings.of_project]
-        text = self.tools.through(["view", *EXACT], project, stdin=self.lossless)
-        report = self.zbuf(text, "--probe", f"{column},{row}")
+        report = self.zbuf(self.projected_whole(self.lossless), "--probe", f"{column},{row}")
         return [Fragment(int(n), depth, fate) for n, depth, fate in FRAGMENT.findall(report)]
+
+    def projected_whole(self, world):
+        """The text of project of the whole scene."""
+        project = ["project", "--digits", self.settings.digits, *self.settings.of_project]
+        return self.tools.through(["view", *EXACT], project, stdin=world)
+
+    def bounds_if_uncertain(self, column, row):
+        """The numbers of the text's `bounds` if zbuf --certify calls the pixel uncertain; None if not, or
+        where bounds are refused."""
+        if self.settings.coverage != "center":
+            return None
+        try:
+            text = self.projected_whole(self.tools.output("model", "--bounds", *EXACT, self.scene))
+            report = self.zbuf(text, "--certify", "/dev/stderr", "--rows", f"{row}:{row + 1}")
+        except ToolFailure:
+            return None
+        if f"\n{row} {column}\n" not in report:
+            return None
+        return [double(word) for word in re.search(rb"^bounds ndc (.*)$", text, re.M)[1].decode().split()]
 
 
 def words_of(lines):
