@@ -16,6 +16,7 @@ LEVERS = (
     {"shading": "gouraud"},
 )
 DEAR_LEVERS = ({"samples": "2"},)
+CERTAIN = {"digits": "12", "certify": "-"}  # as picture --certain begins
 SAMPLINGS = ("basic", "jittered", "adaptive")  # of trace, which has no coverage rule
 
 
@@ -27,6 +28,8 @@ def settings(rule, with_dear=False, without=()):
     for lever in LEVERS + DEAR_LEVERS * with_dear:
         if not set(lever) & set(without):
             yield dataclasses.replace(base, **lever)
+    if rule == "center" and not without:
+        yield dataclasses.replace(base, **CERTAIN)
     yield from (dataclasses.replace(DEFAULT, sampling=sampling) for sampling in SAMPLINGS * with_dear)
     if rule != DEFAULT.coverage:
         yield from (DEFAULT, exact(DEFAULT.coverage))

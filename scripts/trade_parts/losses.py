@@ -84,8 +84,10 @@ class Truth:
 
     def feels(self, setting):
         """Whether the picture or the text changes with the lever that is not the default's: of clipping,
-        culling, an epsilon or shading; others it feels."""
+        culling, an epsilon or shading; others it feels, unless the tools refuse them."""
         try:
+            if setting.certify != DEFAULT.certify:
+                return bool(self.pipe.text(setting))
             if setting.shading != DEFAULT.shading:
                 return self.is_lit and self.pipe.colors(setting) != self.pipe.colors(self.base)
             if setting.depth_epsilon != DEFAULT.depth_epsilon:

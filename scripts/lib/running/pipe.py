@@ -27,6 +27,7 @@ class Setting:
     depth_epsilon: str = "0"
     shading: str = "the scene's"
     samples: str = "1"
+    certify: str = "none"  # with the bounds that it needs
     sampling: str = "none"
 
     def words(self, *names):
@@ -42,7 +43,7 @@ class Setting:
     @property
     def of_texts(self):
         """The setting of model, view and project alone."""
-        return Setting(self.digits, self.precision, self.clip, self.cull)
+        return Setting(self.digits, self.precision, self.clip, self.cull, certify=self.certify)
 
     @property
     def under_default_coverage(self):
@@ -66,7 +67,7 @@ DEFAULT = Setting()
 OPTIONS = {
     "model": ("digits", "precision"), "view": ("digits", "precision"),
     "project": ("digits", "precision", "clip", "cull"),
-    "zbuf": ("coverage", "depth", "depth_epsilon", "shading", "samples"), "trace": ("sampling",)}
+    "zbuf": ("coverage", "depth", "depth_epsilon", "shading", "samples", "certify"), "trace": ("sampling",)}
 
 
 def exact(rule):
@@ -88,7 +89,8 @@ class Pipe:
 
     def words(self, tool, setting):
         """The options of a tool."""
-        return [*setting.words(*OPTIONS[tool]),
+        has_bounds = tool == "model" and setting.certify != DEFAULT.certify
+        return [*setting.words(*OPTIONS[tool]), *["--bounds"] * has_bounds,
                 *{"project": self.of_project, "trace": self.of_camera}.get(tool, []),
                 *(self.opaque if tool in ("zbuf", "trace") else [])]
 
