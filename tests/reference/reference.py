@@ -228,6 +228,7 @@ def read_config(text):  # C1 to C3
 
 # stage-text.md: reading
 USED_UP = {"view": ("projected",), "project": (*POSITION, "projected"), "zbuf": POSITION + PROJECTIONS}
+SPACES = {"view": "world", "project": "view", "zbuf": "ndc"}  # T28, T29
 class Stage:  # T1 to T16: a stage text as `reader` reads it; `header` has its parts by keyword, any projection as `projection`
     def __init__(self, data, reader, is_bare=False):
         self.text, self.reader, self.header, self.is_bare = Text(data), reader, {}, is_bare
@@ -236,13 +237,17 @@ class Stage:  # T1 to T16: a stage text as `reader` reads it; `header` has its p
         self.first, self.end_of_header = line, line.number if line else self.text.at + 1
         check_camera(self.header)
 
-    def read_header(self, line):  # T1 to T7b, T14: whether the line belongs to the header
-        keyword = line.take("framed", "projected", "attributes", *POSITION, *PROJECTIONS, *ONCE, *REPEATED)
+    def read_header(self, line):  # T1 to T7b, T14, T28, T29: whether the line belongs to the header
+        keyword = line.take("framed", "projected", "attributes", "bounds", *POSITION, *PROJECTIONS, *ONCE, *REPEATED)
         name = "projection" if keyword in ("projected", *PROJECTIONS) else keyword
         if keyword in USED_UP[self.reader] or name in self.header and name not in REPEATED:
             raise Refused(line.number, f"{keyword}: a second one, or a text that is not for {self.reader}")
         if keyword == "framed":
             self.header[name] = line.end() or True
+        elif keyword == "bounds":
+            line.take(SPACES[self.reader]) or line.refuse(f"{SPACES[self.reader]}, the space of this text")
+            self.header[name] = line.reals(*[NOT_NEGATIVE] * (4 if self.reader == "zbuf" else 2))
+            line.end()
         elif keyword == "attributes":
             self.header[name] = read_columns(line, ("w", "color", "normal", "material"))
             if "w" in self.header[name] and self.reader != "zbuf":

@@ -217,6 +217,8 @@ def numbers_in_words():
 
 def headers():
     """Which header lines, columns and marks a stage text may have."""
+    yield Case("zbuf", "bounds-move-nothing", "Bounds tell of a picture; they do not change it.", "T29",
+               "bounds ndc 0.5 0 0.25 1e-3\n" + "\n".join(CORNERS) + "\n", CONFIG, needs="bounds")
     for stage, header in HEADERS.items():
         at = header.count("\n")
         color = "attributes color\n" + VERTICES.replace("\n", " 1 2 3\n")

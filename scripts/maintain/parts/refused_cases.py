@@ -256,6 +256,8 @@ def stage_texts():
          ""), ("w-of-0", "The column w is above 0.", "T9", "zbuf", 2,
                "attributes w\n0 0 0 0\n1 0 0 1\n0 1 0 1\n", "")):
         yield refused(stage, name, why, paragraphs, line, text, options=options)
+    yield refused("view", "bounds-of-another-space", "Bounds hold for the text of one stage.", "T28", 5,
+                  HEADERS["view"] + "bounds view 0 0\n" + VERTICES, needs="bounds")
 
 
 def spheres():

@@ -25,6 +25,7 @@ NEEDS = {
     "optics": "materials that mirror, are clear or absorb",
     "spheres": "spheres in scenes and texts",
     "alpha": "`background R G B A`: an alpha, which only PNG holds",
+    "bounds": "texts with the header line `bounds`",
     "exactness": "more digits than plain doubles give",
     "refusals": "wrong input is refused, with its line",
 }
