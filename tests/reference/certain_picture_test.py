@@ -13,12 +13,9 @@ import sys
 import tempfile
 import unittest
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(SOURCE / "scripts/measure"))
-
 import certain_test
 import exact_picture
-from certain_test import BIN, FIRST, SCENES
+from certain_test import BIN, FIRST, SCENES, SOURCE
 from lib.showing.pictures import picture_of, read_picture
 from parts.extremes_scenes import SIZE, Case, scene_text
 from parts.extremes_truth import true_owners, true_vertices

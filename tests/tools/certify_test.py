@@ -115,6 +115,10 @@ class Certify(ToolTest):
                                     (64, wall(2), f"8 8\n-4\n-4\n-1 {depth(2.1)!r}\n"),
                                     (0, wall(2), f"8 8\n-4\n-4\n-1 {depth(2.2)!r}\n")):
             self.assertEqual(self.certify(NDC + text, config=config)[1], f"uncertain {count}", (text, config))
+        header = "projected ortho -1 1 -1 1 -1 1\nbounds ndc 0 0 0.125 0\nattributes w\n"
+        for gap, count in ((0.24, 64), (0.26, 0)):
+            text = "".join(f"-60 -20 {z} 1\n60 -20 {z} 1\n0 80 {z} 1\n\n" for z in (0.1, 0.1 + gap))
+            self.assertEqual(self.certify(header + text, config="8 8\n")[1], f"uncertain {count}", gap)
 
     def test_an_edge_on_triangle_is_no_nearer_than_what_is_shown(self):
         """Of what may be nearer, the front limit shows none, nor does what is cut at the near plane."""
