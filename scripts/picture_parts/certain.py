@@ -45,14 +45,6 @@ class Certainty:
     def is_complete(self):
         return len(self.places) == self.uncertain_count
 
-    @property
-    def mask(self):
-        """Of the uncertain pixels, if all are listed: the byte 255 for each, else 0."""
-        mask = bytearray(self.pixel_count)
-        for place in self.places:
-            mask[place] = 255
-        return mask
-
     def keep_certain(self, earlier):
         """Makes certain what an earlier run, whose list is complete, has called certain."""
         self.places = sorted({*earlier.places} & {*self.places}) if self.is_complete else earlier.places
@@ -74,7 +66,7 @@ def draw_for_certain(options, draw):
             notes.append(f"picture: note: no more digits than {DIGITS}: {failure}")
         else:
             most = "all"
-            picture = with_pixels_of(picture, drawn, certainty.mask) if certainty.is_complete else drawn
+            picture = with_pixels_of(picture, drawn, certainty.places) if certainty.is_complete else drawn
             if certainty.is_complete:
                 again.keep_certain(certainty)
             certainty = again

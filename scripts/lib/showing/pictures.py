@@ -214,31 +214,24 @@ def size_of(picture):
     return struct.unpack_from(*((">II", picture, 16) if picture[:2] == b"\x89P" else ("<ii", picture, 18)))
 
 
-def blended(row, other, mask):
-    """The pixels of a row, but those of another one where `mask` has the byte 255, not 0, for a pixel."""
-    size, wide = len(row) // len(mask), bytearray(len(row))
-    for channel in range(size):
-        wide[channel::size] = mask
-    a, b, m = (int.from_bytes(part, "big") for part in (row, other, wide))
-    return (a ^ (a ^ b) & m).to_bytes(len(row), "big")
-
-
-def with_pixels_of(picture, other, mask):
-    """A picture file as zbuf writes it, blended with another one like it."""
+def with_pixels_of(picture, other, places):
+    """A picture file as zbuf writes it, with the pixels of another one like it at these places."""
     width, height = size_of(picture)
-    masks = {row: part for row in range(height) if any(part := mask[row * width:(row + 1) * width])}
     if picture[:2] == b"\x89P":  # no filter of zbuf's looks at the row above, so other rows stay as they are
         (*_, size, lines), (*_, others) = png_lines(picture), png_lines(other)
-        for row, part in masks.items():
-            pixels = (unfiltered(line[0], line[1:], None, size) for line in (lines[row], others[row]))
-            lines[row] = b"\0" + blended(*pixels, part)
+        for row in {place // width for place in places}:
+            for of in (lines, others):
+                of[row] = bytearray(b"\0" + unfiltered(of[row][0], of[row][1:], None, size))
+        for place in places:
+            row, at = place // width, 1 + place % width * size
+            lines[row][at:at + size] = others[row][at:at + size]
         return png_of_lines(width, height, size, lines, level=4)  # as zbuf does
     stride, first = 3 * width, len(picture) - 3 * width * height
     if picture[:2] == b"BM":  # rows from the bottom
         stride = -((3 * width + 3) // 4 * 4)
         first = len(picture) + stride
     whole = bytearray(picture)
-    for row, part in masks.items():
-        place = slice(first + row * stride, first + row * stride + 3 * width)
-        whole[place] = blended(picture[place], other[place], part)
+    for place in places:
+        at = first + place // width * stride + place % width * 3
+        whole[at:at + 3] = other[at:at + 3]
     return bytes(whole)
