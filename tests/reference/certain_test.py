@@ -78,7 +78,7 @@ def scene(rng):
     near = rng.choice(("1", "0.5", "0.01", "0.0001", "3"))
     projection = rng.choice((
         "60 1.3333 %s 100", "35 1 %s 10", "100 1.2 %s 1e6 ratio", "frustum -.1 .3 .2 -.1 %s 50",
-        "frustum -1 1 -1 1 %s 1e4", "ortho -2 2.5 -2 2 %s 9")) % near
+        "frustum -1 1 -1 1 %s 1e4", "ortho -2 2.5 -2 2 %s 9", "ortho 2 -2.5 -2 2 -%s 9")) % near
     lines = ["%r %r %r" % tuple(p + q for p, q in zip(middle, eye)), "%r %r %r" % tuple(middle),
              "%.3f 1 0" % rng.choice((0, rng.uniform(-1, 1))), projection]
     if far_away:
