@@ -26,7 +26,8 @@ class Trace(unittest.TestCase):
                               stdout=subprocess.PIPE, text=True, timeout=600)
         wrong = re.findall(r"^not ok \d+ - (\S+)$", done.stdout, re.M)
         projected = {case.short_name for case in read_cases("zbuf")
-                     if re.search(rb"^(attributes w|projected|clipped|bounds)\b", case.read("input.txt"), re.M)}
+                     if re.search(rb"^(attributes w|projected|clipped|bounds)\b", case.read("input.txt"),
+                                  re.M)}
         # Texts that zbuf refuses because they have not been through project.
         of_view = {"refused-lights-of-no-projection", "refused-text-of-view", "refused-frustum-not-projected",
                    "refused-ortho-not-projected", "refused-sphere"}

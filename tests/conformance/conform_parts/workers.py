@@ -67,8 +67,8 @@ class Worker:
         self.connection, theirs = Pipe()
         self.pid = os.fork()
         if not self.pid:
-            # So that the connection ends when the process that began it does: it may be killed before this one
-            # has asked to be told.
+            # So that the connection ends with the process that began it, even if that is killed before this
+            # one has asked to be told.
             for worker in (self, *others):
                 worker.connection.close()
             serve(theirs, task)
