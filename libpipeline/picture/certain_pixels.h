@@ -1,10 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "libpipeline/picture/true_outline.h"
@@ -22,29 +22,39 @@ class CertainPixels {
   /// Takes the next triangles. Pieces stand for the triangle that they were cut from.
   void add(const TriangleBatch& p_ndc);
   /// Whether the pixel of a drawn row certainly shows the triangle `number`; -1: none.
-  [[nodiscard]] bool is_certain(int row, int column, std::int64_t number) const;
+  [[nodiscard]] bool is_certain(int row, int column, std::int64_t number) const {
+    const std::size_t i = index_of(row, column);
+    if (number < 0) return possible_[i] == kFar;
+    // The one that surely covers may, too.
+    return sure_numbers_[i] == static_cast<double>(number) && second_possible_[i] > sure_[i];
+  }
 
  private:
-  /// Distances in front of the eye: the least upper bound of those who surely cover the pixel's center, and
-  /// the two least lower bounds of those who may.
-  struct Pixel {
-    static constexpr double kFar = std::numeric_limits<double>::infinity();
-    double sure = kFar, possible = kFar, second_possible = kFar;
-    std::int64_t sure_number = -1;
-  };
-  /// Those of a row whose centers a triangle may cover, and those that it surely covers.
-  struct Columns {
-    RowRange possible, sure;
-  };
-  [[nodiscard]] Columns columns_of(const TrueOutline& outline, double v) const;
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+  struct Row;
+
+  [[nodiscard]] bool is_hidden(const TrueOutline& outline) const;
   void add_row(const TrueOutline& outline, int row, std::int64_t number);
-  [[nodiscard]] std::size_t index_of(int row, int column) const;
+  void add_block(const Row& row, const RowRange& columns, const RowRange& sure) const;
+  template <bool kIsSure>
+  static void add_pixels(const Row& part, int begin, int end);
+  void add_near_limits(const Row& row, const RowRange& columns, const RowRange& sure) const;
+  [[nodiscard]] std::size_t index_of(int row, int column) const {
+    return static_cast<std::size_t>(row - screen_.drawn_rows().first) *
+               static_cast<std::size_t>(screen_.columns) +
+           static_cast<std::size_t>(column);
+  }
 
   Viewport screen_;
   TrueOutlines outlines_;
-  std::pair<double, double> front_, rear_;  // distances that these limits lie between
+  std::array<double, 2> front_, rear_;  // depths that these limits lie between
   std::shared_ptr<const ClipTriangle> last_whole_;
-  std::vector<Pixel> pixels_;
+  // By pixel: the least upper bound on the depths of those triangles that surely cover its center, and whose
+  // it is; and the two least lower bounds of those that may.
+  std::vector<double> sure_, possible_, second_possible_, sure_numbers_;
+  /// By block of a row: a depth that is not below `sure_` there.
+  int block_count_;
+  std::vector<double> farthest_;
 };
 
 }  // namespace pipeline

@@ -30,8 +30,12 @@ TriangleStore::TriangleStore(const Setup& setup, std::optional<SurfaceShader>& s
 }
 
 void TriangleStore::color(std::span<const PixelTag> tags, std::span<Color> colors) {
-  const auto color_of = [this](PixelTag id) {
-    return id == KeptIds::kNoTriangle ? setup_.background : colors_.of(number(id));
+  PixelTag last = KeptIds::kNoTriangle;
+  Color color = setup_.background;
+  const auto color_of = [&](PixelTag id) {
+    if (id != last) color = id == KeptIds::kNoTriangle ? setup_.background : colors_.of(number(id));
+    last = id;
+    return color;
   };
   if (has_ids())
     std::ranges::transform(tags, colors.begin(), color_of);
