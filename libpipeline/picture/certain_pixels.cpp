@@ -20,18 +20,18 @@ constexpr double kMargin = 1e-6;
 struct Columns {
   Columns(const TrueOutline& outline, int row) {
     const double count = outline.columns.end - outline.columns.first;
-    double low = -0.5, sure_low = low, high = count - 0.5, sure_high = high;
+    std::array<double, 2> low = {-0.5, -0.5}, high = {count - 0.5, count - 0.5};
     for (const Side& side : outline.sides) {
       const double crossing = side.crossing(row);
-      low = std::max(low, crossing + side.low);
-      high = std::min(high, crossing + side.high);
-      sure_low = std::max(sure_low, crossing + side.sure_low);
-      sure_high = std::min(sure_high, crossing + side.sure_high);
+      for (std::size_t i = 0; i < 2; ++i) {
+        low[i] = std::max(low[i], crossing + side.low[i]);
+        high[i] = std::min(high[i], crossing + side.high[i]);
+      }
     }
     // Conversions to int round down.
     const auto rounded = [](double at, double by) { return static_cast<int>(at + (1 + by)); };
-    possible = {rounded(std::min(low, count), -kMargin), rounded(std::max(high, -1.0), kMargin)};
-    sure = {rounded(std::min(sure_low, count), kMargin), rounded(std::max(sure_high, -1.0), -kMargin)};
+    possible = {rounded(std::min(low[0], count), -kMargin), rounded(std::max(high[0], -1.0), kMargin)};
+    sure = {rounded(std::min(low[1], count), kMargin), rounded(std::max(high[1], -1.0), -kMargin)};
   }
 
   RowRange possible, sure;
@@ -39,22 +39,23 @@ struct Columns {
 
 }  // namespace
 
-/// The part of a triangle on a row. Its columns are counted from that of the first of these pixels.
+/// The pixels and the depths of a triangle on a row, by column from the first of its outline.
 struct CertainPixels::Row {
-  [[nodiscard]] double nearest(int column) const {
-    return std::max(nearest_at_0 + nearest_per_column * column, least);
-  }
+  [[nodiscard]] double nearest(int column) const { return std::max(nearest_at_0 + nearest_per_column * column, least); }
   [[nodiscard]] double farthest(int column) const {
     return std::min(farthest_at_0 + farthest_per_column * column, greatest);
   }
+  [[nodiscard]] double& sure(int column) const { return pixels[column]; }
+  [[nodiscard]] double& sure_number(int column) const { return pixels[stride + column]; }
+  [[nodiscard]] double& possible(int column) const { return pixels[2 * stride + column]; }
+  [[nodiscard]] double& second_possible(int column) const { return pixels[3 * stride + column]; }
 
-  double* sure;
-  double* possible;
-  double* second_possible;
-  double* sure_numbers;
-  double nearest_at_0, nearest_per_column, farthest_at_0, farthest_per_column, least, greatest;
   double number;
+  double nearest_per_column, farthest_per_column, least, greatest;
   bool is_limited;  // may be before the front limit, cut, or behind the rear limit
+  std::ptrdiff_t stride;
+  double* pixels = nullptr;
+  double nearest_at_0 = 0, farthest_at_0 = 0;
 };
 
 CertainPixels::CertainPixels(const Viewport& screen, const Bounds& bounds, const Projection& projected)
@@ -64,10 +65,10 @@ CertainPixels::CertainPixels(const Viewport& screen, const Bounds& bounds, const
       rear_(outlines_.depths_at(screen.rear)),
       block_count_((screen.columns + kBlockColumns - 1) / kBlockColumns) {
   front_[1] = std::max(front_[1], outlines_.near_depth());
-  const std::size_t count = index_of(screen.drawn_rows().end, 0);
-  expect_available_memory(4 * count * sizeof(double));
-  for (auto* pixels : {&sure_, &possible_, &second_possible_, &sure_numbers_}) pixels->resize(count, kFar);
-  farthest_.resize(static_cast<std::size_t>(block_count_) * static_cast<std::size_t>(screen.drawn_row_count()), kFar);
+  const auto rows = static_cast<std::size_t>(screen.drawn_row_count());
+  expect_available_memory(4 * static_cast<std::size_t>(screen.columns) * rows * sizeof(double));
+  pixels_.resize(4 * static_cast<std::size_t>(screen.columns) * rows, kFar);
+  farthest_.resize(static_cast<std::size_t>(block_count_) * rows, kFar);
 }
 
 void CertainPixels::add(const TriangleBatch& p_ndc) {
@@ -80,45 +81,46 @@ void CertainPixels::add(const TriangleBatch& p_ndc) {
     outlines_.set_box(outline, p_ndc, i);
     if (outline.is_empty() || is_hidden(outline)) continue;
     outlines_.set_sides(outline);
-    for (int row = outline.rows.first; row < outline.rows.end; ++row)
-      add_row(outline, row, static_cast<std::int64_t>(p_ndc.numbers[i]));
+    Row part = {static_cast<double>(p_ndc.numbers[i]), outline.nearest.u, outline.farthest.u, outline.least,
+                outline.greatest, outline.least <= front_[1] || outline.greatest >= rear_[0], screen_.columns};
+    for (int row = outline.rows.first; row < outline.rows.end; ++row) add_row(part, outline, row);
   }
 }
 
 bool CertainPixels::is_hidden(const TrueOutline& outline) const {
-  const auto& [columns, rows] = std::pair(outline.columns, outline.rows);
+  const int first = outline.columns.first, end = outline.columns.end;
   if (outline.greatest < front_[0] || outline.least > rear_[1]) return true;
-  if ((columns.end - columns.first) * (rows.end - rows.first) > kFewPixels) return false;
-  for (int row = rows.first; row < rows.end; ++row)
-    for (std::size_t i = index_of(row, columns.first), end = index_of(row, columns.end); i < end; ++i)
-      if (!(sure_[i] < outline.least)) return false;
+  if ((end - first) * (outline.rows.end - outline.rows.first) > kFewPixels) return false;
+  for (int row = outline.rows.first; row < outline.rows.end; ++row) {
+    const double* const sure = &pixels_[index_of(row, 0)];
+    for (int column = first; column < end; ++column)
+      if (!(sure[column] < outline.least)) return false;
+  }
   return true;
 }
 
-void CertainPixels::add_row(const TrueOutline& outline, int row, std::int64_t number) {
+void CertainPixels::add_row(Row& part, const TrueOutline& outline, int row) {
   const int first = outline.columns.first, in_outline = row - outline.rows.first;
   const auto& [columns, sure_columns] = Columns(outline, in_outline);
   if (columns.first >= columns.end) return;
-  const std::size_t at = index_of(row, first);
-  const auto at_0 = [&](const Linear& f) { return f.v * in_outline + f.constant; };
-  const Row part = {&sure_[at], &possible_[at], &second_possible_[at], &sure_numbers_[at],
-                    at_0(outline.nearest), outline.nearest.u, at_0(outline.farthest), outline.farthest.u,
-                    outline.least, outline.greatest, static_cast<double>(number),
-                    outline.least <= front_[1] || outline.greatest >= rear_[0]};
-  const int first_block = first / kBlockColumns, shift = first_block * kBlockColumns - first;
-  double* const farthest = &farthest_[static_cast<std::size_t>(row - screen_.drawn_rows().first) * block_count_ + first_block];
+  part.pixels = &pixels_[index_of(row, first)];
+  part.nearest_at_0 = outline.nearest.v * in_outline + outline.nearest.constant;
+  part.farthest_at_0 = outline.farthest.v * in_outline + outline.farthest.constant;
+  double* const farthest = &farthest_[static_cast<std::size_t>((row - screen_.drawn_rows().first) * block_count_)];
   // The block's nearest column, which may be beyond the triangle.
-  const int nearest_in_block = shift + (part.nearest_per_column < 0 ? kBlockColumns - 1 : 0);
-  for (int block = (columns.first - shift) / kBlockColumns, end = (columns.end - 1 - shift) / kBlockColumns; block <= end; ++block) {
-    if (part.nearest(block * kBlockColumns + nearest_in_block) > farthest[block]) continue;  // hidden
-    const int begin = block * kBlockColumns + shift;
-    const RowRange whole = {begin, std::min(begin + kBlockColumns, screen_.columns - first)};
-    const auto within = [&](const RowRange& part_of) {
-      return RowRange{std::clamp(part_of.first, whole.first, whole.end), std::clamp(part_of.end, whole.first, whole.end)};
+  const int nearest_in_block = part.nearest_per_column < 0 ? kBlockColumns - 1 : 0;
+  const int end_block = (first + columns.end - 1) / kBlockColumns + 1;
+  for (int block = (first + columns.first) / kBlockColumns; block < end_block; ++block) {
+    const int begin = block * kBlockColumns - first;
+    if (part.nearest(begin + nearest_in_block) > farthest[block]) continue;  // hidden
+    const int end = std::min(begin + kBlockColumns, screen_.columns - first);
+    const auto within = [&](const RowRange& all) {
+      return RowRange{std::clamp(all.first, begin, end), std::clamp(all.end, begin, end)};
     };
     add_block(part, within(columns), within(sure_columns));
-    if (!part.is_limited && sure_columns.first <= whole.first && sure_columns.end >= whole.end)
-      farthest[block] = std::min(farthest[block], part.farthest(part.farthest_per_column < 0 ? whole.first : whole.end - 1));
+    if (!part.is_limited && sure_columns.first <= begin && sure_columns.end >= end)
+      farthest[block] =
+          std::min(farthest[block], part.farthest(part.farthest_per_column < 0 ? begin : end - 1));
   }
 }
 
@@ -132,33 +134,34 @@ void CertainPixels::add_block(const Row& row, const RowRange& columns, const Row
 
 /// Where no limit is near. Written so that compilers make vectors of it.
 template <bool kIsSure>
-void CertainPixels::add_pixels(const Row& row, int begin, int end) {
+void CertainPixels::add_pixels(const Row& of, int begin, int end) {
+  const Row row = of;  // no pixel may be part of it
   const double number = row.number;
 #pragma GCC ivdep
   for (int i = begin; i < end; ++i) {
-    const double nearest = row.nearest(i), other = row.possible[i];
-    row.second_possible[i] = std::min(row.second_possible[i], std::max(other, nearest));
-    row.possible[i] = std::min(other, nearest);
+    const double nearest = row.nearest(i), other = row.possible(i);
+    row.second_possible(i) = std::min(row.second_possible(i), std::max(other, nearest));
+    row.possible(i) = std::min(other, nearest);
     if constexpr (kIsSure) {
-      const double farthest = row.farthest(i), before = row.sure[i], number_before = row.sure_numbers[i];
-      row.sure[i] = std::min(before, farthest);
-      row.sure_numbers[i] = before - farthest > 0 ? number : number_before;
+      const double farthest = row.farthest(i), before = row.sure(i), number_before = row.sure_number(i);
+      row.sure(i) = std::min(before, farthest);
+      row.sure_number(i) = before - farthest > 0 ? number : number_before;
     }
   }
 }
 
 /// Where a triangle, or a part of it, may be beyond a limit.
-void CertainPixels::add_near_limits(const Row& part, const RowRange& columns, const RowRange& sure) const {
+void CertainPixels::add_near_limits(const Row& row, const RowRange& columns, const RowRange& sure) const {
   for (int i = columns.first; i < columns.end; ++i) {
-    const double nearest = part.nearest(i), farthest = part.farthest(i);
+    const double nearest = row.nearest(i), farthest = row.farthest(i);
     if (farthest < front_[0] || nearest > rear_[1]) continue;
     const double shown = std::max(nearest, front_[0]);
-    part.second_possible[i] = std::min(part.second_possible[i], std::max(part.possible[i], shown));
-    part.possible[i] = std::min(part.possible[i], shown);
-    if (i < sure.first || i >= sure.end || !(farthest < std::min(part.sure[i], rear_[0])) || nearest <= front_[1])
-      continue;
-    part.sure[i] = farthest;
-    part.sure_numbers[i] = part.number;
+    row.second_possible(i) = std::min(row.second_possible(i), std::max(row.possible(i), shown));
+    row.possible(i) = std::min(row.possible(i), shown);
+    const bool is_sure = i >= sure.first && i < sure.end && nearest > front_[1] && farthest < rear_[0];
+    if (!is_sure || farthest >= row.sure(i)) continue;
+    row.sure(i) = farthest;
+    row.sure_number(i) = row.number;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "libpipeline/picture/true_outline.h"
@@ -21,12 +22,19 @@ class CertainPixels {
 
   /// Takes the next triangles. Pieces stand for the triangle that they were cut from.
   void add(const TriangleBatch& p_ndc);
-  /// Whether the pixel of a drawn row certainly shows the triangle `number`; -1: none.
-  [[nodiscard]] bool is_certain(int row, int column, std::int64_t number) const {
-    const std::size_t i = index_of(row, column);
-    if (number < 0) return possible_[i] == kFar;
-    // The one that surely covers may, too.
-    return sure_numbers_[i] == static_cast<double>(number) && second_possible_[i] > sure_[i];
+  /// Calls `visit(column)` for the pixels of a drawn row that might show another triangle than that of the
+  /// number, or any at all where it is -1.
+  template <typename Visit>
+  void for_each_uncertain(int row, std::span<const std::int64_t> numbers, Visit&& visit) const {
+    const auto stride = static_cast<std::size_t>(screen_.columns);
+    const double* pixel = &pixels_[index_of(row, 0)];  // as Row has them
+    for (std::size_t i = 0; i < stride; ++i, ++pixel) {
+      // The one that surely covers may, too.
+      const bool is_certain = numbers[i] < 0 ? pixel[2 * stride] == kFar
+                                             : pixel[stride] == static_cast<double>(numbers[i]) &&
+                                                   pixel[3 * stride] > pixel[0];
+      if (!is_certain) visit(static_cast<int>(i));
+    }
   }
 
  private:
@@ -34,13 +42,13 @@ class CertainPixels {
   struct Row;
 
   [[nodiscard]] bool is_hidden(const TrueOutline& outline) const;
-  void add_row(const TrueOutline& outline, int row, std::int64_t number);
+  void add_row(Row& part, const TrueOutline& outline, int row);
   void add_block(const Row& row, const RowRange& columns, const RowRange& sure) const;
   template <bool kIsSure>
   static void add_pixels(const Row& part, int begin, int end);
   void add_near_limits(const Row& row, const RowRange& columns, const RowRange& sure) const;
   [[nodiscard]] std::size_t index_of(int row, int column) const {
-    return static_cast<std::size_t>(row - screen_.drawn_rows().first) *
+    return 4 * static_cast<std::size_t>(row - screen_.drawn_rows().first) *
                static_cast<std::size_t>(screen_.columns) +
            static_cast<std::size_t>(column);
   }
@@ -49,10 +57,10 @@ class CertainPixels {
   TrueOutlines outlines_;
   std::array<double, 2> front_, rear_;  // depths that these limits lie between
   std::shared_ptr<const ClipTriangle> last_whole_;
-  // By pixel: the least upper bound on the depths of those triangles that surely cover its center, and whose
-  // it is; and the two least lower bounds of those that may.
-  std::vector<double> sure_, possible_, second_possible_, sure_numbers_;
-  /// By block of a row: a depth that is not below `sure_` there.
+  // For each row, by column: the least upper bound on the depths of those triangles that surely cover the
+  // pixel's center, and whose it is; and the two least lower bounds of those that may cover it.
+  std::vector<double> pixels_;
+  /// For each block of a row, a depth that no upper bound there exceeds.
   int block_count_;
   std::vector<double> farthest_;
 };

@@ -268,13 +268,14 @@ void TrueOutlines::set_sides(TrueOutline& outline) const {
     const double per_value = std::fabs(e.u) > least_u ? -1 / e.u : -1 / least_u;
     const double by = margin * std::fabs(per_value) * kUp;
     const bool is_left = per_value < 0;
-    outline.sides[k] = {.v = e.v,
-                        .constant = e.constant,
-                        .columns_per_value = per_value,
-                        .low = is_left || !may_be_sure ? -by : -kInfinity,
-                        .high = is_left && may_be_sure ? kInfinity : by,
-                        .sure_low = !may_be_sure ? kInfinity : is_left ? by : -kInfinity,
-                        .sure_high = !may_be_sure ? -kInfinity : is_left ? kInfinity : -by};
+    outline.sides[k] = {e.v, e.constant, per_value};
+    if (may_be_sure) {
+      outline.sides[k].low = {is_left ? -by : -kInfinity, is_left ? by : -kInfinity};
+      outline.sides[k].high = {is_left ? kInfinity : by, is_left ? kInfinity : -by};
+    } else {
+      outline.sides[k].low[0] = -by;
+      outline.sides[k].high[0] = by;
+    }
   }
 }
 

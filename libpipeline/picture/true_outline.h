@@ -24,7 +24,7 @@ struct Side {
   [[nodiscard]] double crossing(int row) const { return (v * row + constant) * columns_per_value; }
 
   double v = 0, constant = 0, columns_per_value = 0;
-  double low = -kFar, high = kFar, sure_low = kFar, sure_high = -kFar;
+  std::array<double, 2> low = {-kFar, kFar}, high = {kFar, -kFar};
 };
 
 /// A triangle's vertices in clip space, and how far each may be from the true one.

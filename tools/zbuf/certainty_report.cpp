@@ -23,13 +23,13 @@ CertaintyReport::CertaintyReport(const StageReader& reader, const Viewport& scre
     : pixels_(certain_pixels(reader, screen)), row_(screen.drawn_rows().first) {}
 
 void CertaintyReport::add_row(std::span<const std::int64_t> numbers) {
-  int column = 0;
-  for (const std::int64_t number : numbers) {
-    const bool is_certain = pixels_.is_certain(row_, column, number);
-    ++(is_certain ? certain_count_ : uncertain_count_);
-    if (!is_certain && uncertain_.size() < kMaxLines) uncertain_.emplace_back(row_, column);
-    ++column;
-  }
+  std::uint64_t uncertain_count = 0;
+  pixels_.for_each_uncertain(row_, numbers, [&](int column) {
+    ++uncertain_count;
+    if (uncertain_.size() < kMaxLines) uncertain_.emplace_back(row_, column);
+  });
+  uncertain_count_ += uncertain_count;
+  certain_count_ += numbers.size() - uncertain_count;
   ++row_;
 }
 
