@@ -41,7 +41,9 @@ struct Columns {
 
 /// The pixels and the depths of a triangle on a row, by column from the first of its outline.
 struct CertainPixels::Row {
-  [[nodiscard]] double nearest(int column) const { return std::max(nearest_at_0 + nearest_per_column * column, least); }
+  [[nodiscard]] double nearest(int column) const {
+    return std::max(nearest_at_0 + nearest_per_column * column, least);
+  }
   [[nodiscard]] double farthest(int column) const {
     return std::min(farthest_at_0 + farthest_per_column * column, greatest);
   }
@@ -50,9 +52,7 @@ struct CertainPixels::Row {
   [[nodiscard]] double& possible(int column) const { return pixels[2 * stride + column]; }
   [[nodiscard]] double& second_possible(int column) const { return pixels[3 * stride + column]; }
 
-  double number;
-  double nearest_per_column, farthest_per_column, least, greatest;
-  bool is_limited;  // may be before the front limit, cut, or behind the rear limit
+  double number, nearest_per_column, farthest_per_column, least, greatest;
   std::ptrdiff_t stride;
   double* pixels = nullptr;
   double nearest_at_0 = 0, farthest_at_0 = 0;
@@ -64,11 +64,11 @@ CertainPixels::CertainPixels(const Viewport& screen, const Bounds& bounds, const
       front_(outlines_.depths_at(screen.front)),
       rear_(outlines_.depths_at(screen.rear)),
       block_count_((screen.columns + kBlockColumns - 1) / kBlockColumns) {
-  front_[1] = std::max(front_[1], outlines_.near_depth());
-  const auto rows = static_cast<std::size_t>(screen.drawn_row_count());
-  expect_available_memory(4 * static_cast<std::size_t>(screen.columns) * rows * sizeof(double));
-  pixels_.resize(4 * static_cast<std::size_t>(screen.columns) * rows, kFar);
-  farthest_.resize(static_cast<std::size_t>(block_count_) * rows, kFar);
+  front_[1] = std::max(front_[1], outlines_.near_depth());  // what is nearer may be cut
+  const std::size_t count = index_of(screen.drawn_rows().end, 0);
+  expect_available_memory(count * sizeof(double));
+  pixels_.resize(count, kFar);
+  farthest_.resize(static_cast<std::size_t>(block_count_ * screen.drawn_row_count()), kFar);
 }
 
 void CertainPixels::add(const TriangleBatch& p_ndc) {
@@ -81,15 +81,18 @@ void CertainPixels::add(const TriangleBatch& p_ndc) {
     outlines_.set_box(outline, p_ndc, i);
     if (outline.is_empty() || is_hidden(outline)) continue;
     outlines_.set_sides(outline);
-    Row part = {static_cast<double>(p_ndc.numbers[i]), outline.nearest.u, outline.farthest.u, outline.least,
-                outline.greatest, outline.least <= front_[1] || outline.greatest >= rear_[0], screen_.columns};
+    Row part = {static_cast<double>(p_ndc.numbers[i]),
+                outline.nearest.u,
+                outline.farthest.u,
+                outline.least,
+                outline.greatest,
+                screen_.columns};
     for (int row = outline.rows.first; row < outline.rows.end; ++row) add_row(part, outline, row);
   }
 }
 
 bool CertainPixels::is_hidden(const TrueOutline& outline) const {
   const int first = outline.columns.first, end = outline.columns.end;
-  if (outline.greatest < front_[0] || outline.least > rear_[1]) return true;
   if ((end - first) * (outline.rows.end - outline.rows.first) > kFewPixels) return false;
   for (int row = outline.rows.first; row < outline.rows.end; ++row) {
     const double* const sure = &pixels_[index_of(row, 0)];
@@ -101,42 +104,39 @@ bool CertainPixels::is_hidden(const TrueOutline& outline) const {
 
 void CertainPixels::add_row(Row& part, const TrueOutline& outline, int row) {
   const int first = outline.columns.first, in_outline = row - outline.rows.first;
-  const auto& [columns, sure_columns] = Columns(outline, in_outline);
+  const auto& [columns, sure] = Columns(outline, in_outline);
   if (columns.first >= columns.end) return;
   part.pixels = &pixels_[index_of(row, first)];
   part.nearest_at_0 = outline.nearest.v * in_outline + outline.nearest.constant;
   part.farthest_at_0 = outline.farthest.v * in_outline + outline.farthest.constant;
-  double* const farthest = &farthest_[static_cast<std::size_t>((row - screen_.drawn_rows().first) * block_count_)];
-  // The block's nearest column, which may be beyond the triangle.
-  const int nearest_in_block = part.nearest_per_column < 0 ? kBlockColumns - 1 : 0;
+  double* const farthest =
+      &farthest_[static_cast<std::size_t>((row - screen_.drawn_rows().first) * block_count_)];
+  const int nearest_in_block =
+      part.nearest_per_column < 0 ? kBlockColumns - 1 : 0;  // beyond the outline, too
   const int end_block = (first + columns.end - 1) / kBlockColumns + 1;
   for (int block = (first + columns.first) / kBlockColumns; block < end_block; ++block) {
     const int begin = block * kBlockColumns - first;
     if (part.nearest(begin + nearest_in_block) > farthest[block]) continue;  // hidden
     const int end = std::min(begin + kBlockColumns, screen_.columns - first);
-    const auto within = [&](const RowRange& all) {
-      return RowRange{std::clamp(all.first, begin, end), std::clamp(all.end, begin, end)};
-    };
-    add_block(part, within(columns), within(sure_columns));
-    if (!part.is_limited && sure_columns.first <= begin && sure_columns.end >= end)
-      farthest[block] =
-          std::min(farthest[block], part.farthest(part.farthest_per_column < 0 ? begin : end - 1));
+    const int from = std::max(columns.first, begin), to = std::min(columns.end, end);
+    const int sure_from = std::clamp(sure.first, from, to), sure_to = std::clamp(sure.end, sure_from, to);
+    if (part.least <= front_[1] || part.greatest >= rear_[0]) {
+      add_near_limits(part, {from, to}, {sure_from, sure_to});
+      continue;
+    }
+    add_pixels<false>(part, from, sure_from);
+    add_pixels<true>(part, sure_from, sure_to);
+    add_pixels<false>(part, sure_to, to);
+    if (sure_from > begin || sure_to < end) continue;
+    const int farthest_column = part.farthest_per_column < 0 ? begin : end - 1;
+    farthest[block] = std::min(farthest[block], part.farthest(farthest_column));
   }
 }
 
-void CertainPixels::add_block(const Row& row, const RowRange& columns, const RowRange& sure) const {
-  if (row.is_limited) return add_near_limits(row, columns, sure);
-  const int begin = std::max(columns.first, sure.first), end = std::max(begin, sure.end);
-  add_pixels<false>(row, columns.first, std::min(begin, columns.end));
-  add_pixels<true>(row, begin, end);
-  add_pixels<false>(row, end, columns.end);
-}
-
-/// Where no limit is near. Written so that compilers make vectors of it.
+/// Adds pixels to a triangle that is within the limits. Written so that compilers make vectors of it.
 template <bool kIsSure>
 void CertainPixels::add_pixels(const Row& of, int begin, int end) {
-  const Row row = of;  // no pixel may be part of it
-  const double number = row.number;
+  const Row row = of;  // in no pixel's memory
 #pragma GCC ivdep
   for (int i = begin; i < end; ++i) {
     const double nearest = row.nearest(i), other = row.possible(i);
@@ -145,12 +145,11 @@ void CertainPixels::add_pixels(const Row& of, int begin, int end) {
     if constexpr (kIsSure) {
       const double farthest = row.farthest(i), before = row.sure(i), number_before = row.sure_number(i);
       row.sure(i) = std::min(before, farthest);
-      row.sure_number(i) = before - farthest > 0 ? number : number_before;
+      row.sure_number(i) = before - farthest > 0 ? row.number : number_before;
     }
   }
 }
 
-/// Where a triangle, or a part of it, may be beyond a limit.
 void CertainPixels::add_near_limits(const Row& row, const RowRange& columns, const RowRange& sure) const {
   for (int i = columns.first; i < columns.end; ++i) {
     const double nearest = row.nearest(i), farthest = row.farthest(i);

@@ -30,9 +30,9 @@ class CertainPixels {
     const double* pixel = &pixels_[index_of(row, 0)];  // as Row has them
     for (std::size_t i = 0; i < stride; ++i, ++pixel) {
       // The one that surely covers may, too.
-      const bool is_certain = numbers[i] < 0 ? pixel[2 * stride] == kFar
-                                             : pixel[stride] == static_cast<double>(numbers[i]) &&
-                                                   pixel[3 * stride] > pixel[0];
+      const bool is_certain =
+          numbers[i] < 0 ? pixel[2 * stride] == kFar
+                         : pixel[stride] == static_cast<double>(numbers[i]) && pixel[3 * stride] > pixel[0];
       if (!is_certain) visit(static_cast<int>(i));
     }
   }
@@ -43,9 +43,8 @@ class CertainPixels {
 
   [[nodiscard]] bool is_hidden(const TrueOutline& outline) const;
   void add_row(Row& part, const TrueOutline& outline, int row);
-  void add_block(const Row& row, const RowRange& columns, const RowRange& sure) const;
   template <bool kIsSure>
-  static void add_pixels(const Row& part, int begin, int end);
+  static void add_pixels(const Row& of, int begin, int end);
   void add_near_limits(const Row& row, const RowRange& columns, const RowRange& sure) const;
   [[nodiscard]] std::size_t index_of(int row, int column) const {
     return 4 * static_cast<std::size_t>(row - screen_.drawn_rows().first) *

@@ -17,25 +17,27 @@ namespace pipeline {
 //
 // The function e_k, linear in space, is 0 at two of the text's vertices, and their determinant D > 0 at
 // vertex k, so that e_k(P') = l_k D. As e_k is N_x q_x + N_y q_y + e_k(c) w, l_k D = e_k(c) w' + N q'. The
-// sum over k, with t = sum e_k and G = sum N, is D = t(c) w' + G q'. So |t(c) w' - D| <= |G| a + |G| b w',
-// which bounds 1 / w' by (t(c) + |G| b) / (D - |G| a), and l_k >= 0 gives e_k(c) >= - |N| b - |N| a / w'.
+// sum over k, with t = sum e_k and G = sum N, is D = t(c) w' + G q'. So 1 / w' is at most m, the greatest
+// (t(c) + |G| b) / (D - |G| a) at a center, and l_k >= 0 gives e_k(c) >= - |N| (b + a m).
 //
 // A center that breaks this for some k is not covered. Where e_k(c) is above the opposite for every k, t is
 // above 0, so that w' is, and the line through the eye and c meets no side of the triangle on the way from
 // the text's vertices to the true ones, which stays within the bounds. It meets the text's triangle inside,
 // so it meets the true one inside.
 //
-// Where D may be 0, e_k(c) w' is within |N| a + |N| b w' of l_k D, and w' is at least the smallest w, and at
-// least the nearest distance that is shown less the error of w.
+// Where D may be 0, no center is surely covered. e_k(c) is within |N| (b + a m) + D m of 0, as w' is at least
+// the smallest w, and at least the nearest distance that is shown less the error of w: m is its reciprocal.
 //
-// Depths. With weights o_k, l_k D summed up is D times their mean at P', so (o(c) + |N| a / w' + |N| b) w' at
-// most, where o = sum o_k e_k and N is its own. Weights of 1 bound 1 / w' from both sides, and as d is within
-// the error E of w', d <= w' (1 + E / w'), and w' is at least the smallest w. For ortho w' = 1, where a counts
-// as b, and the weights are how much nearer a vertex is than the farthest, at least 0, as D has bounds.
+// Depths. With weights o_k and o = sum o_k e_k, whose N is N', (sum o_k l_k) D = o(c) w' + N' q'. If f is the
+// greatest w and o_k = 1 - w_k / f, the sum is 1 - w' / f, so 1 / w' - 1 / f, which is not below 0, is within
+// |N'| (b + a m) / D of o(c) / D. The distance is within the error E of w', so its reciprocal is at most
+// (1 / w') / (1 - E m) and at least (1 / w') / (1 + E m). For ortho w' = 1, where a counts as b, and o_k is
+// how much nearer a vertex is than the farthest one.
 //
-// Rounding. With X and Y above |q_x|, |q_y|, what is added to them and the extent of the pixels times W, the
-// largest |w|, no term of e_k exceeds 2 X Y, of D 2 X Y W. Each takes part in at most 40 roundings, so e_k at a
-// pixel is within 2^-46 X Y, t and o within four times that, and D, with |G| a, within 2^-46 X Y W.
+// Rounding. X and Y are above |q_x|, |q_y|, a and, times the largest |w|, W, above b and the extent of the
+// pixels. No term of e_k exceeds 2 X Y, of D 2 X Y W. Each takes part in at most 40 roundings, three terms in
+// 120. So e_k at a pixel, or 31 beyond, is within 2^-45 X Y, t and o (in parts of the greatest o_k) within
+// four times that, and D and |N| a within 2^-45 X Y W.
 
 namespace {
 
@@ -77,7 +79,8 @@ TrueOutlines::TrueOutlines(const Viewport& screen, const Bounds& bounds, const P
   const auto axis = [&](double low, double high, double first, double step, double limit,
                         const RowRange& all) {
     const double scale = std::fabs((is_perspective_ ? 2 * near_ : 2) / (high - low));
-    return Axis{first, step, 1 / step, lost(limit, 0), scale, 1 / scale * kUp, -(high + low) / (high - low), all};
+    return Axis{first, step, 1 / step, lost(limit, 0), scale, 1 / scale * kUp, -(high + low) / (high - low),
+                all};
   };
   const auto set = [&](const auto& p) {
     near_ = p.near;
@@ -193,14 +196,13 @@ struct TrueOutlines::Seen {
   std::array<double, 2> shift, shift_per_w;  // a and b of the proof
   double edge_error, area_error;             // by rounding
   std::array<Linear, 3> e;
-  std::array<double, 2> areas;               // D less, and plus, what it may be off
+  double area;  // D
 
-  /// |N| a and |N| b of a function.
-  [[nodiscard]] double fixed(const Linear& f) const {
-    return (std::fabs(f.u) * shift[0] + std::fabs(f.v) * shift[1]) * kUp;
-  }
-  [[nodiscard]] double per_w(const Linear& f) const {
-    return (std::fabs(f.u) * shift_per_w[0] + std::fabs(f.v) * shift_per_w[1]) * kUp;
+  /// |N| a of a function, and |N| b.
+  [[nodiscard]] double fixed(const Linear& f) const { return moved(f, shift); }
+  [[nodiscard]] double per_w(const Linear& f) const { return moved(f, shift_per_w); }
+  static double moved(const Linear& f, const std::array<double, 2>& by) {
+    return (std::fabs(f.u) * by[0] + std::fabs(f.v) * by[1]) * kUp;
   }
 };
 
@@ -247,19 +249,19 @@ void TrueOutlines::set_sides(TrueOutline& outline) const {
   if (area < 0)
     for (Linear& e : seen.e) e = {-e.u, -e.v, -e.constant};
   const Linear t = sum(sum(seen.e[0], 1, seen.e[1]), 1, seen.e[2]);
-  const double moved = seen.fixed(t) + seen.area_error;
-  seen.areas = {std::fabs(area) - moved, std::fabs(area) + moved};
-  const bool may_be_sure = seen.areas[0] > std::fabs(area) / 4;
+  seen.area = std::fabs(area);
+  const double least_area = seen.area - seen.area_error - seen.fixed(t);
+  const bool may_be_sure = least_area > seen.area / 4;
   double most_per_w = 1 / v.nearest_shown;  // 1 / w' at most
   if (may_be_sure) {
     const double most_t = t.constant + std::max(t.u * (outline.columns.end - outline.columns.first), 0.0) +
                           std::max(t.v * (outline.rows.end - outline.rows.first), 0.0);
-    most_per_w = (most_t + seen.per_w(t) + 4 * seen.edge_error) / seen.areas[0];
-    if (v.least_w > 0) most_per_w = std::min(most_per_w, 1 / v.least_w);
+    most_per_w = (most_t + seen.per_w(t) + 4 * seen.edge_error) / least_area * kUp;
+    if (v.least_w > 0) most_per_w = std::min(most_per_w, 1 / v.least_w * kUp);
     if (!(most_per_w > 0)) outline.rows = {0, 0};  // behind the eye
-    set_depths(outline, seen, std::min(most_per_w, 1 / v.nearest_shown));
+    if (v.w_error * most_per_w < 0.5) set_depths(outline, seen, most_per_w);
   }
-  const double of_area = seen.area_error + (may_be_sure ? 0 : std::fabs(area) + seen.area_error);
+  const double of_area = seen.area_error + (may_be_sure ? 0 : seen.area + seen.area_error);
   for (std::size_t k = 0; k < 3; ++k) {
     const Linear& e = seen.e[k];
     const double margin = (seen.fixed(e) + of_area) * most_per_w + seen.per_w(e) + seen.edge_error;
@@ -282,17 +284,19 @@ void TrueOutlines::set_sides(TrueOutline& outline) const {
 /// The depths, where 1 / w' is at most `most_per_w`.
 void TrueOutlines::set_depths(TrueOutline& outline, const Seen& seen, double most_per_w) const {
   const UncertainVertices& v = outline.vertices;
+  const double weight = is_perspective_ ? 1 / v.greatest_w : 1;
   Linear o;
-  for (std::size_t k = 0; k < 3; ++k) o = sum(o, is_perspective_ ? 1 : v.farthest - v.distance[k], seen.e[k]);
-  const double largest_weight = is_perspective_ ? 1 : v.farthest - v.nearest;
-  const double margin = seen.per_w(o) + 4 * largest_weight * seen.edge_error;
-  const double moved = v.w_error * most_per_w;
-  const double per_nearest = 1 / ((1 - moved) * seen.areas[0]), per_farthest = 1 / ((1 + moved) * seen.areas[1]);
-  const double farthest = is_perspective_ ? 0 : v.farthest, error = is_perspective_ ? 0 : v.depth_error;
-  outline.nearest = {-per_nearest * o.u, -per_nearest * o.v,
-                     farthest - error - per_nearest * (o.constant + margin)};
+  for (std::size_t k = 0; k < 3; ++k) o = sum(o, (v.farthest - v.distance[k]) * weight, seen.e[k]);
+  const double rounding = 4 * (v.farthest - v.nearest) * weight * seen.edge_error;
+  const double margin = seen.per_w(o) + seen.fixed(o) * most_per_w + rounding;
+  const double moved = v.w_error * most_per_w, nearer = 1 / (1 - moved), farther = 1 / (1 + moved);
+  const double per_nearest = nearer / (seen.area - seen.area_error);
+  const double per_farthest = farther / (seen.area + seen.area_error);
+  const double nearest = is_perspective_ ? -nearer * weight * (1 + kLost) : v.farthest - v.depth_error;
+  const double farthest = is_perspective_ ? -farther * weight * (1 - kLost) : v.farthest + v.depth_error;
+  outline.nearest = {-per_nearest * o.u, -per_nearest * o.v, nearest - per_nearest * (o.constant + margin)};
   outline.farthest = {-per_farthest * o.u, -per_farthest * o.v,
-                      farthest + error - per_farthest * (o.constant - margin)};
+                      farthest - per_farthest * (o.constant - margin)};
 }
 
 }  // namespace pipeline

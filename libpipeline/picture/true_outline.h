@@ -16,8 +16,8 @@ struct Linear {
   double u = 0, v = 0, constant = 0;
 };
 
-/// A side of a triangle, as the rows see it: relative to the column where it crosses the centers of a row, not
-/// rounded, the columns that a center has to be between if it may be covered, and if it surely is.
+/// A side of a triangle, as the rows see it: relative to the column where it crosses the centers of a row,
+/// not rounded, the columns that a center has to be between if it may be covered, and if it surely is.
 struct Side {
   static constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -47,7 +47,7 @@ struct TrueOutline {
   RowRange columns, rows;
   double least, greatest;  // depths
   std::array<Side, 3> sides;
-  Linear nearest, farthest;   // depths at a center, if between `least` and `greatest`
+  Linear nearest, farthest;  // depths at a center, if between `least` and `greatest`
   UncertainVertices vertices;
 
   [[nodiscard]] bool is_empty() const { return columns.first >= columns.end || rows.first >= rows.end; }
@@ -59,7 +59,8 @@ class TrueOutlines {
   /// `projected` is the header's, a Frustum or an Orthographic, and `bounds` has both of its parts.
   TrueOutlines(const Viewport& screen, const Bounds& bounds, const Projection& projected);
 
-  /// Sets the box and the range of depths of a triangle or, for a piece, of the triangle that it was cut from.
+  /// Sets the box and the range of depths of a triangle or, for a piece, of the triangle that it was cut
+  /// from.
   void set_box(TrueOutline& outline, const TriangleBatch& p_ndc, std::size_t index) const;
   /// Sets the rest, unless the box is empty; it may turn out so.
   void set_sides(TrueOutline& outline) const;
