@@ -1,7 +1,7 @@
 #include "libpipeline/picture/certain_pixels.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "libpipeline/stream/memory.h"
 
@@ -52,7 +52,8 @@ struct CertainPixels::Row {
   [[nodiscard]] double& possible(int column) const { return pixels[2 * stride + column]; }
   [[nodiscard]] double& second_possible(int column) const { return pixels[3 * stride + column]; }
 
-  double number, nearest_per_column, farthest_per_column, least, greatest;
+  double number;  // its bits
+  double nearest_per_column, farthest_per_column, least, greatest;
   std::ptrdiff_t stride;
   double* pixels = nullptr;
   double nearest_at_0 = 0, farthest_at_0 = 0;
@@ -81,7 +82,7 @@ void CertainPixels::add(const TriangleBatch& p_ndc) {
     outlines_.set_box(outline, p_ndc, i);
     if (outline.is_empty() || is_hidden(outline)) continue;
     outlines_.set_sides(outline);
-    Row part = {static_cast<double>(p_ndc.numbers[i]),
+    Row part = {std::bit_cast<double>(p_ndc.numbers[i]),
                 outline.nearest.u,
                 outline.farthest.u,
                 outline.least,
@@ -137,7 +138,6 @@ void CertainPixels::add_row(Row& part, const TrueOutline& outline, int row) {
 template <bool kIsSure>
 void CertainPixels::add_pixels(const Row& of, int begin, int end) {
   const Row row = of;  // in no pixel's memory
-#pragma GCC ivdep
   for (int i = begin; i < end; ++i) {
     const double nearest = row.nearest(i), other = row.possible(i);
     row.second_possible(i) = std::min(row.second_possible(i), std::max(other, nearest));

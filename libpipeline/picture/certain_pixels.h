@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -30,9 +31,9 @@ class CertainPixels {
     const double* pixel = &pixels_[index_of(row, 0)];  // as Row has them
     for (std::size_t i = 0; i < stride; ++i, ++pixel) {
       // The one that surely covers may, too.
-      const bool is_certain =
-          numbers[i] < 0 ? pixel[2 * stride] == kFar
-                         : pixel[stride] == static_cast<double>(numbers[i]) && pixel[3 * stride] > pixel[0];
+      const bool is_certain = numbers[i] < 0 ? pixel[2 * stride] == kFar
+                                             : std::bit_cast<std::int64_t>(pixel[stride]) == numbers[i] &&
+                                                   pixel[3 * stride] > pixel[0];
       if (!is_certain) visit(static_cast<int>(i));
     }
   }
@@ -57,7 +58,8 @@ class CertainPixels {
   std::array<double, 2> front_, rear_;  // depths that these limits lie between
   std::shared_ptr<const ClipTriangle> last_whole_;
   // For each row, by column: the least upper bound on the depths of those triangles that surely cover the
-  // pixel's center, and whose it is; and the two least lower bounds of those that may cover it.
+  // pixel's center; the bits of the number of that one; and the two least lower bounds of those that may
+  // cover it.
   std::vector<double> pixels_;
   /// For each block of a row, a depth that no upper bound there exceeds.
   int block_count_;
