@@ -12,7 +12,7 @@
 #
 # A coefficient of an edge function is the difference of two products, each rounded, and then rounded (f). In parts of the sum of their
 # absolute values, the products are off by at most u (products), and the difference is at most 1 (whole).
-# Claim: off by at most 2^-51; `lost` counts 2^-49.
+# Claim: off by at most 2^-51; of all terms of a function, 2^-45 X Y is counted.
 
 kept = (1 + e1) * (1 + e2) * (1 + e3) * (1 + e4) * (1 + e5) * (1 + e6) * (1 + e7);
 
