@@ -165,10 +165,7 @@ RowRange TrueOutlines::cells_of(std::size_t axis, const UncertainVertices& v) co
                        kUp;
   if (!(v.least_w > 2 * v.w_error && moved < kInfinity)) return a.cells;
   double first = (low - moved - a.first) * a.per_step, last = (high + moved - a.first) * a.per_step;
-  if (a.step < 0) {
-    first = (high + moved - a.first) * a.per_step;
-    last = (low - moved - a.first) * a.per_step;
-  }
+  if (a.step < 0) std::swap(first, last);
   // Conversions to int round down.
   return {std::max(a.cells.first, static_cast<int>(std::clamp(first, 0.0, 1e6) + (1 - kMargin))),
           std::min(a.cells.end, static_cast<int>(std::clamp(last, -1.0, 1e6) + (1 + kMargin)))};
@@ -204,6 +201,8 @@ struct TrueOutlines::Seen {
   static double moved(const Linear& f, const std::array<double, 2>& by) {
     return (std::fabs(f.u) * by[0] + std::fabs(f.v) * by[1]) * kUp;
   }
+  void set_edges();
+  [[nodiscard]] Side side(const Linear& e_k, double margin, bool may_be_sure) const;
 };
 
 TrueOutlines::Seen TrueOutlines::seen_from_first(const TrueOutline& outline) const {
@@ -231,28 +230,50 @@ TrueOutlines::Seen TrueOutlines::seen_from_first(const TrueOutline& outline) con
   return seen;
 }
 
+/// Sets e, and D, above 0.
+void TrueOutlines::Seen::set_edges() {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 normal = cross(q[(k + 1) % 3], q[(k + 2) % 3]);
+    e[k] = {normal.x, normal.y, normal.z};
+  }
+  area = dot(q[0], {e[0].u, e[0].v, e[0].constant});
+  if (area < 0)
+    for (Linear& edge : e) edge = {-edge.u, -edge.v, -edge.constant};
+  area = std::fabs(area);
+}
+
+/// The side where `e_k` is 0, which may be off by the margin.
+Side TrueOutlines::Seen::side(const Linear& e_k, double margin, bool may_be_sure) const {
+  // Where u is next to nothing, so is its part in the value, and a row is wholly on one side.
+  const double least_u = 0x1p-17 * edge_error;
+  Side side = {e_k.v, e_k.constant, -1 / (std::fabs(e_k.u) > least_u ? e_k.u : least_u)};
+  const double by = margin * std::fabs(side.columns_per_value) * kUp;
+  if (!may_be_sure) {
+    side.low[0] = -by;
+    side.high[0] = by;
+  } else if (side.columns_per_value < 0) {  // a left one
+    side.low = {-by, by};
+    side.high[1] = kInfinity;
+  } else {
+    side.low[1] = -kInfinity;
+    side.high = {by, -by};
+  }
+  return side;
+}
+
 void TrueOutlines::set_sides(TrueOutline& outline) const {
   const UncertainVertices& v = outline.vertices;
   Seen seen = seen_from_first(outline);
+  outline.sides = {};
   outline.nearest = {0, 0, outline.least};
   outline.farthest = {0, 0, outline.greatest};
   // Else numbers overflow, or are so small that they lose digits.
-  if (!(v.nearest_shown > 2 * v.w_error && seen.area_error > 1e-250 && seen.area_error < 1e250)) {
-    outline.sides = {};
-    return;
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 normal = cross(seen.q[(k + 1) % 3], seen.q[(k + 2) % 3]);
-    seen.e[k] = {normal.x, normal.y, normal.z};
-  }
-  const double area = dot(seen.q[0], {seen.e[0].u, seen.e[0].v, seen.e[0].constant});
-  if (area < 0)
-    for (Linear& e : seen.e) e = {-e.u, -e.v, -e.constant};
+  if (!(v.nearest_shown > 2 * v.w_error && seen.area_error > 1e-250 && seen.area_error < 1e250)) return;
+  seen.set_edges();
   const Linear t = sum(sum(seen.e[0], 1, seen.e[1]), 1, seen.e[2]);
-  seen.area = std::fabs(area);
   const double least_area = seen.area - seen.area_error - seen.fixed(t);
   const bool may_be_sure = least_area > seen.area / 4;
-  double most_per_w = 1 / v.nearest_shown;  // 1 / w' at most
+  double most_per_w = 1 / v.nearest_shown * kUp;  // m of the proof
   if (may_be_sure) {
     const double most_t = t.constant + std::max(t.u * (outline.columns.end - outline.columns.first), 0.0) +
                           std::max(t.v * (outline.rows.end - outline.rows.first), 0.0);
@@ -265,19 +286,7 @@ void TrueOutlines::set_sides(TrueOutline& outline) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const Linear& e = seen.e[k];
     const double margin = (seen.fixed(e) + of_area) * most_per_w + seen.per_w(e) + seen.edge_error;
-    // Where u is next to nothing, so is its part in the value, and a row is wholly on one side.
-    const double least_u = 0x1p-17 * seen.edge_error;
-    const double per_value = std::fabs(e.u) > least_u ? -1 / e.u : -1 / least_u;
-    const double by = margin * std::fabs(per_value) * kUp;
-    const bool is_left = per_value < 0;
-    outline.sides[k] = {e.v, e.constant, per_value};
-    if (may_be_sure) {
-      outline.sides[k].low = {is_left ? -by : -kInfinity, is_left ? by : -kInfinity};
-      outline.sides[k].high = {is_left ? kInfinity : by, is_left ? kInfinity : -by};
-    } else {
-      outline.sides[k].low[0] = -by;
-      outline.sides[k].high[0] = by;
-    }
+    outline.sides[k] = seen.side(e, margin, may_be_sure);
   }
 }
 
