@@ -8,6 +8,7 @@
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/number_rounding.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 namespace pipeline {
 namespace {
@@ -82,11 +83,16 @@ void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallV
 Vec3 NormalTransform::operator()(const Vec3& normal) const {
   const Vec3 n = unit_vector(normal);
   const Vec3 image = {dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)};
-  // The rest of a unit vector may be nothing but the rounding errors of doubles.
-  constexpr double kNearlyLost = 0x1p-40;
-  if (std::max({std::fabs(image.x), std::fabs(image.y), std::fabs(image.z)}) < kNearlyLost)
-    return image_in_balls(normal);
-  return unit_vector(image);
+  return largest_in(image) < kNearlyLost ? image_in_balls(normal) : unit_vector(image);
+}
+
+void NormalTransform::apply(std::span<Triangle> normals) const {
+  if (normals.empty()) return;
+  for (std::span rest(normals.front().data(), 3 * normals.size()); !rest.empty(); rest = rest.subspan(1)) {
+    rest = rest.subspan(vertex_kernel().transform_normals(rows_, rest));
+    if (rest.empty()) return;
+    rest.front() = (*this)(rest.front());
+  }
 }
 
 Vec3 NormalTransform::image_in_balls(const Vec3& normal) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/vertex/affine_matrix.h"
@@ -26,6 +27,8 @@ class NormalTransform {
 
   /// The image of a normal of any length: of length 1, or 0.
   [[nodiscard]] Vec3 operator()(const Vec3& normal) const;
+  /// Replaces the normals of triangles by their images.
+  void apply(std::span<Triangle> normals) const;
 
  private:
   void set_rows(const BallVec3& x, const BallVec3& y, const BallVec3& z);

@@ -1,6 +1,7 @@
 #include "libpipeline/vertex/model_stage.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -57,9 +58,9 @@ void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) {
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const auto& [first, world_from_model, world_normal_from_model] = runs_[i];
     const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : batch.object_count();
-    if (world_normal_from_model)
-      for (std::size_t triangle = first; triangle < std::min(end, batch.size()); ++triangle)
-        for (Vec3& normal : batch.attributes.normals[triangle]) normal = (*world_normal_from_model)(normal);
+    if (world_normal_from_model && first < batch.size())
+      world_normal_from_model->apply(
+          std::span(batch.attributes.normals).subspan(first, std::min(end, batch.size()) - first));
     world_from_model.apply(batch, first, end, rounder);
   }
 }

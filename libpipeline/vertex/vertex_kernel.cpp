@@ -7,14 +7,14 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/vertex/vertex_kernel.cpp"
-#include "libpipeline/numbers/vector_targets.h"
+#include "libpipeline/numbers/vector_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pipeline {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Plain loops, which the compiler makes vectors of.
+// Plain loops, which the compiler makes vectors of, but for normals.
 
 #if HWY_NATIVE_FMA
 using ProductError = FmaError;
@@ -36,7 +36,23 @@ void find_sides(const ProjectionCoefficients& m, const VertexBlock& p_view, Side
   find_sides_of_block(m, p_view, sides, beside);
 }
 
-constexpr VertexKernel kKernel = {transform, project, find_sides};
+std::size_t transform_normals(const std::array<Vec3, 3>& rows, std::span<Vec3> normals) {
+  const Vectors x = all(rows[0]), y = all(rows[1]), z = all(rows[2]);
+  std::size_t done = 0;
+  for (; done + kLanes <= normals.size(); done += kLanes) {
+    double* const p = &normals[done].x;
+    Vectors n;
+    hn::LoadInterleaved3(kDoubles, p, n.x, n.y, n.z);
+    n = unit(n);
+    const Vectors image = {dot(x, n), dot(y, n), dot(z, n)};
+    if (!hn::AllTrue(kDoubles, hn::Ge(largest_in(image), all(kNearlyLost)))) break;
+    n = unit(image);
+    hn::StoreInterleaved3(n.x, n.y, n.z, kDoubles, p);
+  }
+  return done;
+}
+
+constexpr VertexKernel kKernel = {transform, project, find_sides, transform_normals};
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

@@ -117,6 +117,9 @@ struct ProjectionCoefficients {
   double clip_w = 1;       // w times that bounds the clip volume
 };
 
+/// The rest of a unit vector may be nothing but the rounding errors of doubles.
+constexpr double kNearlyLost = 0x1p-40;
+
 /// One implementation of the loops over a block's vertices.
 struct VertexKernel {
   void (*transform)(const AffineCoefficients&, const RoundingTest&, const VertexBlock& p, ImageBlock& image);
@@ -124,6 +127,9 @@ struct VertexKernel {
                   ImageBlock& p_ndc);
   /// With `beside` of all planes, else of near and far alone.
   void (*find_sides)(const ProjectionCoefficients&, const VertexBlock& p_view, SideBlock& sides, bool beside);
+  /// Replaces normals by their images, as NormalTransform (attribute_transform.h) does. Returns how many: up
+  /// to some with one that is 0 or whose image is below kNearlyLost, or to those that fill no vector.
+  std::size_t (*transform_normals)(const std::array<Vec3, 3>& rows, std::span<Vec3> normals);
 };
 
 const KernelTable<const VertexKernel*>& vertex_kernels();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/number_printer.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/numbers/real.h"
@@ -162,6 +163,22 @@ TEST_P(VertexKernels, TestEveryVertexOfABlockByItself) {
     EXPECT_NE(image.passes_rounding_test[3 * i + 2], 0u);
   }
   EXPECT_EQ(image.passes_rounding_test[1], 0u);  // 1 + 2^-53
+}
+
+TEST_P(VertexKernels, TransformNormalsAsOneByOneUpToAZero) {
+  RandomNumbers random(5);
+  const std::array<Vec3, 3> rows = {random_vec3(random, 3), random_vec3(random, 3), random_vec3(random, 3)};
+  std::array<Vec3, 29> normals;
+  for (Vec3& normal : normals) normal = random_vec3(random, 900);
+  normals[20] = {0, -0.0, 0};
+  const std::array<Vec3, 29> before = normals;
+  const std::size_t count = kernel().transform_normals(rows, normals);
+  EXPECT_GE(count, 16u);  // two vectors of eight lanes
+  ASSERT_LE(count, 20u);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Vec3 n = unit_vector(before[i]), image = {dot(rows[0], n), dot(rows[1], n), dot(rows[2], n)};
+    EXPECT_EQ(normals[i], i < count ? unit_vector(image) : before[i]) << i;
+  }
 }
 
 ProjectionCoefficients random_projection(RandomNumbers& random, std::array<Ball, 3>& scales,

@@ -98,8 +98,7 @@ int main(int argc, char** argv) {
       header.bounds = {bounds_in_view(*world, view, numbers.kept_bounds(rounder)), {}};
     writer.write_header(header);
     const auto transform = [&](TriangleBatch& batch) {
-      for (auto& normals : batch.attributes.normals)
-        for (Vec3& normal : normals) normal = normal_to_view(normal);
+      normal_to_view.apply(batch.attributes.normals);
       to_view.apply(batch, rounder);
     };
     StageLoop loop(tool, writer, rounder, statistics);
