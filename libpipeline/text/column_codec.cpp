@@ -120,7 +120,10 @@ char* write_triangle(char* out, const ConstFixedColumns& columns, std::size_t tr
   const std::size_t group_count = columns.group_count();
   for (std::size_t vertex = 0; vertex < 3; ++vertex) {
     out = print_three(out, columns.groups[0][triangle][vertex], low_part[vertex], format);
-    if (!columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
+    if (!columns.w.empty()) {
+      out = print_shortest(out, columns.w[triangle][vertex]);
+      *out++ = ' ';
+    }
     for (std::size_t group = 1; group < group_count; ++group)
       out = print_three(out, columns.groups[group][triangle][vertex], {}, format);
     out = write_line_end(out, columns.materials, triangle);
@@ -154,14 +157,15 @@ void write_columns(const ConstFixedColumns& columns, const Triangle* low_part, N
   const bool is_fixed = !format.shortest && format.decimals <= kMaxFixedDecimals &&
                         (low_part == nullptr || *low_part == Triangle{});
   for (std::size_t i = 0; i < count;) {
+    std::size_t end = count;
     if (is_fixed) {
       char* const out = text.reserve((count - i) * max_fixed_length + kFixedTextSlack);
       const FixedTextPart part = write_fixed(columns, i, format.decimals, out);
       text.commit(out + part.length);
       i += part.triangle_count;
       if (i == count) return;
+      end = part.triangle_count > 0 ? i + 1 : std::min(count, i + 8);  // where two follow, others do
     }
-    const std::size_t end = is_fixed ? i + 1 : count;
     char* out = text.reserve((end - i) * max_length + kFixedTextSlack);
     for (; i < end; ++i)
       out = write_triangle(out, columns, i, low_part == nullptr ? kNothing : *low_part, format);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -60,14 +61,21 @@ PIPELINE_LOOP bool has_one_text(const Estimate& e, double scale, double& value) 
 }
 
 /// The rounding test of DecimalUnits for a pair: its product with the scale is exact but for the pair's
-/// error. Far enough from a tie, it has the text of the nearest whole number of units.
+/// error. Far enough from a tie, it has the text of the nearest whole number of units, which is rounded to in
+/// two steps, since a double up to 2^53 may be one. Below a power of two where doubles lie closer than units,
+/// the nearest double to that many units has their text.
 PIPELINE_LOOP bool has_one_text(const PairEstimate& e, double scale, auto rest, double& value) {
+  constexpr double kFoursRounder = 4 * kWholeRounder;
+  constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000;
+  const double limit = std::bit_cast<double>(std::bit_cast<std::uint64_t>(0x1p53 / scale) & kExponent);
   const double scaled = e.high * scale;
   const double scaled_low = rest.of(e.high, scale, scaled) + e.low * scale;
-  const double units = nearest_whole(scaled);
-  const double reach = std::fabs((scaled - units) + scaled_low) + e.error * scale;
-  value = units / scale;
-  return (reach < kBelowHalf) & (std::fabs(scaled) < 0x1p51);
+  const double fours = (scaled + kFoursRounder) - kFoursRounder;
+  const double behind = (scaled - fours) + scaled_low;
+  const double units = nearest_whole(behind);
+  const double reach = std::fabs(behind - units) + e.error * scale;
+  value = (fours + units) / scale;
+  return (reach < kBelowHalf) & (std::fabs(e.high) < limit);
 }
 
 /// Both ends of the interval round to the same double, and so does every number between them (A. Ziv, "Fast

@@ -44,7 +44,7 @@ void VertexTransform::set_coefficients() {
 void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t end,
                             CoordinateRounder& rounder) const {
   if (is_identity_) return;
-  const RoundingTest test = rounder.rounding_test();
+  RoundingTest test = rounder.rounding_test();
   TransformedBlock block;
   const std::size_t end_of_triangles = std::min(end, batch.size());
   for (std::size_t first = begin; first < end_of_triangles; first += VertexBlock::kTriangles) {
@@ -52,6 +52,11 @@ void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t
     block.first_triangle = first;
     block.p.fill(std::span(batch.triangles).subspan(first, count));
     vertex_kernel().transform(coefficients_, test, block.p, block.image);
+    // Numbers so large that doubles cannot decide the last decimal: where there is one, others follow.
+    if (!test.needs_pairs && block.image.passes_rounding_test[0] == 0) {
+      test.needs_pairs = true;
+      vertex_kernel().transform(coefficients_, test, block.p, block.image);
+    }
     for (std::size_t i = 0; i < count; ++i) try {
         set_image(batch, block, i, rounder);
       } catch (...) {
