@@ -41,7 +41,7 @@ char* print_decimals(char* out, double value, const Decimal& decimal) {
   const std::uint64_t scale = decimals < kWholePowersOfTen.size() ? kWholePowersOfTen[decimals] : 0;
   out = print_sign(out, value < 0);
   // The decimal has the same whole part: beyond the next whole number it would not read back to this double.
-  const auto whole = static_cast<std::uint64_t>(std::fabs(value));
+  const auto whole = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::fabs(value)));
   out = print_before_point(out, whole);
   *out++ = '.';
   const std::uint64_t behind = decimal.digits - whole * scale;
@@ -49,10 +49,10 @@ char* print_decimals(char* out, double value, const Decimal& decimal) {
   // are 16 or 17 is unpredictable.
   constexpr std::uint64_t kSixteenDigits = 10'000'000'000'000'000;
   const std::uint64_t high = behind / kSixteenDigits;
-  const int high_count = std::max(-decimal.exponent - 16, 0);
+  const int high_count = std::max(-decimal.exponent - 16, 0), lacking = std::max(decimal.exponent + 16, 0);
   store_eight(out, kEightZeros + (high << (8 * high_count) >> 8));
   const SixteenDigits digits = split_sixteen(behind - high * kSixteenDigits);
-  const char* const end = print_digits(out + high_count, digits, std::min(-decimal.exponent, 16));
+  const char* const end = print_digits(out + high_count, digits, 16 - lacking);
   return out + (end - out) - trailing_zero_count(digits);
 }
 
