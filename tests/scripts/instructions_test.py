@@ -75,6 +75,12 @@ class Instructions(unittest.TestCase):
         self.assertRegex(lines[2], r"^one zbuf +scalar +1,000,000 +990,000 +-1\.00 %$")
         self.assertEqual(len(lines), 4)
 
+    def test_a_pipe_counts_its_stages_together(self):
+        self.commit("a pipe,scalar,GCC 12.2.0,3000000")
+        self.take("zbuf", 2_000_000)
+        _, lines = self.hold(Row("a pipe", "view one-world.txt | zbuf tiny.txt", "scalar"))
+        self.assertRegex(lines[1], r"^a pipe +scalar +3,000,000 +3,000,000 +\+0\.00 %$")
+
     def test_a_row_that_grew_fails_and_is_named(self):
         self.commit("one view,scalar,GCC 12.2.0,1000000", "one zbuf,scalar,GCC 12.2.0,1000000")
         self.take("zbuf", 1_010_100)

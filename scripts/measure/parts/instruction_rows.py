@@ -146,6 +146,13 @@ def with_materials(count, repeats):
     return header("world", columns) + "material 1 1 0 1\n" + in_world(count, columns=columns) * repeats
 
 
+def far_off():
+    """A scene whose triangles, and the eye, are 6.4 million units from the origin."""
+    near, far = "1.8 1.2 2.4\n0 0 0\n", "4000001.8 5000001.2 100002.4\n4000000 5000000 100000\n"
+    head = "translate 4e6 5e6 1e5\nrotate 25 3 1 2\n"
+    return scene(in_world(2000) * 4, head=head).replace(near, far, 1)
+
+
 TURNED = "push\ntranslate 0.25 -0.5 0.125\nrotate 30 1 2 3\nscale 0.5 2 1.5\n"
 
 TEXTS = {
@@ -155,6 +162,7 @@ TEXTS = {
     "one-screen.txt": lambda: small_on_screen(1),
     "scene.txt": lambda: scene(in_world(2000) * 15),
     "turned-scene.txt": lambda: scene(in_world(600), TURNED + TURNED, "pop\npop\n"),
+    "far-off-scene.txt": far_off,
     "odd-scene.txt": lambda: scene(odd_numbers(in_world(2000)) * 3),
     "lit-scene.txt":
         lambda: scene(in_world(2000, columns=("color", "normal")) * 4, columns=("color", "normal")),
@@ -194,7 +202,7 @@ TEXTS |= {
 @dataclasses.dataclass(frozen=True)
 class Row:
     name: str
-    words: str  # the tool and its arguments
+    words: str  # the tool and its arguments; of a pipe, " | " between two
     kernel: str = "avx2"
 
     @property
@@ -223,6 +231,8 @@ ROWS = [
     Row("zbuf: normals and colors", f"zbuf config.txt colored-screen.txt {NO_IMAGE}"),
     *(Row(f"mesh2scene: {form.upper()}", f"mesh2scene terrain.{form}")
       for form in ("obj", "stl", "ply")),
+    Row("pipe: PLY, 3 x 3 samples", "mesh2scene terrain.ply | model | view | project | "
+        f"zbuf narrow.txt {NO_IMAGE} --samples 3 --threads 1"),
     Row("model: lit", "model lit-scene.txt"),
     Row("view: lit", "view lit-world.txt"),
     Row("project: lit", "project lit-view.txt"),
@@ -233,6 +243,11 @@ ROWS = [
     Row("view: 9 digits", "view short-world.txt --digits 9"),
     Row("view: 12 digits", "view short-world.txt --digits 12"),
     Row("project: 9 digits", "project short-view.txt --digits 9"),
+    Row("model: 9 digits", "model scene.txt --digits 9"),
+    Row("model: exact digits", "model scene.txt --digits exact"),
+    Row(
+        "pipe: far-off eye, 9 digits", "model far-off-scene.txt --digits 9 | view --digits 9 | "
+        f"project --digits 9 | zbuf narrow.txt {NO_IMAGE} --coverage center"),
     Row("view: double precision", "view world.txt --precision double"),
     Row("project: exact digits", "project short-view.txt --digits exact"),
     Row("project: double precision", "project view.txt --precision double"),

@@ -49,13 +49,13 @@ def no_count_at_all():
     return None if shutil.which("valgrind") else "valgrind is not installed (Debian: valgrind)"
 
 
-def callgrind_count(words, folder, **environment):
+def callgrind_count(words, folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, **environment):
     """The instructions of one command in `folder`, in the same environment, but for what is given, whatever
     the caller's."""
     done = subprocess.run(
         [shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", *words], cwd=folder,
-        env={"PATH": "/usr/bin:/bin", "LC_ALL": "C", **environment}, stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
+        env={"PATH": "/usr/bin:/bin", "LC_ALL": "C", **environment}, stdin=stdin, stdout=stdout,
+        stderr=subprocess.PIPE, text=True, errors="replace")
     collected = re.search(r"Collected : (\d+)", done.stderr)
     if done.returncode != 0 or not collected:
         own = [line for line in done.stderr.splitlines() if line and not line.startswith("==")]
@@ -65,13 +65,21 @@ def callgrind_count(words, folder, **environment):
 
 
 def count(row, folder):
-    """The instructions of a row's run in `folder`, whose bin/ has the tools."""
+    """The instructions of a row's run in `folder`, whose bin/ has the tools; of a pipe all stages'."""
+    def counted(stage, source, output):
+        return callgrind_count(f"bin/{stage}".split(), folder, source, output, PIPELINE_KERNEL=row.kernel)
+
     for word in row.words.split():
         if word in TEXTS and not (folder / word).exists():
             (folder / word).write_text(TEXTS[word]())
+    total, text = 0, subprocess.DEVNULL
+    *before, last = row.words.split(" | ")
     try:
-        return callgrind_count([f"bin/{row.tool}", *row.words.split()[1:]], folder,
-                               PIPELINE_KERNEL=row.kernel)
+        for stage in before:
+            source, text = text, tempfile.TemporaryFile()
+            total += counted(stage, source, text)
+            text.seek(0)
+        return total + counted(last, text, subprocess.DEVNULL)
     except RunFailed as error:
         raise RunFailed(f"{row.words} {error}") from None
 
