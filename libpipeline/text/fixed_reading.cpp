@@ -102,15 +102,13 @@ template <std::size_t group_count, bool may_have_more>
 class ColumnReader {
  public:
   HWY_INLINE ColumnReader(const GroupDecimals& decimals, const FixedColumns& columns)
-      : forms_{ReadForm(decimals[0]), ReadForm(decimals[1]), ReadForm(decimals[2])}, columns_(columns) {
-    have_one_digit_.fill(true);
-  }
+      : forms_{ReadForm(decimals[0]), ReadForm(decimals[1]), ReadForm(decimals[2])}, columns_(columns) {}
 
   /// Reads the vertex lines of a triangle; null if the form differs.
   HWY_INLINE const char* read(const char* p, const char* text_end, std::size_t triangle) {
     no_digits_ = hn::Zero(kSixteen);
     is_in_place_ = true;
-    counts_.fill(1);
+    counts_ = {1, 1, 1};
     for (std::size_t vertex = 0; vertex < 3; ++vertex) {
       if (p >= text_end) return nullptr;
 #pragma GCC unroll 3
@@ -128,17 +126,15 @@ class ColumnReader {
         p = read_number(p, group, ' ', numbers.y);
         p = read_number(p, group, w_follows ? ' ' : line_end, numbers.z);
         if (group == kRepeatedGroup) last_.set(begin, p, numbers);
-        if (w_follows && (p = read_w_column(p, line_end, columns_.w[triangle][vertex])) == nullptr)
-          return nullptr;
+        if (w_follows && (p = read_w(p, line_end, columns_.w[triangle][vertex])) == nullptr) return nullptr;
       }
       if (has_materials() && (p = read_material(p, vertex, columns_.materials[triangle])) == nullptr)
         return nullptr;
     }
     for (std::size_t group = 0; group < group_count; ++group) have_one_digit_[group] = counts_[group] == 1;
-    if constexpr (may_have_more) have_one_digit_[kW] = counts_[kW] == 1;
-    const bool have_points = (counts_[0] | counts_[1] | counts_[2] | counts_[kW]) < 16;
-    const bool have_digits = are_digits();
-    return is_in_place_ && have_points && have_digits ? p : nullptr;
+    const bool have_points = (counts_[0] | counts_[1] | counts_[2]) < 16;
+    const bool are_digits = hn::AllTrue(kSixteen, hn::Eq(no_digits_, hn::Zero(kSixteen)));
+    return is_in_place_ && have_points && are_digits ? p : nullptr;
   }
 
  private:
@@ -146,26 +142,9 @@ class ColumnReader {
     return may_have_more && !columns_.materials.empty();
   }
 
-  [[nodiscard]] HWY_INLINE bool are_digits() const {
-    return hn::AllTrue(kSixteen, hn::Eq(no_digits_, hn::Zero(kSixteen)));
-  }
-
-  /// Reads w, which mostly has as many decimals as the position, and the separator after it.
-  HWY_INLINE const char* read_w_column(const char* p, char separator, double& w) {
-    if (!is_in_place_) return nullptr;
-    const auto no_digits = no_digits_;
-    const std::size_t count = counts_[kW];
-    const char* const end = read_number(p, kW, separator, w);
-    if (is_in_place_ && are_digits()) return end;
-    is_in_place_ = true;
-    no_digits_ = no_digits;
-    counts_[kW] = count;
-    return read_w(p, separator, w);
-  }
-
   /// Reads one number and the separator after it.
   HWY_INLINE const char* read_number(const char* p, std::size_t group, char separator, double& value) {
-    const ReadForm& form = forms_[group % 3];
+    const ReadForm& form = forms_[group];
     const bool is_negative = *p == '-';
     p += is_negative ? 1 : 0;
     const char point = form.end > 0 ? '.' : separator;
@@ -195,20 +174,17 @@ class ColumnReader {
     return p + count + form.end + 1;
   }
 
-  /// As if w were a group, in the form of the position, where it may be there.
-  static constexpr std::size_t kW = may_have_more ? 3 : 2;
-
   const std::array<ReadForm, 3> forms_;  // of the groups
   const FixedColumns& columns_;
   LastRead last_;
   /// Whether the numbers of each group have one digit before the point. Where the last ones had, a branch
   /// lets the processor go ahead to the next number, whose beginning would otherwise depend on this one;
   /// otherwise the branch is mispredicted often.
-  std::array<bool, kW + 1> have_one_digit_;
+  std::array<bool, 3> have_one_digit_ = {true, true, true};
   // In the triangle being read:
-  hn::Vec<decltype(kSixteen)> no_digits_;   // above 0 where a digit should be
-  bool is_in_place_;                        // every separator
-  std::array<std::size_t, kW + 1> counts_;  // of digits before the point, in each group: the bits of all
+  hn::Vec<decltype(kSixteen)> no_digits_;  // above 0 where a digit should be
+  bool is_in_place_;                       // every separator
+  std::array<std::size_t, 3> counts_;      // of digits before the point, in each group: the bits of all
 };
 
 template <std::size_t group_count, bool may_have_more>

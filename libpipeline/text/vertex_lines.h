@@ -11,6 +11,7 @@
 #include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/number_parser.h"
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 
@@ -116,6 +117,13 @@ inline const char* read_material(const char* p, std::size_t vertex, std::uint32_
   const auto number = static_cast<std::uint32_t>(join_leading_digits(less_zeros, count));
   if (vertex == 0) material = number;
   return number == material ? p + count + 1 : nullptr;
+}
+
+/// Prints w and a blank.
+inline char* write_w(char* out, double w) {
+  out = print_shortest(out, w);
+  *out = ' ';
+  return out + 1;
 }
 
 /// Ends a line of which a blank was printed last: with its triangle's material, if there is such a column.
