@@ -8,10 +8,7 @@
 #define HWY_TARGET_INCLUDE "libpipeline/coverage/center_kernel.cpp"
 #include "libpipeline/coverage/double_rows.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET == HWY_SCALAR
 
@@ -337,10 +334,7 @@ TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> 
 
 #endif
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();
 
 #if HWY_ONCE
 

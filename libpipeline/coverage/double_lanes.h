@@ -4,10 +4,7 @@
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/lanes.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 // Triangles of any doubles, mixed with decimals: their positions in pixels, their planes, and which pixels
 // they cover, where that is certain.
@@ -148,7 +145,4 @@ HWY_INLINE Doubles half_slope_of(const Pairs& per_column) {
   return all(0.5) * per_column.hi + all(DepthInDoubles::kNoMinus);
 }
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();

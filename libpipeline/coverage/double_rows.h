@@ -2,10 +2,7 @@
 
 #include "libpipeline/coverage/double_lanes.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET != HWY_SCALAR
 
@@ -183,7 +180,4 @@ struct DoubleRowLanes {
 
 #endif
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();

@@ -11,10 +11,7 @@
 #define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4 | HWY_AVX2)
 #include "libpipeline/numbers/vector_targets.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -254,7 +251,4 @@ TaggedSpan* append_all(const Rule& rule, std::span<const TaggedTriangle> triangl
 
 #endif
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();

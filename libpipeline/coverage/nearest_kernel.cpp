@@ -6,10 +6,7 @@
 #define HWY_TARGET_INCLUDE "libpipeline/coverage/nearest_kernel.cpp"
 #include "libpipeline/coverage/lanes.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET == HWY_SCALAR
 
@@ -177,10 +174,7 @@ TaggedSpan* nearest_spans(const PixelGrid& grid, std::span<const TaggedTriangle>
 
 #endif
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();
 
 #if HWY_ONCE
 

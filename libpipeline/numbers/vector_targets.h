@@ -1,7 +1,7 @@
 // No include guard: a kernel's source includes this once for each target, after
 //   #undef HWY_TARGET_INCLUDE
 //   #define HWY_TARGET_INCLUDE "path/of/this/source.cpp"
-// A source between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE is compiled for every target, the rest, in
+// What is between PIPELINE_BEGIN_KERNELS and PIPELINE_END_KERNELS is compiled for every target, the rest, in
 // `#if HWY_ONCE`, once.
 
 #ifndef PIPELINE_VECTOR_TARGETS
@@ -22,6 +22,18 @@
 #define TOOLCHAIN_MISS_SYS_AUXV_H
 // Its assertions, in builds without optimization or with sanitizers, would call a library that is not linked.
 #define HWY_IS_DEBUG_BUILD 0
+
+#define PIPELINE_BEGIN_KERNELS() \
+  HWY_BEFORE_NAMESPACE();        \
+  namespace pipeline {           \
+  namespace HWY_NAMESPACE {      \
+  namespace {                    \
+  static_assert(true)
+#define PIPELINE_END_KERNELS() \
+  }                            \
+  }                            \
+  }                            \
+  HWY_AFTER_NAMESPACE()
 #endif
 
 #include <hwy/foreach_target.h>  // first

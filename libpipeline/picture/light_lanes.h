@@ -6,10 +6,7 @@
 #include "libpipeline/numbers/vector_lanes.h"
 #include "libpipeline/picture/shading.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 // The light formula, for as many points at a time as a vector has doubles.
 
@@ -80,7 +77,4 @@ HWY_INLINE Vectors lit(const PointLanes& points, const Lighting& lighting, const
   return points.color * diffuse + specular * all(255);
 }
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();

@@ -10,10 +10,7 @@
 #define HWY_TARGET_INCLUDE "libpipeline/picture/shading.cpp"
 #include "libpipeline/picture/light_lanes.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 static_assert(kLanes <= kMaxLanesShaded);
 
@@ -85,10 +82,7 @@ void shade(const PixelRun& run, const Lighting& lighting, Color* colors) {
   }
 }
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();
 
 #if HWY_ONCE
 

@@ -9,10 +9,7 @@
 #define HWY_TARGET_INCLUDE "libpipeline/vertex/vertex_kernel.cpp"
 #include "libpipeline/numbers/vector_lanes.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 // Plain loops, which the compiler makes vectors of, but for normals.
 
@@ -54,10 +51,7 @@ std::size_t transform_normals(const std::array<Vec3, 3>& rows, std::span<Vec3> n
 
 constexpr VertexKernel kKernel = {transform, project, find_sides, transform_normals};
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();
 
 #if HWY_ONCE
 

@@ -10,10 +10,7 @@
 #define HWY_TARGET_INCLUDE "libpipeline/visibility/span_fill.cpp"
 #include "libpipeline/numbers/vector_targets.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -193,10 +190,7 @@ void fill_span(const SpanFill<Depth>& pixels) {
     lanes.fill_blocks();
 }
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();
 
 #if HWY_ONCE
 
