@@ -21,14 +21,18 @@ bool is_lower(const ClipVertex& a, const ClipVertex& b) {
   return compare(a.w, b.w) < 0;
 }
 
+std::size_t index_of(ClipPlane plane) {
+  return static_cast<std::size_t>(plane) - static_cast<std::size_t>(kAllClipPlanes[0]);
+}
+
 /// 0 for z, 1 for x, 2 for y: the axis of a plane.
 std::size_t axis_of(ClipPlane plane) {
-  return static_cast<std::size_t>(plane) / 2;
+  return index_of(plane) / 2;
 }
 
 /// Whether a plane bounds its axis below.
 bool is_low(ClipPlane plane) {
-  return static_cast<std::size_t>(plane) % 2 == 0;
+  return index_of(plane) % 2 == 0;
 }
 
 Ball distance_by_coordinates(ClipPlane plane, const ClipVertex& vertex) {

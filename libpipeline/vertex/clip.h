@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "libpipeline/stream/unseen_places.h"
 #include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
@@ -31,11 +32,11 @@ struct ClipVertex {
 /// planes. `projection` has to outlive it.
 ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_view, double clip_inset = 0);
 
-/// The planes of the view volume.
-enum class ClipPlane { near, far, left, right, bottom, top };
+/// A plane of the view volume, from `near` to `above`, is called by the place beyond it.
+using ClipPlane = UnseenPlace;
 
-constexpr std::array<ClipPlane, 6> kAllClipPlanes = {ClipPlane::near,  ClipPlane::far,    ClipPlane::left,
-                                                     ClipPlane::right, ClipPlane::bottom, ClipPlane::top};
+constexpr std::array<ClipPlane, 6> kAllClipPlanes = {ClipPlane::near,  ClipPlane::far,   ClipPlane::left,
+                                                     ClipPlane::right, ClipPlane::below, ClipPlane::above};
 constexpr std::array<ClipPlane, 1> kNearPlane = {ClipPlane::near};
 
 /// The signed distance from a plane in clip space, scaled: w + z for the near plane. Positive inside. Its

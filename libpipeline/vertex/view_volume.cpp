@@ -8,14 +8,6 @@
 #include "libpipeline/vertex/projection.h"
 
 namespace pipeline {
-namespace {
-
-/// The part outside plane `index` of kAllClipPlanes.
-UnseenPlace outside_of(std::size_t index) {
-  return static_cast<UnseenPlace>(index + 1);
-}
-
-}  // namespace
 
 ViewVolume::ViewVolume(const ProjectionTransform& projection, double clip_inset)
     : projection_(projection),
@@ -30,7 +22,7 @@ std::optional<UnseenPlace> ViewVolume::outside(const Triangle& p_view) const {
   if (sides.some_unsure == 0) return std::nullopt;
   if (const int first = std::countr_zero(sides.none_inside);
       first < 6 && (sides.all_outside >> first & 1u) != 0)
-    return outside_of(static_cast<std::size_t>(first));
+    return kAllClipPlanes[static_cast<std::size_t>(first)];
   std::vector<ClipVertex> polygon;
   unsigned any = 0, all = ~0u;
   for (const Vec3& p : p_view) {
@@ -39,10 +31,10 @@ std::optional<UnseenPlace> ViewVolume::outside(const Triangle& p_view) const {
     all &= code;
   }
   if (any == 0) return std::nullopt;
-  if (all != 0) return outside_of(static_cast<std::size_t>(std::countr_zero(all)));
-  for (std::size_t i = 0; i < kAllClipPlanes.size(); ++i) {
-    polygon = clip_polygon(polygon, std::span(kAllClipPlanes).subspan(i, 1));
-    if (polygon.empty()) return outside_of(i);
+  if (all != 0) return kAllClipPlanes[static_cast<std::size_t>(std::countr_zero(all))];
+  for (const ClipPlane plane : kAllClipPlanes) {
+    polygon = clip_polygon(polygon, std::span(&plane, 1));
+    if (polygon.empty()) return plane;
   }
   return std::nullopt;
 }

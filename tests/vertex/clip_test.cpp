@@ -36,26 +36,12 @@ ClipVertex at_distance(ClipPlane plane, double distance, double along) {
   const double far_inside = 100;
   ClipVertex v = {along, 2 * along, 3 * along, far_inside};
   const Ball on_plane = Ball(distance) - Ball(far_inside);
-  switch (plane) {
-    case ClipPlane::near:
-      v.z = on_plane;
-      break;
-    case ClipPlane::far:
-      v.z = -on_plane;
-      break;
-    case ClipPlane::left:
-      v.x = on_plane;
-      break;
-    case ClipPlane::right:
-      v.x = -on_plane;
-      break;
-    case ClipPlane::bottom:
-      v.y = on_plane;
-      break;
-    case ClipPlane::top:
-      v.y = -on_plane;
-      break;
-  }
+  if (plane == ClipPlane::near) v.z = on_plane;
+  if (plane == ClipPlane::far) v.z = -on_plane;
+  if (plane == ClipPlane::left) v.x = on_plane;
+  if (plane == ClipPlane::right) v.x = -on_plane;
+  if (plane == ClipPlane::below) v.y = on_plane;
+  if (plane == ClipPlane::above) v.y = -on_plane;
   return v;
 }
 
@@ -70,8 +56,8 @@ TEST(DistanceInside, IsPositiveWithinEachPlane) {
   EXPECT_EQ(distance_inside(ClipPlane::far, inside), Ball(0.75));
   EXPECT_EQ(distance_inside(ClipPlane::left, inside), Ball(1.5));
   EXPECT_EQ(distance_inside(ClipPlane::right, inside), Ball(0.5));
-  EXPECT_EQ(distance_inside(ClipPlane::bottom, inside), Ball(0.5));
-  EXPECT_EQ(distance_inside(ClipPlane::top, inside), Ball(1.5));
+  EXPECT_EQ(distance_inside(ClipPlane::below, inside), Ball(0.5));
+  EXPECT_EQ(distance_inside(ClipPlane::above, inside), Ball(1.5));
 }
 
 TEST(Outcode, HasABitForEachPlaneAVertexIsOutsideOf) {
@@ -301,20 +287,11 @@ TEST(ClipPolygon, NeighborsGetTheSamePointWhereOnlyWDiffers) {
 
 /// A vertex as far inside `plane` as `v` is inside the near plane.
 ClipVertex turned_from_near(ClipPlane plane, ClipVertex v) {
-  switch (plane) {
-    case ClipPlane::near:
-      return v;
-    case ClipPlane::far:
-      return {v.x, v.y, -v.z, v.w};
-    case ClipPlane::left:
-      return {v.z, v.x, v.y, v.w};
-    case ClipPlane::right:
-      return {-v.z, v.x, v.y, v.w};
-    case ClipPlane::bottom:
-      return {v.x, v.z, v.y, v.w};
-    case ClipPlane::top:
-      break;
-  }
+  if (plane == ClipPlane::near) return v;
+  if (plane == ClipPlane::far) return {v.x, v.y, -v.z, v.w};
+  if (plane == ClipPlane::left) return {v.z, v.x, v.y, v.w};
+  if (plane == ClipPlane::right) return {-v.z, v.x, v.y, v.w};
+  if (plane == ClipPlane::below) return {v.x, v.z, v.y, v.w};
   return {v.x, -v.z, v.y, v.w};
 }
 
@@ -401,9 +378,9 @@ TEST(ToClipSpace, TellsTheLastBitBesideEverySideWithOrWithoutInset) {
     const auto code = [&](double x, double y) { return outcode(to_clip_space(projection, {x, y, -1})); };
     EXPECT_EQ(code(low, low), 0u);
     EXPECT_EQ(code(-tiny, high), 1u << static_cast<int>(ClipPlane::left));
-    EXPECT_EQ(code(high, -tiny), 1u << static_cast<int>(ClipPlane::bottom));
+    EXPECT_EQ(code(high, -tiny), 1u << static_cast<int>(ClipPlane::below));
     EXPECT_EQ(code(std::nextafter(high, 2 * high), tiny), 1u << static_cast<int>(ClipPlane::right));
-    EXPECT_EQ(code(tiny, std::nextafter(high, 2 * high)), 1u << static_cast<int>(ClipPlane::top));
+    EXPECT_EQ(code(tiny, std::nextafter(high, 2 * high)), 1u << static_cast<int>(ClipPlane::above));
     // Half of the width and half of the height are pulled in: the left side is at a quarter.
     const auto pulled_in = [&](double x) {
       return outcode(to_clip_space(projection, {x, high / 2, -5}, 0.5)) &
