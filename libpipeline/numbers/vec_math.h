@@ -56,10 +56,13 @@ inline Vec3 face_normal(const Triangle& p) {
 }
 
 /// The weighted mean of a triangle's vertices or of their attributes; the weights add up to 1.
+inline double mean(const std::array<double, 3>& corners, const std::array<double, 3>& weights) {
+  return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+}
 inline Vec3 mean(const std::array<Vec3, 3>& corners, const std::array<double, 3>& weights) {
   const auto& [a, b, c] = corners;
-  const auto& [i, j, k] = weights;
-  return {i * a.x + j * b.x + k * c.x, i * a.y + j * b.y + k * c.y, i * a.z + j * b.z + k * c.z};
+  return {mean(std::array{a.x, b.x, c.x}, weights), mean(std::array{a.y, b.y, c.y}, weights),
+          mean(std::array{a.z, b.z, c.z}, weights)};
 }
 
 }  // namespace pipeline

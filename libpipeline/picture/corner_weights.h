@@ -4,7 +4,7 @@
 
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/pixel_grid.h"
-#include "libpipeline/scene/vertex_attributes.h"
+#include "libpipeline/text/vertex_columns.h"
 
 namespace pipeline {
 

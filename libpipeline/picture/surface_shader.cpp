@@ -63,18 +63,16 @@ SurfaceShader::KeptTriangle SurfaceShader::unclipped(const TriangleBatch& p_ndc,
   const ClipTriangle* const whole = p_ndc.unclipped_of(index);
   KeptTriangle kept;
   kept.is_divided = whole == nullptr;
-  if (whole != nullptr) kept.corners = *whole;
+  if (whole != nullptr)
+    kept.corners = *whole;
+  else
+    attributes.copy(index, kept.corners);
   for (std::size_t v = 0; v < 3; ++v) {
     VertexLine& corner = kept.corners[v];
     if (attributes.colors.empty()) corner.color = to_vec3(own_color);
     if (whole != nullptr) continue;
-    const Vec3& p = p_ndc.triangles[index][v];
-    corner.w = !attributes.w.empty()   ? attributes.w[index][v]
-               : setup_.view_from_clip ? setup_.view_from_clip->w_of(p)
-                                       : 1;
-    corner.position = p;
-    if (!attributes.colors.empty()) corner.color = attributes.colors[index][v];
-    if (!attributes.normals.empty()) corner.normal = attributes.normals[index][v];
+    const Vec3& p = corner.position = p_ndc.triangles[index][v];
+    if (attributes.w.empty()) corner.w = setup_.view_from_clip ? setup_.view_from_clip->w_of(p) : 1;
   }
   return kept;
 }

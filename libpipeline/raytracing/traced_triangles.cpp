@@ -8,17 +8,10 @@
 namespace pipeline {
 namespace {
 
-/// Adds color, normals and material of entry `index` to others.
-void copy_attributes(const AttributeArrays& from, std::size_t index, AttributeArrays& to) {
-  if (!from.colors.empty()) to.colors.push_back(from.colors[index]);
-  if (!from.normals.empty()) to.normals.push_back(from.normals[index]);
-  if (!from.materials.empty()) to.materials.push_back(from.materials[index]);
-}
-
 /// Adds triangle `index` of one batch to another, without its place in the text.
 void copy_triangle(const TriangleBatch& from, std::size_t index, TriangleBatch& to) {
   to.add(from.triangles[index], from.numbers[index], from.locations[index]);
-  copy_attributes(from.attributes, index, to.attributes);
+  to.attributes.add(from.attributes, index);
 }
 
 }  // namespace
@@ -39,7 +32,7 @@ void TracedTriangles::add_whole(const TriangleBatch& p_view, std::size_t index) 
   p_view_.push_back(p_view.triangles[index]);
   numbers_.push_back(p_view.numbers[index]);
   if (!pieces_.empty()) pieces_.push_back(kWhole);
-  copy_attributes(p_view.attributes, index, attributes_);
+  attributes_.add(p_view.attributes, index);
 }
 
 void TracedTriangles::add(
@@ -90,7 +83,7 @@ void TracedTriangles::add_triangles(
 
 void TracedTriangles::copy(Id id, TriangleBatch& p_view) const {
   p_view.add(p_view_[id], numbers_[id], {});
-  copy_attributes(attributes_, id, p_view.attributes);
+  p_view.attributes.add(attributes_, id);
 }
 
 bool TracedSpheres::add(const Sphere& p_view) {

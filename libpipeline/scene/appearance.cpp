@@ -37,13 +37,15 @@ AttributeSet read_attributes(LineScanner& line, AttributeSource source) {
   AttributeSet set;
   std::vector<std::string_view> names;
   std::string expected = "attributes of";
-  for (const auto& [name, is_there] : kAttributes) {
-    if (source == AttributeSource::scene && (name == "w" || name == "material")) continue;
+  const auto take = [&](std::string_view name, bool& is_there) {
+    if (source == AttributeSource::scene && (name == kW.name || name == "material")) return;
     names.push_back(name);
     expected.append(" [").append(name).append("]");
-    set.*is_there = line.peek() == name;
-    if (set.*is_there) line.word();
-  }
+    is_there = line.peek() == name;
+    if (is_there) line.word();
+  };
+  for_each_attribute([&](const auto& attribute) { take(attribute.name, set.*attribute.is_there); });
+  take("material", set.material);
   if (!set.any() || !line.at_end())
     line.fail(expected + ", in this order", spelling_hint(line.peek(), names));
   return set;

@@ -7,25 +7,33 @@
 namespace pipeline {
 namespace {
 
-double read_channel(LineScanner& line, std::string_view name, std::string_view of) {
-  const auto is_in_range = [](double value) { return value >= 0 && value <= 255; };
-  return number_where(line, {name, of}, "from 0 to 255", is_in_range);
+/// Takes the numbers of an attribute, any if `has_range` is false.
+template <typename Value>
+void read_value(LineScanner& line, const VertexAttribute<Value>& attribute, bool has_range,
+                std::string_view of, Value& value) {
+  const auto numbers = numbers_of(value);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    *numbers[i] = attribute.range.empty() || !has_range
+                      ? line.number(attribute.each[i], of)
+                      : number_where(line, {attribute.each[i], of}, attribute.range,
+                                     [&](double number) { return attribute.is_in_range(number); });
 }
 
 }  // namespace
 
 std::string attributes_line(const AttributeSet& attributes) {
   std::string line = "attributes";
-  for (const auto& [name, is_there] : kAttributes)
-    if (attributes.*is_there) line.append(" ").append(name);
-  return line;
+  for_each_attribute([&](const auto& attribute) {
+    if (attributes.*attribute.is_there) line.append(" ").append(attribute.name);
+  });
+  return attributes.material ? line + " material" : line;
 }
 
 std::string column_names(const AttributeSet& attributes) {
   std::string names = "x y z";
-  if (attributes.w) names += " w";
-  if (attributes.color) names += " r g b";
-  if (attributes.normal) names += " nx ny nz";
+  for_each_attribute([&](const auto& attribute) {
+    if (attributes.*attribute.is_there) names.append(" ").append(attribute.columns);
+  });
   if (attributes.material) names += " material";
   if (!attributes.any()) return names;
   // The line that asks for more columns may be far above, in another program's output.
@@ -34,9 +42,7 @@ std::string column_names(const AttributeSet& attributes) {
 
 Vec3 read_color(LineScanner& line, std::string_view of) {
   Vec3 color;
-  color.x = read_channel(line, "the red of ", of);
-  color.y = read_channel(line, "the green of ", of);
-  color.z = read_channel(line, "the blue of ", of);
+  read_value(line, kColor, true, of, color);
   return color;
 }
 
@@ -53,16 +59,11 @@ void VertexLineReader::read(LineScanner& line, std::size_t vertex, const std::st
   values.position.x = line.number("the x of ", name);
   values.position.y = line.number("the y of ", name);
   values.position.z = line.number("the z of ", name);
-  if (attributes_.w && range_of_w_ == RangeOfW::any)
-    values.w = line.number("the w of ", name);
-  else if (attributes_.w)
-    values.w = number_where(line, {"the w of ", name}, "above 0", [](double value) { return value > 0; });
-  if (attributes_.color) values.color = read_color(line, name);
-  if (attributes_.normal) {
-    values.normal.x = line.number("the normal's x of ", name);
-    values.normal.y = line.number("the normal's y of ", name);
-    values.normal.z = line.number("the normal's z of ", name);
-  }
+  for_each_attribute([&](const auto& attribute) {
+    if (!(attributes_.*attribute.is_there)) return;
+    const bool has_range = attribute.name != kW.name || range_of_w_ == RangeOfW::above_zero;
+    read_value(line, attribute, has_range, name, values.*attribute.value);
+  });
   if (attributes_.material) read_material(line, vertex, name, triangle);
   line.expect_end(name);
 }
@@ -82,20 +83,21 @@ void VertexLineReader::read_material(LineScanner& line, std::size_t vertex, cons
 /// Whether the values of the triangles from `begin` on are in range. In a scene, a normal may not be 0.
 bool VertexLineReader::are_in_range(const AttributeArrays& attributes, std::size_t begin,
                                     TriangleFrame frame) const {
-  const auto all = [&](const auto& triangles, const auto& is_fine) {
-    bool all_are = true;  // without a jump per number
+  bool all_are = true;  // without a jump per number
+  for_each_attribute([&](const auto& attribute) {
+    if (attribute.range.empty()) return;
+    const auto& triangles = attributes.*attribute.array;
     for (std::size_t i = begin; i < triangles.size(); ++i)
-      for (const auto& vertex : triangles[i]) all_are &= is_fine(vertex);
-    return all_are;
+      for (auto vertex : triangles[i])
+        for (const double* number : numbers_of(vertex)) all_are &= attribute.is_in_range(*number);
+  });
+  const auto is_one = [&](std::uint32_t material) { return material < material_count_; };
+  const auto have_length = [](const Triangle& normals) { return !std::ranges::count(normals, Vec3()); };
+  const auto all = [&](const auto& array, const auto& is_fine) {
+    return array.size() <= begin || std::ranges::all_of(std::span(array).subspan(begin), is_fine);
   };
-  const auto is_channel = [](double value) { return (value >= 0) & (value <= 255); };
-  const auto is_color = [&](const Vec3& c) { return is_channel(c.x) & is_channel(c.y) & is_channel(c.z); };
-  const std::span<const std::uint32_t> materials = attributes.materials;
-  const auto is_material = [&](std::uint32_t number) { return number < material_count_; };
-  return (!attributes_.material || std::ranges::all_of(materials.subspan(begin), is_material)) &&
-         all(attributes.w, [](double w) { return w > 0; }) && all(attributes.colors, is_color) &&
-         (frame != TriangleFrame::scene ||
-          all(attributes.normals, [](const Vec3& n) { return n != Vec3{}; }));
+  return all_are && all(attributes.materials, is_one) &&
+         (frame != TriangleFrame::scene || all(attributes.normals, have_length));
 }
 
 FixedTextPart VertexLineReader::read_triangles(std::string_view text, TriangleFrame frame, std::size_t limit,
@@ -116,32 +118,6 @@ FixedTextPart VertexLineReader::read_triangles(std::string_view text, TriangleFr
     resize(old_size);
   }
   return part;
-}
-
-void AttributeArrays::clear() {
-  truncate(0);
-}
-
-void AttributeArrays::truncate(std::size_t count) {
-  if (!w.empty()) w.resize(count);
-  if (!colors.empty()) colors.resize(count);
-  if (!normals.empty()) normals.resize(count);
-  if (!materials.empty()) materials.resize(count);
-}
-
-void AttributeArrays::resize(std::size_t count, const AttributeSet& attributes) {
-  if (attributes.w) w.resize(count);
-  if (attributes.color) colors.resize(count);
-  if (attributes.normal) normals.resize(count);
-  if (attributes.material) materials.resize(count);
-}
-
-void AttributeArrays::add(const TriangleLines& lines, const AttributeSet& attributes) {
-  const auto& [a, b, c] = lines.vertices;
-  if (attributes.w) w.push_back({a.w, b.w, c.w});
-  if (attributes.color) colors.push_back({a.color, b.color, c.color});
-  if (attributes.normal) normals.push_back({a.normal, b.normal, c.normal});
-  if (attributes.material) materials.push_back(lines.material);
 }
 
 }  // namespace pipeline

@@ -187,10 +187,8 @@ void StageReader::expect_unclipped_material(const LineScanner& line, TriangleBat
   const std::uint32_t material = batch.attributes.materials.back();
   if (material == unclipped_material_) return;
   batch.truncate(batch.size() - 1);
-  LineScanner at_material = line;
-  const AttributeSet columns = header_.appearance.columns();
-  for (int i = 3 + (columns.w ? 1 : 0) + (columns.color ? 3 : 0) + (columns.normal ? 3 : 0); i > 0; --i)
-    at_material.word();
+  LineScanner at_material = line;  // the last column
+  for (LineScanner rest = line; !rest.at_end(); rest.word()) at_material = rest;
   at_material.fail("the material of the triangle that was clipped, " + std::to_string(unclipped_material_));
 }
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "libpipeline/text/fixed_text.h"
 
@@ -169,14 +170,12 @@ void StageWriter::write_clipped(const ClipTriangle& unclipped, const AttributeAr
                                 std::size_t index) {
   text_.append("clipped\n");
   const auto& [a, b, c] = unclipped;
-  const Triangle positions = {a.position, b.position, c.position};
-  const Triangle colors = {a.color, b.color, c.color}, normals = {a.normal, b.normal, c.normal};
-  const std::array w = {a.w, b.w, c.w};
-  ConstFixedColumns columns = {{{{&positions, 1}}}, {&w, 1}};
-  if (columns_.color) columns.groups[1] = {&colors, 1};
-  if (columns_.normal) columns.groups[columns_.color ? 2 : 1] = {&normals, 1};
-  if (columns_.material) columns.materials = {&attributes.materials[index], 1};
-  write_columns(columns, nullptr, kShortest, text_);
+  const std::array<Triangle, 1> positions = {{{a.position, b.position, c.position}}};
+  AttributeSet names = columns_;
+  names.w = true;
+  clipped_.clear();
+  clipped_.add({unclipped, names.material ? attributes.materials[index] : 0}, names);
+  write_columns(fixed_columns(positions, std::as_const(clipped_), names, 0, 1), nullptr, kShortest, text_);
 }
 
 /// Prints the number of the next triangle if it is not the one that counting on would give.

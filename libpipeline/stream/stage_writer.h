@@ -38,6 +38,7 @@ class StageWriter {
   AttributeSet columns_;
   std::uint64_t next_number_ = 0;
   std::shared_ptr<const ClipTriangle> last_unclipped_;
+  AttributeArrays clipped_;  // of the one being written
   bool keeps_four_digits_ = false;
   bool has_filled_coordinate_ = false;
 };

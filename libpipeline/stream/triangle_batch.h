@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/scene/vertex_attributes.h"
+#include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/source_location.h"
 
 namespace pipeline {

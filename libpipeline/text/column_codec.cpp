@@ -25,20 +25,19 @@ const char* read_three(const char* p, char separator, Vec3& numbers, unsigned& m
                                                     std::size_t triangle, std::size_t vertex,
                                                     DecimalMarks& marks) {
   const std::size_t group_count = columns.group_count();
-  const bool has_material = !columns.materials.empty();
   for (std::size_t group = 0; group < group_count; ++group) {
-    const char end = group + 1 == group_count && !has_material ? '\n' : ' ';
-    const bool w_follows = group == 0 && !columns.w.empty();
+    const bool is_last = group + 1 == group_count;
     unsigned group_marks = 0;
-    p = read_three(p, w_follows ? ' ' : end, columns.groups[group][triangle][vertex], group_marks);
+    const bool ends_line = is_last && columns.materials.empty() && !columns.has_single(group);
+    p = read_three(p, ends_line ? '\n' : ' ', columns.groups[group][triangle][vertex], group_marks);
     if (p == nullptr) return nullptr;
     if (group == 0) marks = static_cast<DecimalMarks>(marks | group_marks << (3 * vertex));
-    if (w_follows && (p = read_w(p, end, columns.w[triangle][vertex])) == nullptr) return nullptr;
+    if ((p = read_singles(p, columns, group, is_last, triangle, vertex)) == nullptr) return nullptr;
   }
-  return has_material ? read_material(p, vertex, columns.materials[triangle]) : p;
+  return columns.materials.empty() ? p : read_material(p, vertex, columns.materials[triangle]);
 }
 
-/// Vertex lines that were read, without w and material, for the triangles that share them: of those with the
+/// Vertex lines that were read, of groups alone, for the triangles that share them: of those with the
 /// same hash, the last.
 class LinesRead {
  public:
@@ -92,8 +91,7 @@ FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const 
   const std::size_t limit = std::min(columns.triangle_count(), marks.size());
   std::ranges::fill(marks.first(limit), DecimalMarks{0});
   // Models have normals. A line without is read faster than it is looked up.
-  if (frame != TriangleFrame::scene || columns.group_count() == 1 || !columns.w.empty() ||
-      !columns.materials.empty())
+  if (frame != TriangleFrame::scene || columns.group_count() == 1 || !columns.has_groups_alone())
     return read_by_lines(text, frame, limit, [&](const char* p, std::size_t triangle, std::size_t vertex) {
       return read_line(p, columns, triangle, vertex, marks[triangle]);
     });
@@ -107,7 +105,8 @@ FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const 
 GroupDecimals decimals_of_groups(std::string_view text, const FixedColumns& columns) {
   GroupDecimals decimals = {decimals_of_number(text.data())};
   for (std::size_t group = 1; group < columns.group_count(); ++group) {
-    for (int words = group == 1 && !columns.w.empty() ? 4 : 3; words > 0; --words)
+    const auto is_before = [&](const auto& single) { return single.after == group - 1; };
+    for (auto words = 3 + std::ranges::count_if(columns.singles, is_before); words > 0; --words)
       text.remove_prefix(std::min(text.find(' '), text.size() - 1) + 1);
     decimals[group] = decimals_of_number(text.data());
   }
@@ -120,12 +119,11 @@ char* write_triangle(char* out, const ConstFixedColumns& columns, std::size_t tr
   const std::size_t group_count = columns.group_count();
   for (std::size_t vertex = 0; vertex < 3; ++vertex) {
     out = print_three(out, columns.groups[0][triangle][vertex], low_part[vertex], format);
-    if (!columns.w.empty()) {
-      out = print_shortest(out, columns.w[triangle][vertex]);
-      *out++ = ' ';
-    }
-    for (std::size_t group = 1; group < group_count; ++group)
+    out = write_singles(out, columns, 0, triangle, vertex);
+    for (std::size_t group = 1; group < group_count; ++group) {
       out = print_three(out, columns.groups[group][triangle][vertex], {}, format);
+      out = write_singles(out, columns, group, triangle, vertex);
+    }
     out = write_line_end(out, columns.materials, triangle);
   }
   *out++ = '\n';
@@ -149,7 +147,8 @@ void write_columns(const ConstFixedColumns& columns, const Triangle* low_part, N
                    TextWriter& text) {
   static const WriteFixedColumns write_fixed = chosen_kernel(fixed_printing_kernels());
   static constexpr Triangle kNothing = {};
-  constexpr std::size_t kMaxShortestLength = 24, kNumbers = 33;
+  constexpr std::size_t kMaxShortestLength = 24;
+  constexpr std::size_t kNumbers = 3 * (3 * kMaxGroups + kMaxSingles + 1);
   const std::size_t max_fixed_length = columns.form() == 0 ? kMaxFixedTriangleLength : kMaxFixedColumnsLength;
   const std::size_t max_length =
       kNumbers * ((format.shortest ? kMaxShortestLength : kMaxNumberLength) + 1) + 1;

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/text/eight_digits.h"
@@ -12,10 +13,7 @@
 #define HWY_TARGET_INCLUDE "libpipeline/text/fixed_printing.cpp"
 #include "libpipeline/numbers/vector_targets.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET == HWY_SCALAR
 
@@ -186,16 +184,18 @@ HWY_INLINE char* write_line(char* out, const PrintedForm& form, const ConstFixed
   for (std::size_t group = 0; group < group_count; ++group) {
     if (repeats && group == kRepeatedGroup) {
       out = last.print(out);
-      continue;
-    }
-    const char* const begin = out;
+    } else {
+      const char* const begin = out;
 #pragma GCC unroll 3
-    for (std::size_t k = 3 * vertex; k < 3 * vertex + 3; ++k) {
-      out = texts[group].write(out, form, k);
-      *out++ = ' ';
+      for (std::size_t k = 3 * vertex; k < 3 * vertex + 3; ++k) {
+        out = texts[group].write(out, form, k);
+        *out++ = ' ';
+      }
+      if (group == kRepeatedGroup && vertex == 2)
+        last.set(columns.groups[group][triangle][vertex], begin, out);
     }
-    if (group == kRepeatedGroup && vertex == 2) last.set(columns.groups[group][triangle][vertex], begin, out);
-    if (may_have_more && group == 0 && !columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
+    if (may_have_more && columns.has_single(group))
+      out = write_singles(out, columns, group, triangle, vertex);
   }
   return write_line_end(out, may_have_more ? columns.materials : std::span<const std::uint32_t>(), triangle);
 }
@@ -229,9 +229,10 @@ FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, i
 
 template <bool exactly>
 FixedTextPart write_from(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
-  constexpr auto kWriters = std::array{write_lines<exactly, 1, false>, write_lines<exactly, 1, true>,
-                                       write_lines<exactly, 2, false>, write_lines<exactly, 2, true>,
-                                       write_lines<exactly, 3, false>, write_lines<exactly, 3, true>};
+  constexpr auto kWriters = []<std::size_t... form>(std::index_sequence<form...>) {
+    return std::array{write_lines<exactly, form / 2 + 1, form % 2 == 1>...};
+  }
+  (std::make_index_sequence<2 * kMaxGroups>());
   return kWriters[columns.form()](first, columns, decimals, out);
 }
 
@@ -247,10 +248,7 @@ FixedTextPart write_columns(const ConstFixedColumns& columns, std::size_t first,
 
 #endif
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();
 
 #if HWY_ONCE
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/text/eight_digits.h"
@@ -15,10 +16,7 @@
 #define HWY_TARGET_INCLUDE "libpipeline/text/fixed_reading.cpp"
 #include "libpipeline/numbers/vector_targets.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET == HWY_SCALAR
 
@@ -102,46 +100,53 @@ template <std::size_t group_count, bool may_have_more>
 class ColumnReader {
  public:
   HWY_INLINE ColumnReader(const GroupDecimals& decimals, const FixedColumns& columns)
-      : forms_{ReadForm(decimals[0]), ReadForm(decimals[1]), ReadForm(decimals[2])}, columns_(columns) {}
+      : forms_([&]<std::size_t... group>(std::index_sequence<group...>) {
+          return std::array{ReadForm(decimals[group])...};
+        }(std::make_index_sequence<group_count>())),
+        columns_(columns) {
+    have_one_digit_.fill(true);
+  }
 
   /// Reads the vertex lines of a triangle; null if the form differs.
   HWY_INLINE const char* read(const char* p, const char* text_end, std::size_t triangle) {
     no_digits_ = hn::Zero(kSixteen);
     is_in_place_ = true;
-    counts_ = {1, 1, 1};
+    counts_.fill(1);
     for (std::size_t vertex = 0; vertex < 3; ++vertex) {
       if (p >= text_end) return nullptr;
 #pragma GCC unroll 3
       for (std::size_t group = 0; group < group_count; ++group) {
         Vec3& numbers = columns_.groups[group][triangle][vertex];
+        const bool is_last = group + 1 == group_count;
+        const bool has_single = may_have_more && columns_.has_single(group);
+        const bool ends_line = is_last && !has_single && !(may_have_more && !columns_.materials.empty());
         if (group == kRepeatedGroup && last_.is_at(p)) {
           numbers = last_.numbers();
           p += last_.length();
-          continue;
+        } else {
+          const char* const begin = p;
+          p = read_number(p, group, ' ', numbers.x);
+          p = read_number(p, group, ' ', numbers.y);
+          p = read_number(p, group, ends_line ? '\n' : ' ', numbers.z);
+          if (group == kRepeatedGroup) last_.set(begin, p, numbers);
         }
-        const char* const begin = p;
-        const char line_end = group + 1 == group_count && !has_materials() ? '\n' : ' ';
-        const bool w_follows = may_have_more && group == 0 && !columns_.w.empty();
-        p = read_number(p, group, ' ', numbers.x);
-        p = read_number(p, group, ' ', numbers.y);
-        p = read_number(p, group, w_follows ? ' ' : line_end, numbers.z);
-        if (group == kRepeatedGroup) last_.set(begin, p, numbers);
-        if (w_follows && (p = read_w(p, line_end, columns_.w[triangle][vertex])) == nullptr) return nullptr;
+        if (has_single && (p = read_singles(p, columns_, group, is_last, triangle, vertex)) == nullptr)
+          return nullptr;
       }
-      if (has_materials() && (p = read_material(p, vertex, columns_.materials[triangle])) == nullptr)
+      if (may_have_more && !columns_.materials.empty() &&
+          (p = read_material(p, vertex, columns_.materials[triangle])) == nullptr)
         return nullptr;
     }
-    for (std::size_t group = 0; group < group_count; ++group) have_one_digit_[group] = counts_[group] == 1;
-    const bool have_points = (counts_[0] | counts_[1] | counts_[2]) < 16;
+    bool have_points = true;
+    for (std::size_t group = 0; group < group_count; ++group) {
+      have_one_digit_[group] = counts_[group] == 1;
+      have_points &= counts_[group] < 16;
+    }
     const bool are_digits = hn::AllTrue(kSixteen, hn::Eq(no_digits_, hn::Zero(kSixteen)));
     return is_in_place_ && have_points && are_digits ? p : nullptr;
   }
 
  private:
-  [[nodiscard]] bool has_materials() const {
-    return may_have_more && !columns_.materials.empty();
-  }
-
   /// Reads one number and the separator after it.
   HWY_INLINE const char* read_number(const char* p, std::size_t group, char separator, double& value) {
     const ReadForm& form = forms_[group];
@@ -174,17 +179,17 @@ class ColumnReader {
     return p + count + form.end + 1;
   }
 
-  const std::array<ReadForm, 3> forms_;  // of the groups
+  const std::array<ReadForm, group_count> forms_;  // of the groups
   const FixedColumns& columns_;
   LastRead last_;
   /// Whether the numbers of each group have one digit before the point. Where the last ones had, a branch
   /// lets the processor go ahead to the next number, whose beginning would otherwise depend on this one;
   /// otherwise the branch is mispredicted often.
-  std::array<bool, 3> have_one_digit_ = {true, true, true};
+  std::array<bool, group_count> have_one_digit_;
   // In the triangle being read:
-  hn::Vec<decltype(kSixteen)> no_digits_;  // above 0 where a digit should be
-  bool is_in_place_;                       // every separator
-  std::array<std::size_t, 3> counts_;      // of digits before the point, in each group: the bits of all
+  hn::Vec<decltype(kSixteen)> no_digits_;        // above 0 where a digit should be
+  bool is_in_place_;                             // every separator
+  std::array<std::size_t, group_count> counts_;  // of digits before the point, in each group: the bits of all
 };
 
 template <std::size_t group_count, bool may_have_more>
@@ -205,13 +210,12 @@ FixedTextPart read_groups(std::string_view text, TriangleFrame frame, const Grou
 
 #endif
 
-constexpr FixedReaders kReaders = {read_groups<1, false>, read_groups<1, true>,  read_groups<2, false>,
-                                   read_groups<2, true>,  read_groups<3, false>, read_groups<3, true>};
+constexpr FixedReaders kReaders = []<std::size_t... form>(std::index_sequence<form...>) {
+  return FixedReaders{read_groups<form / 2 + 1, form % 2 == 1>...};
+}
+(std::make_index_sequence<2 * kMaxGroups>());
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();
 
 #if HWY_ONCE
 

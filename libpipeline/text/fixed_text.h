@@ -6,11 +6,13 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/text_writer.h"
+#include "libpipeline/text/vertex_columns.h"
 
 namespace pipeline {
 
@@ -53,52 +55,100 @@ enum class TriangleFrame {
   scene        // the line `triangle` before them
 };
 
-/// The numbers on vertex lines, by column: groups of three numbers in fixed form (the position, and up to two
-/// more), w, a number in any form, which comes after the position, and last the material, a whole number that
-/// the lines of a triangle share. All arrays have an entry per triangle; those of columns that are not there
-/// are empty.
+/// The position, and attributes of three numbers.
+constexpr std::size_t kMaxGroups = 1 + attribute_count<Vec3>(kAttributes);
+/// Attributes of one number.
+constexpr std::size_t kMaxSingles = attribute_count<double>(kAttributes);
+/// The last group that each of these may come after.
+constexpr auto kLastGroupBefore = [] {
+  std::array<std::size_t, kMaxSingles> last{};
+  std::size_t group = 0, single = 0;
+  for_each_attribute([&]<typename Value>(const VertexAttribute<Value>&) {
+    if constexpr (std::is_same_v<Value, Vec3>)
+      ++group;
+    else
+      last[single++] = group;
+  });
+  return last;
+}();
+
+/// The numbers on vertex lines, by column: groups of three numbers in fixed form (the position first), single
+/// numbers in any form, which come after a group, and last the material, a whole number that the lines of a
+/// triangle share. All arrays have an entry per triangle; those of columns that are not there are empty.
 template <typename Numbers, typename OneNumber, typename Whole>
 struct FixedColumnsOf {
-  std::array<std::span<Numbers>, 3> groups;
-  std::span<OneNumber> w;
+  struct Single {
+    std::span<OneNumber> numbers;
+    std::size_t after = kMaxGroups;  // the index of its group
+  };
+  std::array<std::span<Numbers>, kMaxGroups> groups;
+  std::array<Single, kMaxSingles> singles = {};
   std::span<Whole> materials = {};
 
   [[nodiscard]] std::size_t triangle_count() const { return groups[0].size(); }
   [[nodiscard]] std::size_t group_count() const {
-    return groups[1].empty() ? 1 : std::size_t{groups[2].empty() ? 2u : 3u};
+    std::size_t count = 1;
+    while (count < kMaxGroups && !groups[count].empty()) ++count;
+    return count;
   }
-  /// From 0 to 5: which of the kernels' loops has these columns, by groups and whether there are others.
-  [[nodiscard]] std::size_t form() const {
-    return 2 * (group_count() - 1) + (w.empty() && materials.empty() ? 0 : 1);
+  /// Whether one of the singles from `first` on comes after this group.
+  [[nodiscard]] bool has_single(std::size_t group, std::size_t first = 0) const {
+    for (std::size_t i = first; i < kMaxSingles; ++i)
+      if (group <= kLastGroupBefore[i] && singles[i].after == group) return true;
+    return false;
   }
+  /// Whether there are groups alone.
+  [[nodiscard]] bool has_groups_alone() const { return singles[0].numbers.empty() && materials.empty(); }
+  /// Which of the kernels' loops has these columns, by groups and whether there are others.
+  [[nodiscard]] std::size_t form() const { return 2 * (group_count() - 1) + (has_groups_alone() ? 0 : 1); }
 };
 using FixedColumns = FixedColumnsOf<Triangle, std::array<double, 3>, std::uint32_t>;
 using ConstFixedColumns = FixedColumnsOf<const Triangle, const std::array<double, 3>, const std::uint32_t>;
 
+/// The columns of `count` triangles from `begin` on; `names` are those after the position.
+template <typename Positions, typename Attributes>
+auto fixed_columns(Positions& positions, Attributes& attributes, const AttributeSet& names, std::size_t begin,
+                   std::size_t count) {
+  std::conditional_t<std::is_const_v<Positions>, ConstFixedColumns, FixedColumns> columns;
+  const auto part = [&](auto& array) { return std::span(array).subspan(begin, count); };
+  columns.groups[0] = part(positions);
+  std::size_t group = 0, single = 0;
+  for_each_attribute([&]<typename Value>(const VertexAttribute<Value>& attribute) {
+    if (!(names.*attribute.is_there)) return;
+    if constexpr (std::is_same_v<Value, Vec3>)
+      columns.groups[++group] = part(attributes.*attribute.array);
+    else
+      columns.singles[single++] = {part(attributes.*attribute.array), group};
+  });
+  if (names.material) columns.materials = part(attributes.materials);
+  return columns;
+}
+
 /// The counts of decimals of the groups.
-using GroupDecimals = std::array<int, 3>;
+using GroupDecimals = std::array<int, kMaxGroups>;
 
 /// Reads triangles with these columns from the beginning of `text` until one is not in fixed form, with these
 /// decimals and at most eight digits before the point, the columns are full, or the text ends. Every number
-/// becomes the nearest double, as from_chars returns it. Of w it reads the numbers that read_decimal_number
+/// becomes the nearest double, as from_chars returns it. Of singles it reads those that read_decimal_number
 /// reads, of materials those of at most eight digits. Without vectors, it reads nothing.
 using ReadFixedColumns = FixedTextPart (*)(std::string_view text, TriangleFrame frame,
                                            const GroupDecimals& decimals, const FixedColumns& columns);
 /// One for each form of columns, by the kernel in use.
-using FixedReaders = std::array<ReadFixedColumns, 6>;
+using FixedReaders = std::array<ReadFixedColumns, 2 * kMaxGroups>;
 const FixedReaders& fixed_readers();
 
-/// Prints triangles in fixed form, from `first` on, with the same decimals in all groups, and w in its
-/// shortest form. Stops before a triangle with a number that has more than 15 digits, or is so close to a tie
-/// that only exact arithmetic can round it (some kernels have it). `out` must have room for
+/// Prints triangles in fixed form, from `first` on, with the same decimals in all groups, and singles in
+/// their shortest form. Stops before a triangle with a number that has more than 15 digits, or is so close to
+/// a tie that only exact arithmetic can round it (some kernels have it). `out` must have room for
 /// kMaxFixedTriangleLength or, with more columns, kMaxFixedColumnsLength characters per triangle, and
 /// kFixedTextSlack more. The scalar kernel prints nothing.
 using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, std::size_t first, int decimals,
                                             char* out);
 const KernelTable<WriteFixedColumns>& fixed_printing_kernels();
 
-/// Three groups of numbers; three times w and a material with a separator each.
-constexpr std::size_t kMaxFixedColumnsLength = std::size_t{3} * (kMaxFixedTriangleLength + 26 + 11);
+/// The groups of numbers; three times the singles and a material with a separator each.
+constexpr std::size_t kMaxFixedColumnsLength =
+    kMaxGroups * kMaxFixedTriangleLength + 3 * (kMaxSingles * 26 + 11);
 
 // The codec of vertex lines. Besides the fixed form it has a fast path for numbers that have each a count of
 // decimals of their own, as `--digits exact` and people write them: without exponents, and with single blanks
@@ -113,8 +163,8 @@ using DecimalMarks = std::uint16_t;
 FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
                            std::span<DecimalMarks> marks);
 
-/// Prints triangles in this format, w always in its shortest form: by the fixed printer, or number by number
-/// where it stops. `low_part`, which may be null, is what the doubles of each triangle's position lack
+/// Prints triangles in this format, singles always in their shortest form: by the fixed printer, or number by
+/// number where it stops. `low_part`, which may be null, is what the doubles of each triangle's position lack
 /// (TriangleBatch).
 void write_columns(const ConstFixedColumns& columns, const Triangle* low_part, NumberFormat format,
                    TextWriter& text);

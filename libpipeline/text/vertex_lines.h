@@ -101,12 +101,18 @@ class LastPrinted {
   int miss_count_ = 0;  // in a row
 };
 
-/// Reads w and the separator after it; null if the form differs.
-inline const char* read_w(const char* p, char separator, double& w) {
-  DecimalNumber number;
-  p = read_decimal_number(p, number);
-  w = number.value;
-  return p != nullptr && *p == separator ? p + 1 : nullptr;
+/// Reads the single numbers after a group, and the separators after them; null if the form differs.
+inline const char* read_singles(const char* p, const FixedColumns& columns, std::size_t group,
+                                bool is_last_group, std::size_t triangle, std::size_t vertex) {
+  for (std::size_t i = 0; i < kMaxSingles; ++i) {
+    if (columns.singles[i].after != group) continue;
+    DecimalNumber number;
+    p = read_decimal_number(p, number);
+    columns.singles[i].numbers[triangle][vertex] = number.value;
+    const bool ends_line = is_last_group && columns.materials.empty() && !columns.has_single(group, i + 1);
+    if (p == nullptr || *p++ != (ends_line ? '\n' : ' ')) return nullptr;
+  }
+  return p;
 }
 
 /// Reads the material and the end of a line; null if the form differs, or from the triangle's first vertex.
@@ -119,11 +125,15 @@ inline const char* read_material(const char* p, std::size_t vertex, std::uint32_
   return number == material ? p + count + 1 : nullptr;
 }
 
-/// Prints w and a blank.
-inline char* write_w(char* out, double w) {
-  out = print_shortest(out, w);
-  *out = ' ';
-  return out + 1;
+/// Prints the single numbers after a group, and a blank after each.
+inline char* write_singles(char* out, const ConstFixedColumns& columns, std::size_t group,
+                           std::size_t triangle, std::size_t vertex) {
+  for (const auto& single : columns.singles) {
+    if (single.after != group) continue;
+    out = print_shortest(out, single.numbers[triangle][vertex]);
+    *out++ = ' ';
+  }
+  return out;
 }
 
 /// Ends a line of which a blank was printed last: with its triangle's material, if there is such a column.

@@ -86,12 +86,21 @@ Vec3 NormalTransform::operator()(const Vec3& normal) const {
   return largest_in(image) < kNearlyLost ? image_in_balls(normal) : unit_vector(image);
 }
 
-void NormalTransform::apply(std::span<Triangle> normals) const {
-  if (normals.empty()) return;
-  for (std::span rest(normals.front().data(), 3 * normals.size()); !rest.empty(); rest = rest.subspan(1)) {
-    rest = rest.subspan(vertex_kernel().transform_normals(rows_, rest));
-    if (rest.empty()) return;
-    rest.front() = (*this)(rest.front());
+void NormalTransform::apply(AttributeArrays& attributes, std::size_t begin, std::size_t end) const {
+  for_each_attribute([&]<typename Value>(const VertexAttribute<Value>& attribute) {
+    auto& array = attributes.*attribute.array;
+    const std::size_t last = std::min(end, array.size());
+    if constexpr (std::is_same_v<Value, Vec3>)
+      if (attribute.turns_as_normal && begin < last) apply({array[begin].data(), 3 * (last - begin)});
+  });
+}
+
+void NormalTransform::apply(std::span<Vec3> normals) const {
+  while (!normals.empty()) {
+    normals = normals.subspan(vertex_kernel().transform_normals(rows_, normals));
+    if (normals.empty()) return;
+    normals.front() = (*this)(normals.front());
+    normals = normals.subspan(1);
   }
 }
 

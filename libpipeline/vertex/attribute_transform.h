@@ -4,6 +4,7 @@
 #include <span>
 
 #include "libpipeline/scene/appearance.h"
+#include "libpipeline/text/vertex_columns.h"
 #include "libpipeline/vertex/affine_matrix.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
 #include "libpipeline/vertex/transform.h"
@@ -27,11 +28,12 @@ class NormalTransform {
 
   /// The image of a normal of any length: of length 1, or 0.
   [[nodiscard]] Vec3 operator()(const Vec3& normal) const;
-  /// Replaces the normals of triangles by their images.
-  void apply(std::span<Triangle> normals) const;
+  /// Replaces the normals of the triangles [begin, end), if there are any, by their images.
+  void apply(AttributeArrays& attributes, std::size_t begin, std::size_t end) const;
 
  private:
   void set_rows(const BallVec3& x, const BallVec3& y, const BallVec3& z);
+  void apply(std::span<Vec3> normals) const;
   [[nodiscard]] Vec3 image_in_balls(const Vec3& normal) const;
 
   std::array<Vec3, 3> rows_;

@@ -58,9 +58,7 @@ void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) {
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const auto& [first, world_from_model, world_normal_from_model] = runs_[i];
     const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : batch.object_count();
-    if (world_normal_from_model && first < batch.size())
-      world_normal_from_model->apply(
-          std::span(batch.attributes.normals).subspan(first, std::min(end, batch.size()) - first));
+    if (world_normal_from_model) world_normal_from_model->apply(batch.attributes, first, end);
     world_from_model.apply(batch, first, end, rounder);
   }
 }

@@ -50,16 +50,6 @@ double safe_double(const Ball& number) {
   return is_fine ? nearest : std::numeric_limits<double>::quiet_NaN();
 }
 
-bool has_attributes(const TriangleBatch& batch) {
-  const AttributeArrays& attributes = batch.attributes;
-  return !attributes.colors.empty() || !attributes.normals.empty() || !attributes.materials.empty();
-}
-
-/// Rounded weights may push a color at a limit beyond it.
-Vec3 clamped_color(const Vec3& c) {
-  return {std::clamp(c.x, 0.0, 255.0), std::clamp(c.y, 0.0, 255.0), std::clamp(c.z, 0.0, 255.0)};
-}
-
 /// The location of the corner with the largest weight in a vertex of a piece, for messages.
 // N4
 LineAndColumn location_of(const ClipVertex& vertex, const VertexLocations& corners) {
@@ -130,7 +120,7 @@ ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode
 
 void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc) {
   p_ndc.clear();
-  writes_w_ = error_ || has_attributes(p_view);
+  writes_w_ = error_ || p_view.attributes.names().any();
   for (std::size_t i = 0; i < p_view.size(); ++i) {
     if (i % VertexBlock::kTriangles == 0) {
       const std::size_t count = std::min(p_view.size() - i, VertexBlock::kTriangles);
@@ -204,15 +194,20 @@ void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t in
                                      const std::array<CornerMix, 3>& mixes, TriangleBatch& p_ndc) {
   const AttributeArrays& corners = p_view.attributes;
   TriangleLines lines;
-  for (std::size_t v = 0; v < 3; ++v) {
-    VertexLine& vertex = lines.vertices[v];
-    vertex.w = mixes[v].w;
-    if (!corners.colors.empty()) vertex.color = clamped_color(mean(corners.colors[index], mixes[v].weights));
-    if (!corners.normals.empty()) vertex.normal = mean(corners.normals[index], mixes[v].weights);
-  }
-  if (!corners.materials.empty()) lines.material = corners.materials[index];
-  p_ndc.attributes.add(lines,
-                       {true, !corners.colors.empty(), !corners.normals.empty(), !corners.materials.empty()});
+  AttributeSet names = corners.names();
+  names.w = true;
+  for (std::size_t v = 0; v < 3; ++v) lines.vertices[v].w = mixes[v].w;
+  for_each_attribute([&](const auto& attribute) {
+    const auto& array = corners.*attribute.array;  // that of w is empty
+    for (std::size_t v = 0; v < 3 && !array.empty(); ++v) {
+      auto& value = lines.vertices[v].*attribute.value = mean(array[index], mixes[v].weights);
+      // Rounded weights may push a value at a limit beyond it.
+      for (double* number : numbers_of(value))
+        *number = std::clamp(*number, attribute.least, attribute.greatest);
+    }
+  });
+  if (names.material) lines.material = corners.materials[index];
+  p_ndc.attributes.add(lines, names);
 }
 
 void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t index,
@@ -242,11 +237,8 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
   }
   if (!writes_w_) return;
   const auto& [a, b, c] = p_view.triangles[index];
-  const AttributeArrays& attributes = p_view.attributes;
   p_ndc.attributes.w.push_back({w_of(a), w_of(b), w_of(c)});
-  if (!attributes.colors.empty()) p_ndc.attributes.colors.push_back(attributes.colors[index]);
-  if (!attributes.normals.empty()) p_ndc.attributes.normals.push_back(attributes.normals[index]);
-  if (!attributes.materials.empty()) p_ndc.attributes.materials.push_back(attributes.materials[index]);
+  p_ndc.attributes.add(p_view.attributes, index);
 }
 
 std::array<ClipVertex, 3> ProjectionStage::corners_in_clip_space(const Triangle& p_view) const {
@@ -297,8 +289,8 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
 std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
     const std::array<ClipVertex, 3>& corners, const TriangleBatch& p_view, std::size_t index) {
   const double input_size = size_of(p_view.triangles[index]);
-  const AttributeArrays& attributes = p_view.attributes;
   ClipTriangle triangle;
+  p_view.attributes.copy(index, triangle);
   std::array<bool, 3> is_certain = {};
   for (std::size_t v = 0; v < 3; ++v) {
     const double size = rounder_.size_for_zero(input_size, point_of(corners[v]));
@@ -312,8 +304,6 @@ std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
     triangle[v].position = {x.hi, y.hi, z.hi};
     triangle[v].w = w_of(p_view.triangles[index][v]);
     is_certain[v] = x.is_certain && y.is_certain && z.is_certain;
-    if (!attributes.colors.empty()) triangle[v].color = attributes.colors[index][v];
-    if (!attributes.normals.empty()) triangle[v].normal = attributes.normals[index][v];
   }
   for (std::size_t v = 0; v < 3; ++v)
     if (!is_certain[v]) rounder_.add_uncertain(p_view.locations[index][v], point_of(corners[v]), input_size);

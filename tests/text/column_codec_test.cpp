@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <charconv>
 #include <string>
 #include <vector>
@@ -24,6 +23,13 @@ struct Columns {
     for (std::size_t group = 0; group < group_count; ++group) groups[group].resize(triangle_count);
     if (has_w) w.resize(triangle_count);
   }
+  /// As the codec takes them.
+  template <typename Of, typename Arrays>
+  static Of of(Arrays& arrays) {
+    return {{arrays.groups[0], arrays.groups[1], arrays.groups[2]},
+            {{{arrays.w, arrays.w.empty() ? kMaxGroups : 0}}},
+            arrays.materials};
+  }
   /// Calls `visit(number)` for every number of a triangle, in the order of the text; then `end_line()`.
   template <typename Visit, typename EndLine>
   void for_each_number(std::size_t triangle, const Visit& visit, const EndLine& end_line) {
@@ -41,17 +47,14 @@ struct Columns {
 FixedTextPart read(const std::string& text, Columns& columns,
                    TriangleFrame frame = TriangleFrame::stage_text) {
   const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-  return read_columns(
-      {with_slack.data(), text.size()}, frame,
-      {{columns.groups[0], columns.groups[1], columns.groups[2]}, columns.w, columns.materials},
-      columns.marks);
+  return read_columns({with_slack.data(), text.size()}, frame, Columns::of<FixedColumns>(columns),
+                      columns.marks);
 }
 
 std::string written(const Columns& columns, NumberFormat format = kShortest,
                     const Triangle* low_part = nullptr) {
   TextWriter text;
-  write_columns({{columns.groups[0], columns.groups[1], columns.groups[2]}, columns.w, columns.materials},
-                low_part, format, text);
+  write_columns(Columns::of<ConstFixedColumns>(columns), low_part, format, text);
   return std::string(text.collected());
 }
 

@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
       header.bounds = {bounds_in_view(*world, view, numbers.kept_bounds(rounder)), {}};
     writer.write_header(header);
     const auto transform = [&](TriangleBatch& batch) {
-      normal_to_view.apply(batch.attributes.normals);
+      normal_to_view.apply(batch.attributes, 0, batch.size());
       to_view.apply(batch, rounder);
     };
     StageLoop loop(tool, writer, rounder, statistics);
