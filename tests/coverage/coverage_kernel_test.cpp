@@ -8,7 +8,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "libpipeline/coverage/rules.h"

@@ -1,7 +1,6 @@
 // The config reader: any text gives a viewport within its limits or an error at its location.
 
 #include <cmath>
-#include <optional>
 
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/number_printer.h"

@@ -7,7 +7,6 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/text_reader.h"

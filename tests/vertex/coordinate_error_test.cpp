@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 
 #include "libpipeline/vertex/vertex_loops.h"
 #include "tests/numbers/random_numbers.h"

@@ -1,10 +1,8 @@
 // A pipeline as a student of the course writes it: stages 1 to 4 in plain doubles, right unless it is told to
 // make a mistake. It is what the conformance pack and the judge are tried on.
 
-#include <algorithm>
 #include <fstream>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>

@@ -7,7 +7,6 @@
 #include <iomanip>
 #include <limits>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 
 #include "tests/conformance/student/stages.h"
