@@ -224,35 +224,18 @@ void expect_like_reference(const char* name, const Family& family, int count, st
             << 100.0 * static_cast<double>(wrong_in_doubles) / count << " %)\n";
 }
 
-constexpr int kUsual = 100'000;
+#define PIPELINE_FAMILY(Name, words, triangle, seed)               \
+  TEST(CenterFamilies, Name) {                                     \
+    expect_like_reference(words, triangle, 100'000, seed);         \
+  }                                                                \
+  TEST(CenterFamilies, Long##Name) {                               \
+    expect_like_reference(words, triangle, 10'000'000, 10 + seed); \
+  }
 
-TEST(CenterFamilies, AboutTenPixels) {
-  expect_like_reference("about ten pixels", about_ten_pixels, kUsual, 1);
-}
-TEST(CenterFamilies, OnHalfPixels) {
-  expect_like_reference("on half pixels", on_half_pixels, kUsual, 2);
-}
-TEST(CenterFamilies, Slivers) {
-  expect_like_reference("slivers", sliver, kUsual, 3);
-}
-TEST(CenterFamilies, OnHundredths) {
-  expect_like_reference("on hundredths", on_hundredths, kUsual, 4);
-}
-
-constexpr int kLong = 10'000'000;
-
-TEST(CenterFamilies, LongAboutTenPixels) {
-  expect_like_reference("about ten pixels", about_ten_pixels, kLong, 11);
-}
-TEST(CenterFamilies, LongOnHalfPixels) {
-  expect_like_reference("on half pixels", on_half_pixels, kLong, 12);
-}
-TEST(CenterFamilies, LongSlivers) {
-  expect_like_reference("slivers", sliver, kLong, 13);
-}
-TEST(CenterFamilies, LongOnHundredths) {
-  expect_like_reference("on hundredths", on_hundredths, kLong, 14);
-}
+PIPELINE_FAMILY(AboutTenPixels, "about ten pixels", about_ten_pixels, 1)
+PIPELINE_FAMILY(OnHalfPixels, "on half pixels", on_half_pixels, 2)
+PIPELINE_FAMILY(Slivers, "slivers", sliver, 3)
+PIPELINE_FAMILY(OnHundredths, "on hundredths", on_hundredths, 4)
 
 }  // namespace
 }  // namespace pipeline

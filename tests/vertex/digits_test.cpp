@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "libpipeline/vertex/attribute_transform.h"
 #include "libpipeline/vertex/projection.h"
@@ -20,32 +19,7 @@ namespace {
 constexpr int kBits = 512;
 using R = Real<kBits>;
 using ReferencePoint = ReferenceVec3<kBits>;
-
-/// A model transform, as computed and exactly.
-struct TrackedModel {
-  AffineMatrix computed = identity();
-  ReferenceMatrix<kBits> exact = reference_scaling<kBits>({1, 1, 1});
-  double stretch = 1;  // at least the ratio of the largest to the smallest singular value of the linear part
-
-  TrackedModel& translate(const Vec3& v) {
-    return set(translated(computed, v), reference_translation<kBits>(v));
-  }
-  TrackedModel& scale(const Vec3& v) {
-    const auto [least, largest] = std::minmax({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-    stretch *= largest / least;
-    return set(scaled(computed, v), reference_scaling<kBits>(v));
-  }
-  TrackedModel& rotate(double angle, const Vec3& axis) {
-    return set(computed * rotation(angle, axis), reference_rotation<kBits>(angle, axis));
-  }
-
- private:
-  TrackedModel& set(const AffineMatrix& product, const ReferenceMatrix<kBits>& exact_t) {
-    computed = product;
-    exact = exact * exact_t;
-    return *this;
-  }
-};
+using TrackedModel = Model<kBits>;
 
 /// Identical but for its rounding errors: numbers of the pivot's size are added and cancel.
 TrackedModel around_pivot(double pivot) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "libpipeline/text/error.h"
 #include "tests/vertex/projected.h"
 
@@ -20,42 +18,42 @@ void expect_images(const Projection& projection, const std::vector<Vec3>& vertic
   expect_printed<bits>(result.p_ndc, vertices, format, size, [&](const auto& p) { return exact.ndc(p); });
 }
 
-TEST(Projection, PrintsTheCorrectlyRoundedNumbersOfAPerspective) {
+/// Checks 30 projections for each format; `check(random, i, format)` makes and checks one.
+template <typename Check>
+void expect_correctly_rounded(std::uint64_t seed, Check check) {
   for (const NumberFormat format : kFormats) {
-    RandomNumbers random(1);
+    RandomNumbers random(seed);
     for (int i = 0; i < 30; ++i) {
-      Perspective p = random_perspective(random);
-      if (i % 2 != 0) p.aspect_rule = AspectRule::ratio;
-      expect_images<448>(p, random_vertices_in_front(random, 30, p.near / 1000), format, 1e20);
-      ASSERT_FALSE(HasFailure()) << "case " << i << ", " << format.decimals << " decimals";
+      check(random, i, format);
+      ASSERT_FALSE(testing::Test::HasFailure()) << "case " << i << ", " << format.decimals << " decimals";
     }
   }
+}
+
+TEST(Projection, PrintsTheCorrectlyRoundedNumbersOfAPerspective) {
+  expect_correctly_rounded(1, [](RandomNumbers& random, int i, NumberFormat format) {
+    Perspective p = random_perspective(random);
+    if (i % 2 != 0) p.aspect_rule = AspectRule::ratio;
+    expect_images<448>(p, random_vertices_in_front(random, 30, p.near / 1000), format, 1e20);
+  });
 }
 
 TEST(Projection, PrintsTheCorrectlyRoundedNumbersOfAFrustum) {
-  for (const NumberFormat format : kFormats) {
-    RandomNumbers random(2);
-    for (int i = 0; i < 30; ++i) {
-      const auto number = [&] { return random_coordinate(random, 10); };
-      const Frustum f = {number(), number() + 11, number() + 11, number(), 0.5, random.between(1, 1e6)};
-      expect_images<448>(f, random_vertices_in_front(random, 30, 0.25), format, 1e20);
-      ASSERT_FALSE(HasFailure()) << "case " << i << ", " << format.decimals << " decimals";
-    }
-  }
+  expect_correctly_rounded(2, [](RandomNumbers& random, int, NumberFormat format) {
+    const auto number = [&] { return random_coordinate(random, 10); };
+    const Frustum f = {number(), number() + 11, number() + 11, number(), 0.5, random.between(1, 1e6)};
+    expect_images<448>(f, random_vertices_in_front(random, 30, 0.25), format, 1e20);
+  });
 }
 
 TEST(Projection, PrintsTheCorrectlyRoundedNumbersOfAParallelProjection) {
-  for (const NumberFormat format : kFormats) {
-    RandomNumbers random(3);
-    for (int i = 0; i < 30; ++i) {
-      const auto number = [&] { return random_coordinate(random, 10); };
-      const Orthographic o = {number(), number() + 11, number() + 11, number(), number(), number() + 20.5};
-      std::vector<Vec3> vertices(30);
-      for (Vec3& p : vertices) p = random_point(random, 1e6);
-      expect_images<448>(o, vertices, format, 1e20);
-      ASSERT_FALSE(HasFailure()) << "case " << i << ", " << format.decimals << " decimals";
-    }
-  }
+  expect_correctly_rounded(3, [](RandomNumbers& random, int, NumberFormat format) {
+    const auto number = [&] { return random_coordinate(random, 10); };
+    const Orthographic o = {number(), number() + 11, number() + 11, number(), number(), number() + 20.5};
+    std::vector<Vec3> vertices(30);
+    for (Vec3& p : vertices) p = random_point(random, 1e6);
+    expect_images<448>(o, vertices, format, 1e20);
+  });
 }
 
 /// Projections at the limits of a camera's parameters, with vertices in view.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -147,6 +149,31 @@ ReferenceProjection<bits> reference_projection(const Projection& projection) {
   const R right = p.aspect_rule == AspectRule::angle ? R(p.near) * tan(half_x) : top * R(p.aspect);
   return {true, -right, right, -top, top, p.near, p.far};
 }
+
+/// A model transform, as computed and exactly.
+template <int bits>
+struct Model {
+  AffineMatrix computed = identity();
+  ReferenceMatrix<bits> exact = reference_scaling<bits>({1, 1, 1});
+  double stretch = 1;  // at least the ratio of the largest to the smallest singular value of the linear part
+
+  Model& translate(const Vec3& v) { return set(translated(computed, v), reference_translation<bits>(v)); }
+  Model& scale(const Vec3& v) {
+    const auto [least, largest] = std::minmax({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+    stretch *= largest / least;
+    return set(scaled(computed, v), reference_scaling<bits>(v));
+  }
+  Model& rotate(double angle, const Vec3& axis) {
+    return set(computed * rotation(angle, axis), reference_rotation<bits>(angle, axis));
+  }
+
+ private:
+  Model& set(const AffineMatrix& product, const ReferenceMatrix<bits>& exact_t) {
+    computed = product;
+    exact = exact * exact_t;
+    return *this;
+  }
+};
 
 /// 10^exponent.
 template <int bits>

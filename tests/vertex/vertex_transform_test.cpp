@@ -23,26 +23,6 @@ TriangleBatch images_of(const std::vector<Vec3>& vertices, const Transform& tran
   return batch;
 }
 
-/// A model transform, as computed and exactly.
-template <int bits>
-struct Model {
-  AffineMatrix computed = identity();
-  ReferenceMatrix<bits> exact = reference_scaling<bits>({1, 1, 1});
-
-  Model& translate(const Vec3& v) { return set(translated(computed, v), reference_translation<bits>(v)); }
-  Model& scale(const Vec3& v) { return set(scaled(computed, v), reference_scaling<bits>(v)); }
-  Model& rotate(double angle, const Vec3& axis) {
-    return set(computed * rotation(angle, axis), reference_rotation<bits>(angle, axis));
-  }
-
- private:
-  Model& set(const AffineMatrix& product, const ReferenceMatrix<bits>& exact_t) {
-    computed = product;
-    exact = exact * exact_t;
-    return *this;
-  }
-};
-
 template <int bits>
 Model<bits> random_model(RandomNumbers& random) {
   Model<bits> model;
