@@ -360,6 +360,11 @@ TEST(ToClipSpace, PutsTheNearPlaneAtMinusWAndTheFarPlaneAtW) {
   EXPECT_EQ(distance_inside(ClipPlane::far, far).sign(), 0);
 }
 
+/// The bit of a plane in an outcode.
+unsigned bit_of(ClipPlane plane) {
+  return 1u << (std::ranges::find(kAllClipPlanes, plane) - kAllClipPlanes.begin());
+}
+
 TEST(ToClipSpace, TellsTheLastBitBesideTheNearPlane) {
   const double near = 0.1;
   for (const double far : {0.1 + 0x1p-56, 0.2, 1e12, 1e300}) {
@@ -377,14 +382,13 @@ TEST(ToClipSpace, TellsTheLastBitBesideEverySideWithOrWithoutInset) {
     projection.sides = {VolumeSides{1, low, high}, VolumeSides{1, low, high}};
     const auto code = [&](double x, double y) { return outcode(to_clip_space(projection, {x, y, -1})); };
     EXPECT_EQ(code(low, low), 0u);
-    EXPECT_EQ(code(-tiny, high), 1u << static_cast<int>(ClipPlane::left));
-    EXPECT_EQ(code(high, -tiny), 1u << static_cast<int>(ClipPlane::below));
-    EXPECT_EQ(code(std::nextafter(high, 2 * high), tiny), 1u << static_cast<int>(ClipPlane::right));
-    EXPECT_EQ(code(tiny, std::nextafter(high, 2 * high)), 1u << static_cast<int>(ClipPlane::above));
+    EXPECT_EQ(code(-tiny, high), bit_of(ClipPlane::left));
+    EXPECT_EQ(code(high, -tiny), bit_of(ClipPlane::below));
+    EXPECT_EQ(code(std::nextafter(high, 2 * high), tiny), bit_of(ClipPlane::right));
+    EXPECT_EQ(code(tiny, std::nextafter(high, 2 * high)), bit_of(ClipPlane::above));
     // Half of the width and half of the height are pulled in: the left side is at a quarter.
     const auto pulled_in = [&](double x) {
-      return outcode(to_clip_space(projection, {x, high / 2, -5}, 0.5)) &
-             (1u << static_cast<int>(ClipPlane::left));
+      return outcode(to_clip_space(projection, {x, high / 2, -5}, 0.5)) & bit_of(ClipPlane::left);
     };
     const double quarter = (is_perspective ? 5 : 1) * high / 4;
     EXPECT_EQ(pulled_in(quarter), 0u);
