@@ -10,7 +10,7 @@ import signal
 import subprocess
 import unittest
 
-from toolbox import BIN, SOURCE, ToolTest
+from toolbox import BIN, SOURCE, ToolTest, run_script
 
 SCENE = ("3 4 7\n0.3 -0.2 0.1\n0.2 1 0.1\n50 1.3 1 50\ntriangle\n0 0 0\n1 0 0.3\n0 1 0\ntriangle\n0.5 0.2 "
          "-1\n1 0.7 0\n0 -1 0\nend\n")
@@ -19,9 +19,7 @@ SCENES = ("1-one-triangle", "2-camera", "3-transforms", "4-push-and-pop", "5-win
 
 def check(*words):
     """What check-stage has done; its stdout without the last line, on the sandbox, if there is one."""
-    done = subprocess.run([SOURCE / "scripts/check-stage", "--read", BIN, *map(str, words)],
-                          capture_output=True, text=True, timeout=250, env={
-                              "BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+    done = run_script("check-stage", "--read", BIN, *words)
     done.stdout, done.note = re.fullmatch(r"((?s:.*?))((?:no|in a) sandbox.*\n)?", done.stdout).groups()
     return done
 

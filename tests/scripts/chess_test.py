@@ -3,17 +3,14 @@
 
 usage: chess_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
-import subprocess
 import unittest
 
-from toolbox import SOURCE, ToolTest, pipe, run
+from toolbox import ToolTest, pipe, run, run_script
 from vectors import cross, dot, minus
 
 
 def scene(around):
-    return subprocess.run(
-        [SOURCE / "scripts/make-chess", "--around", str(around)], check=True, capture_output=True,
-        text=True).stdout
+    return run_script("make-chess", "--around", str(around), check=True).stdout
 
 
 class Chess(ToolTest):
@@ -46,8 +43,7 @@ class Chess(ToolTest):
 
     def test_a_fineness_that_is_none_is_refused(self):
         for word in ("2", "1001", "1.5", "-3", "many"):
-            done = subprocess.run([SOURCE / "scripts/make-chess", f"--around={word}"], capture_output=True,
-                                  text=True)
+            done = run_script("make-chess", f"--around={word}")
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(f"expected a whole number from 3 to 1000, found '{word}'", done.stderr)
 

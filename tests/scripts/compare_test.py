@@ -3,12 +3,12 @@
 
 usage: compare_test.py BIN_DIR STUDENT [UNITTEST ARGUMENT...]
 """
+import functools
 import math
 import pathlib
-import subprocess
 import unittest
 
-from toolbox import BIN, SOURCE, ToolTest, run
+from toolbox import SOURCE, ToolTest, run, run_script
 import reference
 import student  # takes the word behind toolbox's
 from lib.judging.mistakes import sentences
@@ -20,9 +20,7 @@ WIDE = student.SCENE
 TRIANGLE = "0.1000000 0.2000000 0.3000000\n1.0000000 0.0000000 0.5000000\n0.0000000 1.0000000 0.7000000\n\n"
 
 
-def compare(*words):
-    return subprocess.run([SOURCE / "scripts/compare", *map(str, words)], capture_output=True, text=True,
-                          timeout=120, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+compare = functools.partial(run_script, "compare")
 
 
 def cells(table, name):

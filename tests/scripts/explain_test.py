@@ -5,10 +5,8 @@ at hand.
 usage: explain_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import math
-import os
 import pathlib
 import random
-import subprocess
 import unittest
 from fractions import Fraction
 from types import SimpleNamespace
@@ -19,16 +17,14 @@ from lib.explaining.stages import Settings, Stages, vertex_lines, words_of
 from lib.maths.window import PixelOfTriangle, Window
 from lib.running.pipe_tools import Tools
 from lib.text.scene import find_triangle
-from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run
+from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run, run_script
 
 SAMPLES = sorted(scene.parent for scene in SOURCE.glob("samples/*/scene.txt"))
 MAX_LINES = 60
 
 
 def explain(*words, stdin=None):
-    return subprocess.run([SOURCE / "scripts/explain", *map(str, words)], capture_output=True, text=True,
-                          timeout=120, input=stdin, env={
-                              "BIN": str(BIN), "PATH": os.environ["PATH"], "LANG": "C.UTF-8"})
+    return run_script("explain", *words, input=stdin)
 
 
 def coordinates(report, section):

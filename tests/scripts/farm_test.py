@@ -21,7 +21,7 @@ from cut_scene_test import random_scene
 from lib.showing.pictures import png_chunks, read_picture, unfiltered
 from random_scene import CAMERA, scene_of_parts as scene
 from ssh_server import SshServer
-from toolbox import BIN, SOURCE, ToolTest, pipe, run
+from toolbox import BIN, SOURCE, ToolTest, pipe, run, run_script
 
 FARM = SOURCE / "scripts/farm"
 SETTINGS = ([], ["--coverage", "center", "--samples",
@@ -394,8 +394,7 @@ class JoinImages(FarmTest):
             names = [f"{first}.{extension}" for first in [0, *cuts]]
             for name, first, end in zip(names, [0, *cuts], [*cuts, 40]):
                 pipe(["zbuf", "--size", f"{columns}x40", "--rows", f"{first}:{end}", "-o", name], stdin=text)
-            done = subprocess.run([SOURCE / "scripts/join-images", *names, "-o", f"joined.{extension}"],
-                                  capture_output=True)
+            done = run_script("join-images", *names, "-o", f"joined.{extension}", text=False)
             self.assertEqual((done.returncode, done.stderr), (0, b""))
             self.assertEqual(read_picture(f"joined.{extension}"), read_picture(f"whole.{extension}"))
             if extension != "png":
@@ -410,7 +409,7 @@ class JoinImages(FarmTest):
                 words = ["--rows", rows, "-o", "x.ppm", "--depth-image", f"{rows}.{extension}"]
                 pipe(["zbuf", "config.txt", *words], stdin=text)
             words = [f"0:13.{extension}", f"13:40.{extension}", "-o", f"joined.{extension}"]
-            done = subprocess.run([SOURCE / "scripts/join-images", *words], capture_output=True)
+            done = run_script("join-images", *words, text=False)
             self.assertEqual((done.returncode, done.stderr), (0, b""))
         joined, whole = (pathlib.Path(name).read_bytes() for name in ("joined.png", "0:40.png"))
         self.assertEqual(joined[:33], whole[:33])  # width, height, 16 bits gray
@@ -444,8 +443,7 @@ class JoinImages(FarmTest):
                                         "d.png", "cut.png"], "cut.png: "),
                                (["wide.png"], "wide.png: expected at most 65535 columns, found 2147483647"),
                                (["bomb.png"], "bomb.png: expected 64 bytes of pixels, found more")):
-            done = subprocess.run([SOURCE / "scripts/join-images", *words, "-o", "out.ppm"],
-                                  capture_output=True, text=True)
+            done = run_script("join-images", *words, "-o", "out.ppm")
             self.assertEqual((done.returncode, done.stdout), (1, ""))
             self.assertEqual(done.stderr[:len(message) + 13], f"join-images: {message}")
             self.assertFalse(pathlib.Path("out.ppm").exists())

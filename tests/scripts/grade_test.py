@@ -23,7 +23,7 @@ from grade_parts import graders
 from grade_parts.contents import contents_of
 from grade_parts.hand_ins import find_hand_ins
 from lib.judging.mistakes import sentences
-from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pseudo_terminal
+from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pseudo_terminal, run_script
 
 SAMPLE = SOURCE / "samples/worked-example"
 FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
@@ -63,8 +63,7 @@ class ClassTest(ToolTest):
                 f"{where}/z_buffer.txt", "-o", f"{where}/out.bmp"], check=True)
 
     def grade(self, *words, status=0, folders=("hand-ins", "tests")):
-        done = subprocess.run([SOURCE / "scripts/grade", *folders, *words], capture_output=True, text=True,
-                              timeout=120, env={**os.environ, "BIN": str(BIN)})
+        done = run_script("grade", *folders, *words)
         self.assertEqual(done.returncode, status, done.stderr)
         self.assertNotIn("Traceback", done.stderr)
         return done

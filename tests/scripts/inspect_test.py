@@ -4,6 +4,7 @@
 usage: inspect_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import base64
+import functools
 import math
 import os
 import pathlib
@@ -15,7 +16,7 @@ import unittest
 from unittest import mock
 
 from browser import MISSING, Browser
-from toolbox import BIN, SOURCE, ToolTest, pipe, pseudo_terminal, run, stage_texts
+from toolbox import BIN, SOURCE, ToolTest, pipe, pseudo_terminal, run, run_script, stage_texts
 
 TAB, ESCAPE, LEFT, UP, RIGHT, DOWN, HOME, SHIFT = ("\ue004", "\ue00c", "\ue012", "\ue013", "\ue014", "\ue015",
                                                    "\ue011", "\ue008")
@@ -34,13 +35,7 @@ SHORT = """const {inspector} = document.body, panels = inspector?.panels,
 RAYS = ("ray-primary", "ray-shadow", "ray-mirrored", "ray-refracted")
 
 
-def script(name, *words):
-    return subprocess.run([SOURCE / "scripts" / name, *map(str, words)], capture_output=True, text=True,
-                          timeout=300, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
-
-
-def inspect(*words):
-    return script("inspect", *words)
+inspect = functools.partial(run_script, "inspect")
 
 
 class Messages(ToolTest):
@@ -422,7 +417,7 @@ class InABrowser(ToolTest):
             for i, p in enumerate(pixels):
                 for name in {i // 2 % 3, (i + 1) % 3}:
                     row, column = divmod(p, 40)
-                    told = script("explain", "scene.txt", "config.txt", "--triangle", name, "--pixel",
+                    told = run_script("explain", "scene.txt", "config.txt", "--triangle", name, "--pixel",
                                   f"{column},{row}", "--coverage", coverage).stdout
                     self.js("select(arguments[0], arguments[1])", name, p)
                     shown = self.js("return texts('#explanation pre')")
@@ -450,7 +445,8 @@ class InABrowser(ToolTest):
 
     def test_theirs_has_the_verdict_and_the_matrix(self):
         told = self.load_a_hand_in(self.write_right_negated)
-        judged = script("compare", "--hand-in", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt").stdout
+        scene, config = SAMPLE / "scene.txt", SAMPLE / "config.txt"
+        judged = run_script("compare", "--hand-in", "theirs", scene, config).stdout
         self.assertIn("theirs: " + judged.split("Verdict: ")[1].split("\nNext: ")[0], told)
         matrix = [line for line in judged.splitlines() if " | " in line and not line.startswith("|")]
         self.assertEqual(len(matrix), 5)
@@ -643,7 +639,7 @@ class InABrowser(ToolTest):
 
     def test_every_triangle_of_a_large_scene_is_there(self):
         """Scenes up to MAX_DRAWN_TRIANGLES differ only in their number from this one."""
-        scene = script("make-torus", "--around", "60", "--tube", "50").stdout
+        scene = run_script("make-torus", "--around", "60", "--tube", "50").stdout
         pathlib.Path("large.txt").write_text(scene)
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load("large.txt", "config.txt")
@@ -807,7 +803,7 @@ class InABrowser(ToolTest):
             self.assertEqual(self.ray_rows()[0][0], "primary")
 
     def test_in_a_large_scene_the_pixel_is_explained_beside_the_command_for_the_rest(self):
-        scene = script("make-torus", "--around", "25", "--tube", "11").stdout
+        scene = run_script("make-torus", "--around", "25", "--tube", "11").stdout
         pathlib.Path("large.txt").write_text(scene)  # 1,100 triangles
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load("large.txt", "config.txt")
@@ -815,7 +811,7 @@ class InABrowser(ToolTest):
         name, _ = self.held()
         self.assertIn(f"pipeline explain large.txt config.txt --triangle {name} --pixel 20,20",
                       self.js("return text('#explanation')"))
-        told = script("explain", "large.txt", "config.txt", "--triangle", name, "--pixel", "20,20").stdout
+        told = run_script("explain", "large.txt", "config.txt", "--triangle", name, "--pixel", "20,20").stdout
         shown = self.js("return text('#explanation pre + pre')") + "\n"
         begin, end = told.index("PIXEL"), told.index(
             "  at this pixel")  # explain leaves out fragments beyond its 60 lines

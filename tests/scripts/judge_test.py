@@ -12,7 +12,7 @@ import struct
 import subprocess
 import unittest
 
-from toolbox import BIN, SOURCE, ToolTest
+from toolbox import BIN, ToolTest, run_script
 import reference
 import student  # takes the word behind toolbox's
 
@@ -179,8 +179,7 @@ class Right(HandIn):
                                    "50 1.3 1 50\ntriangle\n6 8 14\n7 8 14\n6 9 14\n")  # behind the eye
         pathlib.Path("scene.txt").write_text(self.scene)
         pathlib.Path("config.txt").write_text(CONFIG)
-        subprocess.run([SOURCE / "scripts/stages", "scene.txt", "config.txt", "."], check=True,
-                       capture_output=True)
+        run_script("stages", "scene.txt", "config.txt", ".", check=True)
         verdict = self.assert_verdicts(["right"] * 5, 0)
         self.assertEqual(verdict.files[4].remarks, [])
 

@@ -17,7 +17,7 @@ from types import SimpleNamespace
 from unittest import mock
 
 from grade_parts import kit_classroom50
-from toolbox import BIN, SOURCE, ToolTest
+from toolbox import BIN, SOURCE, ToolTest, run_script
 
 FORMS = json.loads((pathlib.Path(__file__).parent / "kit_forms.json").read_text())
 KINDS = ("gradescope", "classroom50", "plain")
@@ -127,8 +127,7 @@ class KitTest(ToolTest):
         os.chmod("secret/teacher.txt", 0o600)
 
     def grade(self, *words, status=0):
-        done = subprocess.run([SOURCE / "scripts/grade", *words], capture_output=True, text=True, timeout=280,
-                              env={**os.environ, "BIN": str(BIN)})
+        done = run_script("grade", *words)
         self.assertEqual(done.returncode, status, done.stderr)
         return done
 

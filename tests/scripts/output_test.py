@@ -19,18 +19,15 @@ import time
 import unittest
 
 from devices import IS_ROOT, full_device, null_device
-from toolbox import BIN, SCENE, SOURCE, ToolTest, end_by_signal, heed_signals
+from toolbox import BIN, SCENE, SOURCE, ToolTest, end_by_signal, expect_mesh2scene, heed_signals
 
 SCRIPTS = SOURCE / "scripts"
-
-
-def limit_files():
-    resource.setrlimit(resource.RLIMIT_FSIZE, (50, 50))
+PLAIN = {"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
 
 
 def script(name, *words, **settings):
-    return subprocess.run([SCRIPTS / name, *words], capture_output=True, timeout=120, env={
-        "BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": os.getcwd()}, **settings)
+    return subprocess.run([SCRIPTS / name, *words], capture_output=True, timeout=120,
+                          env={**PLAIN, "HOME": os.getcwd()}, **settings)
 
 
 def in_fly(python, **settings):
@@ -50,6 +47,10 @@ class Writers:
     """Claims about every command that writes a file; `write(path)` runs one, `is_whole(bytes)` checks its
     output."""
     status = 1
+    max_size = 50  # of a file, where there is no room
+
+    def limit_files(self):
+        resource.setrlimit(resource.RLIMIT_FSIZE, (self.max_size, self.max_size))
 
     def assert_written(self, done):
         self.assertEqual((done.stderr.decode(), done.returncode), ("", self.good_status))
@@ -131,8 +132,7 @@ class Writers:
         with open("log", "wb") as log:
             inode = os.fstat(log.fileno()).st_ino
             words = self.words("out")
-            done = subprocess.run(words, stdout=log, stderr=subprocess.PIPE, timeout=120,
-                                  env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+            done = subprocess.run(words, stdout=log, stderr=subprocess.PIPE, timeout=120, env=PLAIN)
         self.assert_written(done)
         self.assertEqual((os.stat("log").st_ino, os.readlink("out")), (inode, "/proc/self/fd/1"))
         self.assertTrue(self.is_whole(pathlib.Path("log").read_bytes()))
@@ -154,7 +154,7 @@ class Writers:
     def test_where_there_is_no_room_the_old_file_stays(self):
         pathlib.Path("x").write_text("old")
         for name in ("x", "new"):
-            self.assert_refused(self.write(name, preexec_fn=limit_files),
+            self.assert_refused(self.write(name, preexec_fn=self.limit_files),
                                 f"cannot write {name}: File too large")
         self.assertEqual(pathlib.Path("x").read_text(), "old")
         self.assertEqual(self.left(), ["x"])
@@ -165,8 +165,7 @@ class Writers:
             self.assertTrue(self.is_whole(pathlib.Path(os.fsdecode(name)).read_bytes()))
 
     def write(self, path, **settings):
-        return subprocess.run(self.words(path), capture_output=True, timeout=120,
-                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}, **settings)
+        return subprocess.run(self.words(path), capture_output=True, timeout=120, env=PLAIN, **settings)
 
 
 class Compare(Writers, ToolTest):
@@ -193,6 +192,7 @@ class Compare(Writers, ToolTest):
 
 class Inspect(Writers, ToolTest):
     name, good_status = "inspect", 0
+    max_size = 10000  # zbuf's own files fit on the disk, the page does not
 
     def prepare(self):
         pathlib.Path("config.txt").write_text("8 8\n")
@@ -203,16 +203,6 @@ class Inspect(Writers, ToolTest):
     def is_whole(self, data):
         return data.startswith(b"<!") and data.rstrip().endswith(b"</html>")
 
-    def test_where_there_is_no_room_the_old_file_stays(self):
-        """zbuf's own files fit on the disk, the page does not."""
-        def limit():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (10000, 10000))
-        pathlib.Path("x").write_text("old")
-        for name in ("x", "new"):
-            self.assert_refused(self.write(name, preexec_fn=limit), f"cannot write {name}: File too large")
-        self.assertEqual(pathlib.Path("x").read_text(), "old")
-        self.assertEqual(self.left(), ["x"])
-
     def test_scene_and_config_may_be_named_anything_and_be_pipes(self):
         for name in (b"-x", b"--", b"a\nb", b"a'\"b", b"a\xffb"):
             for kind in ("scene", "config"):
@@ -222,9 +212,7 @@ class Inspect(Writers, ToolTest):
         pathlib.Path("page").unlink()
         line = (f'"{SCRIPTS}/inspect" -o page <(cat scene.txt) <(cat config.txt) && "{SCRIPTS}/inspect" -o '
                 f'page - config.txt < scene.txt')
-        self.assert_written(
-            subprocess.run(["bash", "-c", line], capture_output=True,
-                           env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}))
+        self.assert_written(subprocess.run(["bash", "-c", line], capture_output=True, env=PLAIN))
         self.assertTrue(self.is_whole(pathlib.Path("page").read_bytes()))
 
 
@@ -322,7 +310,7 @@ class Separate(ToolTest):
             stderr=subprocess.PIPE,
             text=True,
             timeout=60,
-            env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"},
+            env=PLAIN,
             **{"stdout": subprocess.PIPE, **settings},
         )
         self.assertEqual((done.returncode, done.stdout or "", self.files()), (2, "", before), done.stderr)
@@ -401,6 +389,7 @@ class Folders(ToolTest):
         "film": ("scene.txt config.txt --turn 0.1 -o x.gif", "x.gif.frames", 1),
         "grade": ("hand-ins tests -o out", "out", 2),
     }
+    FRAMES = "scene.txt config.txt --turn 0.1 -o frames"  # of film
 
     def setUp(self):
         super().setUp()
@@ -426,7 +415,7 @@ class Folders(ToolTest):
         self.assertEqual(self.all_files(), before)
 
     def test_another_is_refused(self):
-        film_in_a_folder = ("film", ("scene.txt config.txt --turn 0.1 -o frames", "frames", 1))
+        film_in_a_folder = ("film", (self.FRAMES, "frames", 1))
         for command, (words, folder, status) in (*self.SETTINGS.items(), film_in_a_folder):
             with self.subTest(command, folder=folder):
                 os.mkdir(folder)
@@ -505,22 +494,20 @@ class Folders(ToolTest):
             self.assertEqual(os.listdir("elsewhere"), ["precious"])
             self.assertEqual(pathlib.Path("elsewhere/precious").read_text(), "mine")
 
-    def test_a_link_that_film_has_not_drawn_is_in_the_way(self):
+    def test_a_frame_or_a_link_that_film_has_not_drawn_is_in_the_way(self):
         os.mkdir("frames")
         pathlib.Path("frames/.pipeline-film").touch()
-        os.symlink("../elsewhere/new", "frames/00001.png")
-        self.assert_refused(
-            "film",
-            "scene.txt config.txt --turn 0.1 -o frames",
-            1,
-            f"expected no 00001.png in {os.path.realpath('frames')} that film has not drawn",
-        )
+        frame = pathlib.Path("frames/00001.png")
+        for put in (lambda: frame.symlink_to("../elsewhere/new"), lambda: frame.write_text("mine")):
+            put()
+            self.assert_refused("film", self.FRAMES, 1, "expected no 00001.png in "
+                                f"{os.path.realpath('frames')} that film has not drawn")
+            frame.unlink()
 
     def test_empty_folders_of_the_user_stay_in_one(self):
-        words = "scene.txt config.txt --turn 0.1 -o frames"
-        self.assertEqual(script("film", *words.split()).returncode, 0)
+        self.assertEqual(script("film", *self.FRAMES.split()).returncode, 0)
         os.makedirs("frames/mine/too")
-        self.assertEqual(script("film", *words.split()).returncode, 0)
+        self.assertEqual(script("film", *self.FRAMES.split()).returncode, 0)
         self.assertTrue(os.path.isdir("frames/mine/too"))
 
     def test_an_empty_one_is_taken_and_goes(self):
@@ -534,17 +521,6 @@ class Folders(ToolTest):
             words = self.SETTINGS[command][0]
             os.makedirs(words.split()[-1], exist_ok=True)
             self.assert_refused(command, words, 1, f"cannot open {words.split()[-1]}: Is a directory")
-
-    def test_a_frame_that_film_has_not_drawn_is_in_the_way(self):
-        os.mkdir("frames")
-        pathlib.Path("frames/.pipeline-film").touch()
-        pathlib.Path("frames/00001.png").write_text("mine")
-        self.assert_refused(
-            "film",
-            "scene.txt config.txt --turn 0.1 -o frames",
-            1,
-            f"expected no 00001.png in {os.path.realpath('frames')} that film has not drawn",
-        )
 
     def test_names_may_hold_anything(self):
         for name in ("a%05d '\"$(x)b", "a\nb", "-x"):
@@ -581,24 +557,16 @@ class Endings(ToolTest):
             os.mkdir(folder)
         numbers = itertools.cycle((signal.SIGTERM, signal.SIGINT, signal.SIGHUP))
         for (command, words, tool, stays), number in zip(self.CASES, numbers):
-            if (
-                command in ("farm", "film")
-                and not shutil.which("parallel")
-                or "gif" in words
-                and not shutil.which("ffmpeg")
-            ):
+            needed = ["parallel"] * (command in ("farm", "film")) + ["ffmpeg"] * ("gif" in words)
+            if not all(map(shutil.which, needed)):
                 continue
             with self.subTest(command, words=words, number=number.name):
                 self.end_one(command, words.split(), tool, stays, number)
 
     def test_a_pipe_of_tools_ends(self):
-        if not (BIN / "mesh2scene").exists():
-            self.skipTest("mesh2scene has not been built, as assimp is missing")
-        pathlib.Path("a.stl").write_bytes(
-            subprocess.run(
-                [SCRIPTS / "make-model", "vase", "--format", "stl", "--detail", "1"], capture_output=True
-            ).stdout
-        )
+        expect_mesh2scene()
+        model = script("make-model", "vase", "--format", "stl", "--detail", "1").stdout
+        pathlib.Path("a.stl").write_bytes(model)
         os.mkdir("tmp")
         for words, number in (
             (["a.stl", "-o", "x.png"], signal.SIGTERM),
@@ -653,7 +621,7 @@ class Channels(ToolTest):
                 ["sh", "-c", f'"{SCRIPTS}/inspect" - config.txt -o page {closed}'],
                 input=b"",
                 capture_output=True,
-                env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"},
+                env=PLAIN,
             )
             self.assertEqual(
                 (done.returncode, done.stdout, self.files()), (1, b"", ["config.txt", "scene.txt"]), closed
@@ -684,7 +652,7 @@ class Tools(ToolTest):
         for tool in ("model", "view", "project", "zbuf"):
             os.symlink(BIN / tool, tool)
         done = subprocess.run([SCRIPTS / "inspect", "scene.txt", "config.txt"], capture_output=True,
-                              env={"BIN": ".", "PATH": "/usr/bin:/bin"})
+                              env={**PLAIN, "BIN": "."})
         self.assertEqual((done.stderr.decode(), done.returncode), ("", 0))
 
 

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import unittest
 
-from toolbox import BIN, SOURCE, ToolTest
+from toolbox import BIN, SOURCE, ToolTest, run_script
 
 ROOMS = tuple(SOURCE / "scripts" / room for room in (".", "measure", "maintain", "package"))
 
@@ -115,8 +115,7 @@ class OldNames(ToolTest):
         for command, option, now in (("picture", "--up", "--up-axis"), ("compare", "--five", "--hand-in"),
                                      ("grade", "--out", "--output"), ("trade", "--coverage", "--rule")):
             for word in (option, f"{option}=z"):
-                done = subprocess.run([SOURCE / "scripts" / command, word, "a", "b"], capture_output=True,
-                                      text=True)
+                done = run_script(command, word, "a", "b")
                 expected = f"{command}: expected an option of {command}, found '{word}' (now {now})"
                 self.assertEqual((done.returncode, done.stdout, done.stderr),
                                  (2, "", f"{expected} (try {command} --help)\n"))

@@ -16,7 +16,7 @@ import unittest
 import zlib
 
 from display import MISSING, Display
-from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals
+from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals, run_script
 
 # Half of a square that faces the camera: its side is 2.
 SCENE = "0 0 5\n0 0 0\n0 1 0\n{}\ntriangle\n-1 -1 0\n1 -1 0\n1 1 0\nend\n"
@@ -64,9 +64,7 @@ class SquareTest(ToolTest):
     def call(self, script, projection, config, *words):
         pathlib.Path("scene.txt").write_text(SCENE.format(projection))
         pathlib.Path("config.txt").write_text(config)
-        return subprocess.run([SOURCE / "scripts" / script, "scene.txt", "config.txt", *words],
-                              capture_output=True, text=True, timeout=120, env={
-                                  "BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+        return run_script(script, "scene.txt", "config.txt", *words)
 
     def drawn(self, config):
         """The width of the square over its height, in pixels."""

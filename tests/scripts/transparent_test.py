@@ -13,18 +13,13 @@ import unittest
 import zlib
 
 from lib.showing.pictures import PictureError, picture_of, png_chunk
-from toolbox import BIN, SOURCE, ToolTest, run
+from toolbox import BIN, ToolTest, run, run_script
 
 COLORS = {"plain": "", "lit": "light 3 4 5 1 1 1\nambient 0.2 0.2 0.2\ncolor 10 200 30\n"}
 CAMERA = "3 1 6\n0 0 0\n0 1 0\n40 1.25 1 30 ratio\n"
 TRIANGLES = "triangle\n-1 -1 0\n1 -1 0\n0 1 0\ntriangle\n-1 0 -1\n1 0 1\n0 0.5 -2\nend\n"
 NOTE = "note: the scene's background is drawn opaque: a BMP has no alpha\n"
 FIVE = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
-
-
-def command(name, *words):
-    return subprocess.run([SOURCE / "scripts" / name, *map(str, words)], capture_output=True, text=True,
-                          timeout=240, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
 
 
 class Transparent(ToolTest):
@@ -37,7 +32,7 @@ class Transparent(ToolTest):
                     f"{CAMERA}background 200 99.5 50{alpha}\n{colors}{TRIANGLES}")
 
     def stages(self, scene):
-        done = command("stages", f"{scene}.txt", "config.txt", scene)
+        done = run_script("stages", f"{scene}.txt", "config.txt", scene)
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         return done.stderr
 
@@ -66,11 +61,11 @@ class Transparent(ToolTest):
     def test_five_files_are_right(self):
         for name in COLORS:
             self.stages(name + "0")
-            done = command("compare", "--hand-in", name + "0", f"{name}0.txt", "config.txt")
+            done = run_script("compare", "--hand-in", name + "0", f"{name}0.txt", "config.txt")
             self.assertEqual((done.returncode, done.stderr, done.stdout.count("| right ")), (0, "", 5),
                              done.stdout)
             self.hand_in_with_alpha(name + "0")
-            done = command("compare", "--hand-in", name + "0", f"{name}0.txt", "config.txt")
+            done = run_script("compare", "--hand-in", name + "0", f"{name}0.txt", "config.txt")
             self.assertEqual((done.returncode, done.stderr, done.stdout.count("| right ")), (0, "", 5),
                              done.stdout)
 
@@ -80,14 +75,14 @@ class Transparent(ToolTest):
         done = run("zbuf", "config.txt", "lit0/stage3.txt", "--z-buffer", "none", "--background", "c86433ff",
                    "-o", "lit0/out.png")
         self.assertEqual(done.returncode, 0)
-        done = command("compare", "--hand-in", "lit0", "lit0.txt", "config.txt")
+        done = run_script("compare", "--hand-in", "lit0", "lit0.txt", "config.txt")
         self.assertEqual((done.returncode, done.stdout.count("| right ")), (1, 4), done.stdout)
 
     def test_a_picture_with_alpha_that_was_cut_is_unreadable(self):
         self.stages("lit0")
         data = self.hand_in_with_alpha("lit0")
         pathlib.Path("lit0/out.png").write_bytes(data[:-60])
-        done = command("compare", "--hand-in", "lit0", "lit0.txt", "config.txt")
+        done = run_script("compare", "--hand-in", "lit0", "lit0.txt", "config.txt")
         self.assertEqual((done.returncode, done.stderr), (1, ""))
         self.assertRegex(done.stdout, r"out\.png +\| unreadable")
 
@@ -100,7 +95,7 @@ class Transparent(ToolTest):
             shutil.copytree(name + "0", f"hand-ins/bmp/{name}")
             self.hand_in_with_alpha(name + "0")
             shutil.copytree(name + "0", f"hand-ins/png/{name}")
-        done = command("grade", "hand-ins", "tests", "-o", "graded", "--jobs", "1")
+        done = run_script("grade", "hand-ins", "tests", "-o", "graded", "--jobs", "1")
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
         with open("graded/grades.csv", newline="") as file:
             self.assertEqual({row["hand-in"]: row["score"]
@@ -111,7 +106,7 @@ class Transparent(ToolTest):
             for stage, note in (("model", ""), ("view", ""), ("project", ""), ("zbuf",
                                                                                "check-stage: " + NOTE)):
                 with self.subTest(scene=name, stage=stage):
-                    done = command("check-stage", stage, "--scene", f"{name}127.5.txt", "--config",
+                    done = run_script("check-stage", stage, "--scene", f"{name}127.5.txt", "--config",
                                    "config.txt", "--", BIN / stage)
                     verdict = done.stdout.partition("\n")[0]
                     more = ": only x, y and z are judged, not the numbers behind them"
@@ -119,7 +114,7 @@ class Transparent(ToolTest):
                     self.assertEqual((done.returncode, verdict, done.stderr), (0, right, note))
 
     def test_trade_measures_it_opaque_and_names_a_command_that_draws(self):
-        done = command("trade", "lit0.txt", "config.txt", "--rounds", "1")
+        done = run_script("trade", "lit0.txt", "config.txt", "--rounds", "1")
         self.assertEqual((done.returncode, done.stderr), (0, f"trade: {NOTE}"))
         line = done.stdout.rstrip("\n").split("\n")[-1].strip()
         self.assertIn(" --background c86432 ", line)

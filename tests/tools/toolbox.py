@@ -49,6 +49,13 @@ def run_with(channels, tool, *options, **settings):
     return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, **settings)
 
 
+def run_script(name, *words, **settings):
+    """The finished run of a script with these tools; its output is text."""
+    settings = {"capture_output": True, "text": True, "timeout": 300, "env": {
+        **os.environ, "BIN": str(BIN), "LANG": "C.UTF-8"}, **settings}
+    return subprocess.run([SOURCE / "scripts" / name, *map(str, words)], **settings)
+
+
 def pipe(*stages, stdin=SCENE, **settings):
     """The stdout of a pipe of tools, each a list of words; every stage has to succeed."""
     data = stdin.encode() if isinstance(stdin, str) else stdin

@@ -14,7 +14,8 @@ import unittest
 import zlib
 
 from lib.showing import pictures
-from toolbox import CAMERA, NO_TRIANGLE, SOURCE, ToolTest, command, pipe, pseudo_terminal, run, stage_texts
+from toolbox import (
+    CAMERA, NO_TRIANGLE, ToolTest, command, pipe, pseudo_terminal, run, run_script, stage_texts)
 
 # The lower left half of the screen, and all of it.
 HALF = "-1.0000000 -1.0000000 0.0000000\n1.0000000 -1.0000000 0.0000000\n-1.0000000 1.0000000 0.0000000\n\n"
@@ -378,12 +379,10 @@ class TransparentBackground(OutputTest):
         for name, rows in (("a.png", "0:3"), ("b.png", "3:4"), ("c.png", "4:8")):
             self.assert_zbuf(*words, "--rows", rows, "-o", name, stdin=self.CORNER)
         self.assertEqual(
-            subprocess.run([SOURCE / "scripts/join-images", "a.png", "b.png", "c.png", "-o", "joined.png"],
-                           capture_output=True).stderr, b"")
+            run_script("join-images", "a.png", "b.png", "c.png", "-o", "joined.png", text=False).stderr, b"")
         self.assertEqual(self.picture("joined.png"), self.picture("whole.png"))
         self.assert_zbuf(*words[:-1], "010203", "--rows", "3:4", "-o", "opaque.png", stdin=self.CORNER)
-        done = subprocess.run([SOURCE / "scripts/join-images", "a.png", "opaque.png", "-o", "joined.png"],
-                              capture_output=True)
+        done = run_script("join-images", "a.png", "opaque.png", "-o", "joined.png", text=False)
         self.assertEqual(
             (done.returncode, done.stderr.decode()),
             (1,
