@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -98,7 +99,10 @@ struct FixedColumnsOf {
     return false;
   }
   /// Whether there are groups alone.
-  [[nodiscard]] bool has_groups_alone() const { return singles[0].numbers.empty() && materials.empty(); }
+  [[nodiscard]] bool has_groups_alone() const {
+    const auto is_there = [](const Single& single) { return !single.numbers.empty(); };
+    return materials.empty() && std::ranges::none_of(singles, is_there);
+  }
   /// Which of the kernels' loops has these columns, by groups and whether there are others.
   [[nodiscard]] std::size_t form() const { return 2 * (group_count() - 1) + (has_groups_alone() ? 0 : 1); }
 };
@@ -114,11 +118,13 @@ auto fixed_columns(Positions& positions, Attributes& attributes, const Attribute
   columns.groups[0] = part(positions);
   std::size_t group = 0, single = 0;
   for_each_attribute([&]<typename Value>(const VertexAttribute<Value>& attribute) {
-    if (!(names.*attribute.is_there)) return;
-    if constexpr (std::is_same_v<Value, Vec3>)
-      columns.groups[++group] = part(attributes.*attribute.array);
-    else
-      columns.singles[single++] = {part(attributes.*attribute.array), group};
+    const bool is_there = names.*attribute.is_there;
+    if constexpr (std::is_same_v<Value, Vec3>) {
+      if (is_there) columns.groups[++group] = part(attributes.*attribute.array);
+    } else {
+      if (is_there) columns.singles[single] = {part(attributes.*attribute.array), group};
+      ++single;
+    }
   });
   if (names.material) columns.materials = part(attributes.materials);
   return columns;
