@@ -32,7 +32,8 @@ const char* read_three(const char* p, char separator, Vec3& numbers, unsigned& m
     p = read_three(p, ends_line ? '\n' : ' ', columns.groups[group][triangle][vertex], group_marks);
     if (p == nullptr) return nullptr;
     if (group == 0) marks = static_cast<DecimalMarks>(marks | group_marks << (3 * vertex));
-    if ((p = read_singles(p, columns, group, is_last, triangle, vertex)) == nullptr) return nullptr;
+    if ((p = read_singles(p, columns, group, is_last, triangle, vertex, read_single)) == nullptr)
+      return nullptr;
   }
   return columns.materials.empty() ? p : read_material(p, vertex, columns.materials[triangle]);
 }
@@ -118,11 +119,14 @@ char* write_triangle(char* out, const ConstFixedColumns& columns, std::size_t tr
                      const Triangle& low_part, NumberFormat format) {
   const std::size_t group_count = columns.group_count();
   for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+    const auto print_single = [&](char* p, std::size_t i) {
+      return print_shortest(p, columns.singles[i].numbers[triangle][vertex]);
+    };
     out = print_three(out, columns.groups[0][triangle][vertex], low_part[vertex], format);
-    out = write_singles(out, columns, 0, triangle, vertex);
+    out = write_singles(out, columns, 0, print_single);
     for (std::size_t group = 1; group < group_count; ++group) {
       out = print_three(out, columns.groups[group][triangle][vertex], {}, format);
-      out = write_singles(out, columns, group, triangle, vertex);
+      out = write_singles(out, columns, group, print_single);
     }
     out = write_line_end(out, columns.materials, triangle);
   }

@@ -7,6 +7,7 @@
 
 #include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/text/eight_digits.h"
+#include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/vertex_lines.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -68,8 +69,8 @@ constexpr hn::Repartition<std::uint16_t, decltype(kDoubles)> kPairs;
 constexpr hn::Repartition<std::uint8_t, decltype(kDoubles)> kBytes;
 using Doubles = hn::Vec<decltype(kDoubles)>;
 using Words = hn::Vec<decltype(kWords)>;
-constexpr std::size_t kLanes = hn::MaxLanes(kDoubles), kBlocks = kLanes / 2, kNumbers = 9;
-constexpr std::size_t kSteps = (kNumbers + kLanes - 1) / kLanes;
+using Mask = hn::Mask<decltype(kDoubles)>;
+constexpr std::size_t kLanes = hn::MaxLanes(kDoubles), kBlocks = kLanes / 2;
 
 /// Like sixteen_digits in eight_digits.h, for numbers below 10^8, two in each block of sixteen bytes.
 HWY_INLINE auto digits_of(Words eights) {
@@ -88,20 +89,54 @@ HWY_INLINE auto digits_of(Words eights) {
   return hn::BitCast(kBytes, hn::Or(tens, hn::ShiftLeft<8>(ones)));
 }
 
-/// The sixteen digits of nine numbers.
-class NineTexts {
+/// How to round to a count of decimals.
+enum class Rounding {
+  unless_near_tie,
+  exactly,  // a product's rounding error takes one instruction
+  of_short  // only what has no more decimals, and is never shorter with an exponent
+};
+
+/// Positive numbers in units of the last decimal; clears those in `good` that it cannot round.
+template <Rounding rounding>
+HWY_INLINE Doubles units_of(Doubles sizes, Doubles scale, Mask& good) {
+  const auto rounder = hn::Set(kDoubles, kWholeRounder);
+  const auto scaled = sizes * scale;
+  auto units = (scaled + rounder) - rounder;
+  const auto offset = scaled - units;
+  if constexpr (rounding == Rounding::exactly) {
+    // If the product is a tie, it may have been rounded to one; the rounding error tells which side it came
+    // from.
+    const auto lost = hn::MulSub(sizes, scale, scaled);
+    const auto is_tie = hn::Eq(hn::Abs(offset), hn::Set(kDoubles, 0.5));
+    units = units +
+            hn::IfThenElseZero(hn::And(is_tie, hn::Gt(lost * offset, hn::Zero(kDoubles))), offset + offset);
+  } else if constexpr (rounding == Rounding::unless_near_tie) {
+    // The same test as DecimalUnits::is_certain.
+    const auto reach = hn::Abs(offset) + scaled * hn::Set(kDoubles, kProductError);
+    good = hn::And(good, hn::Lt(reach, hn::Set(kDoubles, kBelowHalf)));
+  } else {
+    const auto is_plain =
+        hn::And(hn::Ge(sizes, hn::Set(kDoubles, 0.001)), hn::Lt(sizes, hn::Set(kDoubles, 1e5)));
+    good = hn::And(good, hn::And(is_plain, hn::Eq(units / scale, sizes)));
+  }
+  good = hn::And(good, hn::Lt(units, hn::Set(kDoubles, kUnitsLimit)));
+  return units;
+}
+
+/// The sixteen digits of some numbers.
+template <std::size_t number_count>
+class Texts {
  public:
-  /// False if a number is too large, not finite or, unless `exactly`, too close to a tie.
-  template <bool exactly>
-  HWY_INLINE bool set(const Triangle& numbers, double scale) {
-    const double* const p = &numbers[0].x;
+  /// False if a number is too large, not finite or cannot be rounded so.
+  template <Rounding rounding>
+  HWY_INLINE bool set(const double* p, double scale) {
     auto good = hn::Eq(hn::Zero(kDoubles), hn::Zero(kDoubles));
     negative_ = 0;
 #pragma GCC unroll 5
     for (std::size_t step = 0; step < kSteps; ++step) {
       const std::size_t i = step * kLanes;
-      add<exactly>(step, i + kLanes <= kNumbers ? hn::LoadU(kDoubles, p + i) : hn::Set(kDoubles, p[i]),
-                   hn::Set(kDoubles, scale), good);
+      const auto values = i + kLanes <= number_count ? hn::LoadU(kDoubles, p + i) : hn::Set(kDoubles, p[i]);
+      add(step, values, units_of<rounding>(hn::Abs(values), hn::Set(kDoubles, scale), good));
     }
     return hn::AllTrue(kDoubles, good);
   }
@@ -116,28 +151,19 @@ class NineTexts {
     hn::StoreU(text, kSixteen, reinterpret_cast<std::uint8_t*>(out));
     return out + form.length - leading_zero_count;
   }
+  /// Without zeros at the end, and without a point there.
+  HWY_INLINE char* write_short(char* out, const PrintedForm& form, std::size_t number) const {
+    const unsigned digits = filled_[slot_of(number)] | form.last_whole_digit;
+    const int zero_count = std::countl_zero(static_cast<std::uint16_t>(digits));
+    return write(out, form, number) - zero_count -
+           (digits < 2 * form.last_whole_digit ? form.length - 16 : 0);
+  }
 
  private:
-  template <bool exactly>
-  HWY_INLINE void add(std::size_t step, Doubles values, Doubles scale, hn::Mask<decltype(kDoubles)>& good) {
-    const auto zero = hn::Zero(kDoubles), eight_digits = hn::Set(kDoubles, 1e8);
-    const auto rounder = hn::Set(kDoubles, kWholeRounder), one = hn::Set(kDoubles, 1);
-    const auto sizes = hn::Abs(values);
-    const auto scaled = sizes * scale;
-    auto units = (scaled + rounder) - rounder;
-    const auto offset = scaled - units;
-    if constexpr (exactly) {
-      // If the product is a tie, it may have been rounded to one; the rounding error tells which side it
-      // came from.
-      const auto lost = hn::MulSub(sizes, scale, scaled);
-      const auto is_tie = hn::Eq(hn::Abs(offset), hn::Set(kDoubles, 0.5));
-      units = units + hn::IfThenElseZero(hn::And(is_tie, hn::Gt(lost * offset, zero)), offset + offset);
-    } else {
-      // The same test as DecimalUnits::is_certain.
-      const auto reach = hn::Abs(offset) + scaled * hn::Set(kDoubles, kProductError);
-      good = hn::And(good, hn::Lt(reach, hn::Set(kDoubles, kBelowHalf)));
-    }
-    good = hn::And(good, hn::Lt(units, hn::Set(kDoubles, kUnitsLimit)));
+  static constexpr std::size_t kSteps = (number_count + kLanes - 1) / kLanes;
+
+  HWY_INLINE void add(std::size_t step, Doubles values, Doubles units) {
+    const auto zero = hn::Zero(kDoubles), one = hn::Set(kDoubles, 1), eight_digits = hn::Set(kDoubles, 1e8);
     // units / 10^8, off by at most one; the exact remainder corrects it.
     const auto quotient = hn::Floor(units * hn::Set(kDoubles, 1e-8));
     const auto rest = units - quotient * eight_digits;
@@ -174,12 +200,19 @@ class NineTexts {
   unsigned negative_ = 0;  // bit i: number i is negative and does not round to 0
 };
 
+/// A triangle's numbers.
+template <std::size_t group_count>
+struct TriangleTexts {
+  std::array<Texts<9>, group_count> groups;
+  std::array<Texts<4>, kMaxSingles> singles;
+  std::array<bool, kMaxSingles> has_short;  // of singles, where they are set
+};
+
 /// Prints a vertex line.
 template <std::size_t group_count, bool may_have_more>
 HWY_INLINE char* write_line(char* out, const PrintedForm& form, const ConstFixedColumns& columns,
-                            std::size_t triangle, std::size_t vertex,
-                            const std::array<NineTexts, group_count>& texts, bool repeats,
-                            LastPrinted& last) {
+                            std::size_t triangle, std::size_t vertex, const TriangleTexts<group_count>& texts,
+                            bool repeats, LastPrinted& last) {
 #pragma GCC unroll 3
   for (std::size_t group = 0; group < group_count; ++group) {
     if (repeats && group == kRepeatedGroup) {
@@ -188,20 +221,23 @@ HWY_INLINE char* write_line(char* out, const PrintedForm& form, const ConstFixed
       const char* const begin = out;
 #pragma GCC unroll 3
       for (std::size_t k = 3 * vertex; k < 3 * vertex + 3; ++k) {
-        out = texts[group].write(out, form, k);
+        out = texts.groups[group].write(out, form, k);
         *out++ = ' ';
       }
       if (group == kRepeatedGroup && vertex == 2)
         last.set(columns.groups[group][triangle][vertex], begin, out);
     }
     if (may_have_more && columns.has_single(group))
-      out = write_singles(out, columns, group, triangle, vertex);
+      out = write_singles(out, columns, group, [&](char* p, std::size_t i) HWY_ATTR {
+        return texts.has_short[i] ? texts.singles[i].write_short(p, form, vertex)
+                                  : print_shortest(p, columns.singles[i].numbers[triangle][vertex]);
+      });
   }
   return write_line_end(out, may_have_more ? columns.materials : std::span<const std::uint32_t>(), triangle);
 }
 
-/// Stops before a triangle with a number that NineTexts refuses.
-template <bool exactly, std::size_t group_count, bool may_have_more>
+/// Stops before a triangle with a number that Texts refuses.
+template <Rounding rounding, std::size_t group_count, bool may_have_more>
 FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
   // A copy: characters may be printed anywhere.
   const PrintedForm form = kPrintedForms[static_cast<std::size_t>(decimals)];
@@ -210,13 +246,19 @@ FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, i
   FixedTextPart part;
   const char* const begin = out;
   for (std::size_t i = first; i < columns.triangle_count(); ++i) {
-    std::array<NineTexts, group_count> texts;
+    TriangleTexts<group_count> texts;
     const bool repeats = group_count > kRepeatedGroup && last.is_of(columns.groups[kRepeatedGroup][i]);
 #pragma GCC unroll 3
     for (std::size_t group = 0; group < group_count; ++group)
       if (!(repeats && group == kRepeatedGroup) &&
-          !texts[group].template set<exactly>(columns.groups[group][i], scale))
+          !texts.groups[group].template set<rounding>(&columns.groups[group][i][0].x, scale))
         return part;
+    for (std::size_t k = 0; may_have_more && k < kMaxSingles; ++k) {
+      if (columns.singles[k].numbers.empty()) continue;
+      const auto& [a, b, c] = columns.singles[k].numbers[i];
+      texts.has_short[k] =
+          texts.singles[k].template set<Rounding::of_short>(std::array{a, b, c, c}.data(), scale);
+    }
 #pragma GCC unroll 3
     for (std::size_t vertex = 0; vertex < 3; ++vertex)
       out = write_line<group_count, may_have_more>(out, form, columns, i, vertex, texts, repeats, last);
@@ -227,22 +269,21 @@ FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, i
   return part;
 }
 
-template <bool exactly>
+template <Rounding rounding>
 FixedTextPart write_from(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
   constexpr auto kWriters = []<std::size_t... form>(std::index_sequence<form...>) {
-    return std::array{write_lines<exactly, form / 2 + 1, form % 2 == 1>...};
+    return std::array{write_lines<rounding, form / 2 + 1, form % 2 == 1>...};
   }
   (std::make_index_sequence<2 * kMaxGroups>());
   return kWriters[columns.form()](first, columns, decimals, out);
 }
 
-/// Exactly from the first tie on, where a product's rounding error takes one instruction: where there is one,
-/// others follow.
+/// Exactly from the first tie on: where there is one, others follow.
 FixedTextPart write_columns(const ConstFixedColumns& columns, std::size_t first, int decimals, char* out) {
-  const FixedTextPart part = write_from<false>(first, columns, decimals, out);
+  const FixedTextPart part = write_from<Rounding::unless_near_tie>(first, columns, decimals, out);
   first += part.triangle_count;
   if (!HWY_NATIVE_FMA || first == columns.triangle_count()) return part;
-  const FixedTextPart rest = write_from<true>(first, columns, decimals, out + part.length);
+  const FixedTextPart rest = write_from<Rounding::exactly>(first, columns, decimals, out + part.length);
   return {part.triangle_count + rest.triangle_count, part.length + rest.length};
 }
 

@@ -130,7 +130,9 @@ class ColumnReader {
           p = read_number(p, group, ends_line ? '\n' : ' ', numbers.z);
           if (group == kRepeatedGroup) last_.set(begin, p, numbers);
         }
-        if (has_single && (p = read_singles(p, columns_, group, is_last, triangle, vertex)) == nullptr)
+        const auto read = [&](const char* at, char separator, double& value)
+                              HWY_ATTR { return read_like_position(at, separator, value); };
+        if (has_single && (p = read_singles(p, columns_, group, is_last, triangle, vertex, read)) == nullptr)
           return nullptr;
       }
       if (may_have_more && !columns_.materials.empty() &&
@@ -138,18 +140,35 @@ class ColumnReader {
         return nullptr;
     }
     bool have_points = true;
-    for (std::size_t group = 0; group < group_count; ++group) {
+    for (std::size_t group = 0; group < counts_.size(); ++group) {
       have_one_digit_[group] = counts_[group] == 1;
       have_points &= counts_[group] < 16;
     }
-    const bool are_digits = hn::AllTrue(kSixteen, hn::Eq(no_digits_, hn::Zero(kSixteen)));
-    return is_in_place_ && have_points && are_digits ? p : nullptr;
+    const bool have_digits = are_digits();
+    return is_in_place_ && have_points && have_digits ? p : nullptr;
   }
 
  private:
+  [[nodiscard]] HWY_INLINE bool are_digits() const {
+    return hn::AllTrue(kSixteen, hn::Eq(no_digits_, hn::Zero(kSixteen)));
+  }
+
+  /// Reads a single number, which mostly has as many decimals as the position, and the separator after it.
+  HWY_INLINE const char* read_like_position(const char* p, char separator, double& value) {
+    if (!is_in_place_) return nullptr;
+    const auto no_digits = no_digits_;
+    const std::size_t count = counts_.back();
+    const char* const end = read_number(p, group_count, separator, value);
+    if (is_in_place_ && are_digits()) return end;
+    is_in_place_ = true;
+    no_digits_ = no_digits;
+    counts_.back() = count;
+    return read_single(p, separator, value);
+  }
+
   /// Reads one number and the separator after it.
   HWY_INLINE const char* read_number(const char* p, std::size_t group, char separator, double& value) {
-    const ReadForm& form = forms_[group];
+    const ReadForm& form = forms_[group % group_count];
     const bool is_negative = *p == '-';
     p += is_negative ? 1 : 0;
     const char point = form.end > 0 ? '.' : separator;
@@ -185,11 +204,12 @@ class ColumnReader {
   /// Whether the numbers of each group have one digit before the point. Where the last ones had, a branch
   /// lets the processor go ahead to the next number, whose beginning would otherwise depend on this one;
   /// otherwise the branch is mispredicted often.
-  std::array<bool, group_count> have_one_digit_;
+  std::array<bool, group_count + may_have_more> have_one_digit_;  // last that of single numbers
   // In the triangle being read:
-  hn::Vec<decltype(kSixteen)> no_digits_;        // above 0 where a digit should be
-  bool is_in_place_;                             // every separator
-  std::array<std::size_t, group_count> counts_;  // of digits before the point, in each group: the bits of all
+  hn::Vec<decltype(kSixteen)> no_digits_;  // above 0 where a digit should be
+  bool is_in_place_;                       // every separator
+  /// Of digits before the point, in each group and in single numbers: the bits of all.
+  std::array<std::size_t, group_count + may_have_more> counts_;
 };
 
 template <std::size_t group_count, bool may_have_more>

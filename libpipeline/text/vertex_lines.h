@@ -11,7 +11,6 @@
 #include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/number_parser.h"
-#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 
@@ -101,16 +100,24 @@ class LastPrinted {
   int miss_count_ = 0;  // in a row
 };
 
-/// Reads the single numbers after a group, and the separators after them; null if the form differs.
-inline const char* read_singles(const char* p, const FixedColumns& columns, std::size_t group,
-                                bool is_last_group, std::size_t triangle, std::size_t vertex) {
+/// Reads a single number and the separator after it; null if the form differs.
+inline const char* read_single(const char* p, char separator, double& value) {
+  DecimalNumber number;
+  p = read_decimal_number(p, number);
+  value = number.value;
+  return p == nullptr || *p != separator ? nullptr : p + 1;
+}
+
+/// Reads the single numbers after a group, and the separators after them, by `read`, which is like
+/// read_single; null if the form differs.
+template <typename Read>
+const char* read_singles(const char* p, const FixedColumns& columns, std::size_t group, bool is_last_group,
+                         std::size_t triangle, std::size_t vertex, const Read& read) {
   for (std::size_t i = 0; i < kMaxSingles; ++i) {
     if (columns.singles[i].after != group) continue;
-    DecimalNumber number;
-    p = read_decimal_number(p, number);
-    columns.singles[i].numbers[triangle][vertex] = number.value;
     const bool ends_line = is_last_group && columns.materials.empty() && !columns.has_single(group, i + 1);
-    if (p == nullptr || *p++ != (ends_line ? '\n' : ' ')) return nullptr;
+    p = read(p, ends_line ? '\n' : ' ', columns.singles[i].numbers[triangle][vertex]);
+    if (p == nullptr) return nullptr;
   }
   return p;
 }
@@ -125,12 +132,12 @@ inline const char* read_material(const char* p, std::size_t vertex, std::uint32_
   return number == material ? p + count + 1 : nullptr;
 }
 
-/// Prints the single numbers after a group, and a blank after each.
-inline char* write_singles(char* out, const ConstFixedColumns& columns, std::size_t group,
-                           std::size_t triangle, std::size_t vertex) {
-  for (const auto& single : columns.singles) {
-    if (single.after != group) continue;
-    out = print_shortest(out, single.numbers[triangle][vertex]);
+/// Prints the single numbers after a group by print(out, which), and a blank after each.
+template <typename Print>
+char* write_singles(char* out, const ConstFixedColumns& columns, std::size_t group, const Print& print) {
+  for (std::size_t i = 0; i < kMaxSingles; ++i) {
+    if (columns.singles[i].after != group) continue;
+    out = print(out, i);
     *out++ = ' ';
   }
   return out;

@@ -413,13 +413,13 @@ std::vector<std::uint64_t> bits_of(const ColumnArrays& arrays) {
   return bits;
 }
 
-/// w in the forms that programs print.
-std::string random_w(std::mt19937_64& random) {
+/// w in the forms that programs print, often with as many decimals.
+std::string random_w(std::mt19937_64& random, int decimals) {
   const double w = std::ldexp(static_cast<double>(random() >> 11), static_cast<int>(random() % 20) - 60);
   std::array<char, 40> text;
   const auto end = random() % 2 == 0
                        ? std::to_chars(text.data(), text.data() + text.size(), w, std::chars_format::fixed,
-                                       static_cast<int>(random() % 15))
+                                       random() % 2 == 0 ? decimals : static_cast<int>(random() % 15))
                        : std::to_chars(text.data(), text.data() + text.size(), w, std::chars_format::fixed);
   return {text.data(), end.ptr};
 }
@@ -443,7 +443,7 @@ TEST_P(FixedText, ReadsColumnsAsTheGeneralReaderDoes) {
           lines += word + " ";
         }
         if (group > 0 || !has_w) continue;
-        const std::string word = random_w(random);
+        const std::string word = random_w(random, decimals[0]);
         expected.w[0][vertex] = general_number(word);
         lines += word + " ";
       }
@@ -564,8 +564,13 @@ TEST_P(FixedText, PrintsColumnsAsTheGeneralPrinterDoesOrLeavesThem) {
             const double tie = std::ldexp(std::round(number(random)), -decimals - 1);
             v = {number(random) / (1 + i), std::round(number(random)), random() % 16 == 0 ? tie : -0.0};
           }
+      // Mostly as short as a stage prints them, with zeros at the end or before the first digit.
       for (auto& three : arrays.w)
-        for (double& w : three) w = std::ldexp(number(random), static_cast<int>(random() % 80) - 60);
+        for (double& w : three) {
+          const double scale = std::pow(10.0, static_cast<int>(random() % (decimals + 1)));
+          w = std::round(number(random) * scale / (random() % 2 == 0 ? 1e4 : 1)) / scale + 0.0;
+          if (random() % 32 == 0) w = std::ldexp(number(random), static_cast<int>(random() % 80) - 60);
+        }
       std::size_t count = 0;
       const std::string text = write_columns(kernel(), arrays, decimals, count);
       std::string expected;
