@@ -37,14 +37,24 @@ inline bool can_run(std::size_t target) {
   return target < kTargets.size();
 }
 
-/// The kernel to use: the last that this processor can run, up to the target that the environment variable
-/// PIPELINE_KERNEL names (for tests). An unknown name has no effect.
+/// The last target that this processor can run, up to the one that the environment variable PIPELINE_KERNEL
+/// names (for tests). An unknown name has no effect.
+inline std::size_t best_target() {
+  static const std::size_t best = [] {
+    const char* const variable = std::getenv("PIPELINE_KERNEL");
+    const auto limit = std::find(kTargets.begin(), kTargets.end(), variable == nullptr ? "" : variable);
+    std::size_t target = std::min<std::size_t>(limit - kTargets.begin(), kTargets.size() - 1);
+    while (!can_run(target)) --target;
+    return target;
+  }();
+  return best;
+}
+
+/// The kernel to use: of the best target, or of the last before it that has one.
 template <typename Function>
 Function chosen_kernel(const KernelTable<Function>& kernels) {
-  const char* const variable = std::getenv("PIPELINE_KERNEL");
-  const auto limit = std::find(kTargets.begin(), kTargets.end(), variable == nullptr ? "" : variable);
-  std::size_t target = std::min<std::size_t>(limit - kTargets.begin(), kTargets.size() - 1);
-  while (target > 0 && (kernels[target] == nullptr || !can_run(target))) --target;
+  std::size_t target = best_target();
+  while (target > 0 && kernels[target] == nullptr) --target;
   return kernels[target];
 }
 
