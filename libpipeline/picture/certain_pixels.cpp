@@ -94,7 +94,7 @@ void CertainPixels::add(const TriangleBatch& p_ndc) {
 
 bool CertainPixels::is_hidden(const TrueOutline& outline) const {
   const int first = outline.columns.first, end = outline.columns.end;
-  if ((end - first) * (outline.rows.end - outline.rows.first) > kFewPixels) return false;
+  if (std::int64_t{end - first} * (outline.rows.end - outline.rows.first) > kFewPixels) return false;
   for (int row = outline.rows.first; row < outline.rows.end; ++row) {
     const double* const sure = &pixels_[index_of(row, 0)];
     for (int column = first; column < end; ++column)

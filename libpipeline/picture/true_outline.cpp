@@ -244,8 +244,9 @@ void TrueOutlines::Seen::set_edges() {
 
 /// The side where `e_k` is 0, which may be off by the margin.
 Side TrueOutlines::Seen::side(const Linear& e_k, double margin, bool may_be_sure) const {
-  // Where u is next to nothing, so is its part in the value, and a row is wholly on one side.
-  const double least_u = 0x1p-17 * edge_error;
+  // Where u is next to nothing, so is its part in the value, and a row is wholly on one side: over 2^16
+  // columns another u of that size moves the value by at most an eighth of what roundings may.
+  const double least_u = 0x1p-20 * edge_error;
   Side side = {e_k.v, e_k.constant, -1 / (std::fabs(e_k.u) > least_u ? e_k.u : least_u)};
   const double by = margin * std::fabs(side.columns_per_value) * kUp;
   if (!may_be_sure) {
