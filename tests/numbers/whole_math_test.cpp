@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "tests/numbers/random_numbers.h"
 
 namespace pipeline {
