@@ -7,10 +7,7 @@
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/numbers/vector_targets.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace pipeline {
-namespace HWY_NAMESPACE {
-namespace {
+PIPELINE_BEGIN_KERNELS();
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -69,7 +66,4 @@ HWY_INLINE Vectors unit(const Vectors& v) {
   return near_1 / hn::Sqrt(dot(near_1, near_1));
 }
 
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace pipeline
-HWY_AFTER_NAMESPACE();
+PIPELINE_END_KERNELS();

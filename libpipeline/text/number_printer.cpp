@@ -41,6 +41,7 @@ char* print_decimals(char* out, double value, const Decimal& decimal) {
   const std::uint64_t scale = decimals < kWholePowersOfTen.size() ? kWholePowersOfTen[decimals] : 0;
   out = print_sign(out, value < 0);
   // The decimal has the same whole part: beyond the next whole number it would not read back to this double.
+  // It is below 10^17, and signed conversions are shorter.
   const auto whole = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::fabs(value)));
   out = print_before_point(out, whole);
   *out++ = '.';
