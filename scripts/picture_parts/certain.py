@@ -1,12 +1,17 @@
-"""Draws every pixel as exact arithmetic shows it: with 12 digits, and what these leave uncertain with all."""
+"""Draws every pixel as exact arithmetic shows it: with 12 digits, then what these leave uncertain with all,
+and what is left then as the exact program says."""
 import argparse
+import array
+import dataclasses
+import math
 import os
 import re
 import sys
 import tempfile
 import textwrap
 
-from lib.rim.command import shown
+from lib.rim.command import CommandFailure, shown
+from lib.rim.input_file import read_input
 from lib.rim.output_file import expect_writable, write_file
 from lib.running.pipe_tools import ToolFailure
 from lib.showing.pictures import size_of, with_pixels_of
@@ -45,51 +50,129 @@ class Certainty:
     def is_complete(self):
         return len(self.places) == self.uncertain_count
 
-    def keep_certain(self, earlier):
-        """Makes certain what an earlier run, whose list is complete, has called certain."""
-        self.places = sorted({*earlier.places} & {*self.places}) if self.is_complete else earlier.places
+    def leave(self, places):
+        """Leaves those of its places uncertain that are among these; or these, if its own are not
+        complete."""
+        self.places = sorted({*places} & {*self.places}) if self.is_complete else places
         self.uncertain_count = len(self.places)
 
 
-def draw_for_certain(options, draw):
-    """Draws the picture, says how much of it is certain, and gives the notes of the last run; `draw` takes
-    options, and gives notes."""
+@dataclasses.dataclass
+class Run:
+    """What has been drawn with so many digits: the notes, zbuf's certainty and picture file, and if it was
+    all digits, the number of the triangle that each pixel shows, -1 where there is none."""
+    digits: str
+    notes: list
+    certainty: Certainty
+    picture: bytes
+    owners: array.array = None
+
+    @property
+    def tried(self):
+        return f"with {self.digits.replace('exact', 'all')} digits"
+
+
+class CertainPicture:
+    """A picture that options ask for. `commands` gives the tools with their words for options, `draw` runs
+    them and gives their notes."""
+
+    def __init__(self, options, tools, commands, draw):
+        self.options, self.tools, self.commands, self.draw = options, tools, commands, draw
+        self.kind = next(filter(None, FORMAT.match(options.output).groups()))
+
+    def with_options(self, **changed):
+        return argparse.Namespace(**{**vars(self.options), **changed})
+
+    def run(self, digits):
+        with tempfile.TemporaryDirectory() as folder:
+            image, report, owners = (os.path.join(folder, name)
+                                     for name in (f"image.{self.kind}", "certain.txt", "owners.npy"))
+            is_last = digits != DIGITS
+            notes = self.draw(self.with_options(
+                output=image, bounds=["--bounds"], digits=["--digits", digits],
+                certify=["--certify", report, *["--triangle-array", owners] * is_last]))
+            picture = content(image)
+            return Run(digits, notes, Certainty(report, size_of(picture)[0]), picture,
+                       numbers(owners, size_of(picture)) if is_last else None)
+
+    def run_again(self, first):
+        """A run with all digits that keeps what the first has called certain; the first, if it is refused."""
+        try:
+            run = self.run("exact")
+        except ToolFailure as failure:
+            first.notes.append(f"picture: note: no more digits than {first.digits}: {failure}")
+            return first
+        if first.certainty.is_complete:
+            run.picture = with_pixels_of(first.picture, [(run.picture, first.certainty.places)])
+            run.certainty.leave(first.certainty.places)
+        return run
+
+    def scene(self):
+        """The bytes that model reads."""
+        if self.options.data is not None and self.options.is_scene:
+            return self.options.data
+        if self.options.is_scene:
+            return read_input(self.options.model)
+        first, *_ = self.commands(self.options)
+        return self.tools.output(*first, stdin=self.options.data or b"")
+
+    def config(self):
+        config = self.options.config
+        return content(config).decode() if config else self.options.size.replace("x", " ")
+
+    def draw_text(self, text):
+        """The picture file of a text of project, and the numbers of the triangles seen."""
+        with tempfile.TemporaryDirectory() as folder:
+            image, owners = os.path.join(folder, f"image.{self.kind}"), os.path.join(folder, "owners.npy")
+            *_, words = self.commands(self.with_options(output=image, certify=["--triangle-array", owners]))
+            self.tools.run(*words, stdin=text)
+            picture = content(image)
+            return picture, numbers(owners, size_of(picture))
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def numbers(path, size):
+    """Those of a file by zbuf --triangle-array, for a picture of this size."""
+    found = array.array("q")
+    found.frombytes(content(path)[-found.itemsize * math.prod(size):])
+    return found
+
+
+def draw_for_certain(options, *tools_and_calls):
+    """Draws the picture, says how much of it is certain, and gives the notes of the last run. The rest are
+    arguments of CertainPicture."""
     is_stream = options.image == "-"
     if not is_stream:
         expect_writable(options.image)
-    notes, certainty, picture = run(options, draw, DIGITS)
-    most = DIGITS
-    if certainty.uncertain_count:
-        try:
-            notes, again, drawn = run(options, draw, "exact")
-        except ToolFailure as failure:
-            notes.append(f"picture: note: no more digits than {DIGITS}: {failure}")
-        else:
-            most = "all"
-            picture = with_pixels_of(picture, drawn, certainty.places) if certainty.is_complete else drawn
-            if certainty.is_complete:
-                again.keep_certain(certainty)
-            certainty = again
-    write_file("/dev/stdout" if is_stream else options.image, picture)
-    print(told(certainty, size_of(picture)[0], most), file=sys.stderr if is_stream else sys.stdout)
-    return notes
+    state = state_of(options)
+    drawing = CertainPicture(options, *tools_and_calls)
+    run, tried = drawing.run(DIGITS), ""
+    if run.certainty.uncertain_count:
+        run = drawing.run_again(run)
+    if run.certainty.uncertain_count:
+        from picture_parts.decided import decide  # which few pictures need
+        tried = decide(drawing, run)
+    if state_of(options) != state:
+        raise CommandFailure(f"{shown(options.model)} has changed while it was drawn: draw it again")
+    write_file("/dev/stdout" if is_stream else options.image, run.picture)
+    print(told(run.certainty, size_of(run.picture)[0], tried), file=sys.stderr if is_stream else sys.stdout)
+    return run.notes
 
 
-def run(options, draw, digits):
-    """The notes, the Certainty and the picture file of a run with these digits."""
-    kind = next(filter(None, FORMAT.match(options.output).groups()))
-    with tempfile.TemporaryDirectory() as folder:
-        image, report = os.path.join(folder, "image." + kind), os.path.join(folder, "certain.txt")
-        of_run = {"output": image, "bounds": ["--bounds"], "digits": ["--digits", digits],
-                  "certify": ["--certify", report]}
-        notes = draw(argparse.Namespace(**{**vars(options), **of_run}))
-        with open(image, "rb") as file:
-            picture = file.read()
-        return notes, Certainty(report, size_of(picture)[0]), picture
+def state_of(options):
+    """What changes if another writes to the model's file."""
+    if options.data is not None:
+        return None
+    status = os.stat(options.model)
+    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
 
 
-def told(certainty, width, digits):
-    """What a user reads of a picture whose pixels are uncertain with so many `digits`."""
+def told(certainty, width, tried):
+    """What a user reads of a picture; pixels are uncertain that were `tried` so."""
     count, places = certainty.uncertain_count, certainty.places[:MOST_LISTED]
     total = certainty.pixel_count
     text = f"{total - count:,} of {total:,} pixels are what exact arithmetic shows"
@@ -98,5 +181,4 @@ def told(certainty, width, digits):
     listed = [f"{place % width},{place // width}" for place in places]
     more = f" and {count - len(listed):,} more" if count > len(listed) else ""
     return text + "\n" + textwrap.fill(
-        f"undecided with {digits} digits, and drawn by the rules for ties (column,row): " + " ".join(listed) +
-        more, 110)
+        f"undecided {tried}, and drawn by the rules for ties (column,row): " + " ".join(listed) + more, 110)

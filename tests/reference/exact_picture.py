@@ -2,6 +2,7 @@
 fractions. Sines and roots have 150 decimals; where they cannot decide, the pixel is a TIE.
 """
 import decimal
+import math
 from fractions import Fraction
 
 import reference
@@ -47,38 +48,53 @@ class Exact:
         config = reference.read_config(reference.Text(config_text))
         pixels = [[{} for _ in range(config.width)] for _ in range(config.height)]
         for triangle in self.ndc.list:
-            for row, column, z, is_inside in fragments(
-                    [corner.position for corner in triangle.corners], config):
-                if config.front - SMALL <= z <= config.rear + SMALL:
-                    is_sure = is_inside and config.front + SMALL < z < config.rear - SMALL
-                    pixels[row][column].setdefault(triangle.number, []).append((z, is_sure))
+            corners = [corner.position for corner in triangle.corners]
+            small = 0 if is_rational(corners) else SMALL
+            for row, column, z, is_inside in fragments(corners, config, small):
+                if config.front - small <= z < config.rear + small:
+                    is_sure = is_inside and config.front + small <= z < config.rear - small
+                    pixels[row][column].setdefault(triangle.number, []).append((z, is_sure, small, corners))
         return [[nearest(pixel) for pixel in row] for row in pixels]
 
 
-def fragments(corners, config):
-    """Yields row, column, depth and whether the triangle certainly covers the pixel's center (Z1, Z5, Z7)."""
+def is_rational(corners):
+    """Whether they are exact; sines and roots have powers of ten below their fraction bars."""
+    return all(x.denominator % 5**100 for corner in corners for x in corner)
+
+
+def fragments(corners, config, small):
+    """Yields row, column, depth and whether the triangle certainly covers the pixel's center (Z1, Z5, Z7);
+    if `small` is 0, those that it covers."""
     left, bottom = map(reference.exact, config.written[:2])
     dx, dy = -2 * left / config.width, -2 * bottom / config.height
     half = Fraction(1, 2)  # columns and rows, y downwards, are whole numbers; depths stay fractions
-    a, b, c = ((round(((x - left) / dx - half) * GRID), round(((-bottom - y) / dy - half) * GRID))
-               for x, y, _ in corners)
+    points = [((x - left) / dx - half, (-bottom - y) / dy - half) for x, y, _ in corners]
+    grid = GRID if small else math.lcm(*(x.denominator for point in points for x in point))
+    a, b, c = ((round(x * grid), round(y * grid)) for x, y in points)
     area = side_of_edge(*c, a, b)
-    if abs(area) < GRID * GRID * SMALL:  # no area, no pixel
+    if abs(area) <= grid * grid * small:  # no area, no pixel
         return
     xs, ys = zip(a, b, c)
-    for row in reference.inside(Fraction(min(ys), GRID), Fraction(max(ys), GRID), config.height):
-        for column in reference.inside(Fraction(min(xs), GRID), Fraction(max(xs), GRID), config.width):
-            weights = [side_of_edge(column * GRID, row * GRID, p, q) * (1 if area > 0 else -1)
-                       for p, q in ((b, c), (c, a), (a, b))]
-            if min(weights) > -GRID * GRID * SMALL:
+    for row in reference.inside(Fraction(min(ys), grid), Fraction(max(ys), grid), config.height):
+        for column in reference.inside(Fraction(min(xs), grid), Fraction(max(xs), grid), config.width):
+            edges = [(b, c), (c, a), (a, b)] if area > 0 else [(c, b), (a, c), (b, a)]  # clockwise as seen
+            weights = [side_of_edge(column * grid, row * grid, *edge) for edge in edges]
+            is_sure = all(weight > grid * grid * small or
+                          not small and weight == 0 and reference.is_left_or_top(*edge)
+                          for weight, edge in zip(weights, edges))
+            if is_sure or small and min(weights) > -grid * grid * small:
                 z = dot(weights, [corner[2] for corner in corners]) / abs(area)
-                yield row, column, z, min(weights) > GRID * GRID * SMALL
+                yield row, column, z, is_sure
 
 
 def nearest(pixel):
-    """The number of the nearest of {number: [(depth, is_sure), ...]}: several where pieces meet."""
+    """The number of the nearest of {number: [(depth, is_sure, small, corners), ...]}: several where pieces
+    meet."""
     if not pixel:
         return None
-    (z, is_sure, number), *others = sorted((min(found)[0], len(found) > 1 or found[0][1], number)
-                                           for number, found in pixel.items())
-    return number if is_sure and all(other[0] > z + SMALL for other in others) else TIE
+    (z, number, is_sure, small, corners), *others = sorted(
+        (min(found)[0], number, len(found) > 1 or found[0][1], *found[0][2:])
+        for number, found in pixel.items())
+    is_told = all(other[0] > z + small + other[3] or small == other[3] == 0 or other[4] == corners
+                  for other in others)
+    return number if is_sure and is_told else TIE

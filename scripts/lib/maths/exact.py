@@ -1,6 +1,7 @@
 """Numbers as exact fractions. Only sines, cosines and square roots are not fractions: they are calculated to
 DIGITS digits."""
 import decimal
+import functools
 import math
 from decimal import Decimal
 from fractions import Fraction
@@ -29,17 +30,24 @@ def as_decimal(x, context=CONTEXT):
     return context.divide(Decimal(x.numerator), Decimal(x.denominator))
 
 
+@functools.singledispatch  # lib.maths.balls has others of these
 def trimmed(x):
     """x, to DIGITS digits if its denominator has grown very long."""
     return x if x.denominator.bit_length() <= MAX_DENOMINATOR_BITS else Fraction(as_decimal(x))
 
 
+def exact_root(x):
+    """The square root if it is a fraction, else None."""
+    numerator, denominator = math.isqrt(max(0, x.numerator)), math.isqrt(x.denominator)
+    is_exact = numerator**2 == x.numerator and denominator**2 == x.denominator
+    return Fraction(numerator, denominator) if is_exact else None
+
+
+@functools.singledispatch
 def root(x):
     """The square root, exact where it is a fraction."""
-    numerator, denominator = math.isqrt(x.numerator), math.isqrt(x.denominator)
-    if numerator**2 == x.numerator and denominator**2 == x.denominator:
-        return Fraction(numerator, denominator)
-    return Fraction(CONTEXT.sqrt(as_decimal(x)))
+    found = exact_root(x)
+    return Fraction(CONTEXT.sqrt(as_decimal(x))) if found is None else found
 
 
 def pi():
@@ -53,6 +61,7 @@ def pi():
 PI = pi()
 
 
+@functools.singledispatch
 def sine_cosine_below_45(degrees):
     """For angles from -45 to 45 degrees, by the series of exp(i x)."""
     with decimal.localcontext(CONTEXT):
@@ -71,9 +80,10 @@ def sine_cosine(degrees):
     quarters = round(degrees / 90)
     rest = degrees - 90 * quarters
     if abs(rest) == 45:
-        sine, cosine = root(Fraction(1, 2)) * (1 if rest > 0 else -1), root(Fraction(1, 2))
+        cosine = root(abs(rest) / 90)
+        sine = cosine if rest > 0 else -cosine
     elif abs(rest) == 30:
-        sine, cosine = rest / 60, root(Fraction(3, 4))
+        sine, cosine = rest / 60, root(abs(rest) / 40)
     else:
         sine, cosine = sine_cosine_below_45(rest)
     return ((sine, cosine), (cosine, -sine), (-sine, -cosine), (-cosine, sine))[quarters % 4]
@@ -81,7 +91,7 @@ def sine_cosine(degrees):
 
 def cotangent(degrees):
     sine, cosine = sine_cosine(degrees)
-    return cosine / sine
+    return Fraction(1) if cosine is sine else cosine / sine
 
 
 def fixed(x, decimals):

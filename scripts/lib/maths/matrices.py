@@ -1,7 +1,7 @@
 """The matrices of the pipeline, as rows of exact numbers. Points are columns (x y z 1)."""
-from lib.maths.exact import cotangent, root, sine_cosine, trimmed
 from fractions import Fraction
 
+from lib.maths.exact import cotangent, double, root, sine_cosine, trimmed
 from lib.maths.vectors import cross, dot
 
 ZERO, ONE = Fraction(0), Fraction(1)
@@ -67,10 +67,11 @@ class Projection:
     """A line `perspective`, `frustum` or `ortho` of the header, which may end in the aspect rule `angle` or
     `ratio`."""
 
-    def __init__(self, kind, words, aspect_rule=None):
+    def __init__(self, kind, words, aspect_rule=None, number=double):
+        """`number` makes numbers of words."""
         count = 4 if kind == "perspective" else 6
         self.kind, self.words = kind, words[:count]
-        self.numbers = [Fraction(float(word)) for word in self.words]
+        self.numbers = [number(word) for word in self.words]
         self.near, self.far = self.numbers[-2:]
         self.aspect_rule = aspect_rule or (words[count] if len(words) > count else "angle")
         self.is_parallel = kind == "ortho"

@@ -214,24 +214,31 @@ def size_of(picture):
     return struct.unpack_from(*((">II", picture, 16) if picture[:2] == b"\x89P" else ("<ii", picture, 18)))
 
 
-def with_pixels_of(picture, other, places):
-    """A picture file as zbuf writes it, with the pixels of another one like it at these places."""
+def with_pixels_of(picture, others):
+    """A picture file as zbuf writes it, with pixels of others like it: pairs of such a file and its places."""
     width, height = size_of(picture)
     if picture[:2] == b"\x89P":  # no filter of zbuf's looks at the row above, so other rows stay as they are
-        (*_, size, lines), (*_, others) = png_lines(picture), png_lines(other)
-        for row in {place // width for place in places}:
-            for of in (lines, others):
-                of[row] = bytearray(b"\0" + unfiltered(of[row][0], of[row][1:], None, size))
-        for place in places:
-            row, at = place // width, 1 + place % width * size
-            lines[row][at:at + size] = others[row][at:at + size]
+        *_, size, lines = png_lines(picture)
+        for other, places in others:
+            copy_pixels(lines, png_lines(other)[3], places, width, size)
         return png_of_lines(width, height, size, lines, level=4)  # as zbuf does
     stride, first = 3 * width, len(picture) - 3 * width * height
     if picture[:2] == b"BM":  # rows from the bottom
         stride = -((3 * width + 3) // 4 * 4)
         first = len(picture) + stride
     whole = bytearray(picture)
-    for place in places:
-        at = first + place // width * stride + place % width * 3
-        whole[at:at + 3] = other[at:at + 3]
+    for other, places in others:
+        for place in places:
+            at = first + place // width * stride + place % width * 3
+            whole[at:at + 3] = other[at:at + 3]
     return bytes(whole)
+
+
+def copy_pixels(lines, others, places, width, size):
+    """Those at the places, of rows with their filters into such rows."""
+    for row in {place // width for place in places}:
+        for of in (lines, others):
+            of[row] = bytearray(b"\0" + unfiltered(of[row][0], of[row][1:], None, size))
+    for place in places:
+        row, at = place // width, 1 + place % width * size
+        lines[row][at:at + size] = others[row][at:at + size]

@@ -6,6 +6,7 @@ import itertools
 
 from lib.maths.exact import double
 from lib.maths.matrices import IDENTITY, TRANSFORMS, product
+from lib.text.projection import KEYWORDS
 
 CAMERA_LINES = 4
 ARGUMENT_LINES = {"triangle": 3, "push": 0, "pop": 0, "end": 0}  # others have one
@@ -17,8 +18,8 @@ class Command:
     keyword: str
     arguments: list  # lists of words, one for each line
 
-    def matrix(self):
-        return TRANSFORMS[self.keyword]([double(word) for word in self.arguments[0]])
+    def matrix(self, number=double):
+        return TRANSFORMS[self.keyword]([number(word) for word in self.arguments[0]])
 
 
 @dataclasses.dataclass
@@ -28,17 +29,28 @@ class SceneTriangle:
     columns: list     # how many numbers each vertex has besides
     transforms: list  # of Command, as they stand in the scene
 
-    def matrix(self):
+    def matrix(self, number=double):
         """The product of the transforms: each is multiplied from the right, so that the last one is applied
-        first."""
-        return functools.reduce(product, (transform.matrix() for transform in self.transforms), IDENTITY)
+        first. `number` makes numbers of words."""
+        return functools.reduce(product, (transform.matrix(number) for transform in self.transforms), IDENTITY)
+
+
+def filled_lines(text):
+    """The number and the words of each line that has some."""
+    return ((number, words)
+            for number, line in enumerate(text.split("\n"), 1)
+            if (words := line.split("#")[0].split()))
+
+
+def camera(text):
+    """The words of eye, look, up and, with its keyword, the projection."""
+    *position, last = (words for _, words in itertools.islice(filled_lines(text), CAMERA_LINES))
+    return *position, last if last[0] in KEYWORDS else ["perspective", *last]
 
 
 def commands(text):
     """The commands of a scene, in order."""
-    filled = ((number, words)
-              for number, line in enumerate(text.split("\n"), 1)
-              if (words := line.split("#")[0].split()))
+    filled = filled_lines(text)
     for _ in range(CAMERA_LINES):
         next(filled)
     for number, (keyword, *rest) in filled:

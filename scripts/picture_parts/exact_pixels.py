@@ -1,0 +1,203 @@
+"""Which triangle a pixel's center shows if no stage rounds, straight from the scene."""
+import bisect
+import collections
+import functools
+import math
+
+from lib.maths.balls import Ball, Undecided, exactly
+from lib.maths.matrices import IDENTITY, Projection, applied, product, view_matrix
+from lib.maths.vectors import cross, dot
+from lib.text.scene import camera, find_triangles
+
+ROUNDED = 1e-14  # of the sums of four products in doubles, more than they may lose
+SMALLEST = 1e-300
+NEAR = 0.001  # of a pixel, more than its place loses in doubles
+CUT_WITHIN = 1024  # parts of the distance of the near plane: what is as near to the eye is cut there (P7)
+
+
+FEW_BITS, MOST_BITS = 256, 4096  # the latter are slow, and tell more only of ties
+
+
+def owners(scene, window, pixels):
+    """{(column, row): the number of the triangle that is seen there, or None} of the pixels that MOST_BITS bits
+    decide; `scene` is one that `model` has accepted, as text."""
+    found, left = {}, None
+    for bits in (FEW_BITS, MOST_BITS):
+        Ball.bits = bits
+        exact = ExactPixels(scene, window)
+        left = exact.candidates(pixels) if left is None else left
+        for pixel, triangles in list(left.items()):
+            left[pixel], is_decided = exact.seen(pixel, triangles)
+            if is_decided:
+                found[pixel] = next((number for number, _ in left.pop(pixel)), None)
+    return found
+
+
+class Fragment:
+    """A triangle at a pixel's center: its corners in clip space, its depth, and whether it certainly covers
+    the center."""
+
+    def __init__(self, number, triangle, clip, depth, is_sure):
+        self.number, self.triangle, self.clip, self.depth, self.is_sure = number, triangle, clip, depth, is_sure
+
+    def hides(self, other):
+        """Whether it certainly does."""
+        try:
+            if self.clip is other.clip or self.depth == other.depth:  # if the same triangle, no digits matter
+                return self.is_sure and self.number < other.number
+        except Undecided:
+            return False
+        return self.is_sure and self.depth < other.depth
+
+
+class ExactPixels:
+    """A scene on a window, as far as Ball.bits tell."""
+
+    def __init__(self, scene, window):
+        self.scene, self.window = scene, window
+        eye, look, up, (kind, *words) = camera(scene)
+        self.projection = Projection(kind, words, number=exactly)
+        matrix, self.scales, self.x_per_y = unscaled(self.projection)
+        self.from_world = product(matrix, view_matrix(*(tuple(map(exactly, line)) for line in (eye, look, up))))
+        self.edges = {}  # by a triangle's matrix and points
+        self.matrices = {}  # by the lines of the transforms: to clip space, unscaled, and in doubles
+
+    def candidates(self, pixels):
+        """{pixel: [(number, SceneTriangle), ...]} of those that doubles cannot tell to be elsewhere."""
+        columns_of, found = collections.defaultdict(list), {pixel: [] for pixel in pixels}
+        for column, row in sorted(pixels):
+            columns_of[row].append(column)
+        rows = sorted(columns_of)
+        for number, triangle in enumerate(find_triangles(self.scene)):
+            outline = Outline(self.matrices_of(triangle)[1], triangle.points, self.window.grid_in_doubles)
+            for row in rows[slice(*outline.range_of(rows, 1))]:
+                columns = columns_of[row]
+                for column in columns[slice(*outline.range_of(columns, 0))]:
+                    if outline.may_cover(column, row):
+                        found[column, row].append((number, triangle))
+        return found
+
+    def matrices_of(self, triangle):
+        key = tuple(transform.line for transform in triangle.transforms)
+        if key not in self.matrices:
+            matrix = product(self.from_world, triangle.matrix(exactly))
+            self.matrices[key] = matrix, [[float(x) * float(scale) for x in matrix[i]]
+                                          for i, scale in zip((0, 1, 3), (*self.scales, 1))]
+        return self.matrices[key]
+
+    def seen(self, pixel, triangles):
+        """Those of the triangles that may be seen by Z5 to Z8, and whether this is decided: of one or none."""
+        try:
+            fragments = [found for triangle in triangles if (found := self.fragment(pixel, *triangle))]
+        except Undecided:
+            return triangles, False
+        if not fragments:
+            return [], True
+        first = functools.reduce(lambda best, other: other if other.hides(best) else best, fragments)
+        left = [other for other in fragments if not first.hides(other)]
+        return [(one.number, one.triangle) for one in left], first.is_sure and left == [first]
+
+    def fragment(self, pixel, number, triangle):
+        """The Fragment of the triangle, or None if it is not there."""
+        clip, edges, area = self.edges_of(triangle)
+        if area.sign == 0:
+            return None
+        center = self.window.grid.x_of(pixel[0]), self.window.grid.y_of(pixel[1]), 1
+        sides = [dot(edge, center) for edge in edges]
+        depth = dot(sides, [z for _, _, z, _ in clip]) / area
+        tests = [functools.partial(is_owned, edge, side, area.sign) for edge, side in zip(edges, sides)]
+        is_sure = True
+        for test in (*tests, lambda: self.is_drawn(depth), lambda: self.is_left(clip, depth)):
+            try:
+                if not test():
+                    return None
+            except Undecided:
+                is_sure = False
+        return Fragment(number, triangle, clip, depth, is_sure)
+
+    def edges_of(self, triangle):
+        """Its corners in clip space, unscaled; its edges, as factors of x, y and 1 that are positive inside,
+        if it has a positive area; and this area. All are multiplied so that where x and y have one
+        irrational scale, it stands in few of them."""
+        matrix, _ = self.matrices_of(triangle)
+        key = id(matrix), *map(tuple, triangle.points)
+        if key not in self.edges:
+            clip = [applied(matrix, [exactly(word) for word in words]) for words in triangle.points]
+            a, b, c = ((x, y, w) for x, y, _, w in clip)
+            x_scale = self.scales[0]
+            edges = [(x, y * self.x_per_y, z * x_scale) for x, y, z in (cross(b, c), cross(c, a), cross(a, b))]
+            self.edges[key] = clip, edges, dot(a, cross(b, c)) * x_scale
+        return self.edges[key]
+
+    def is_drawn(self, depth):
+        return not depth < self.window.front and depth < self.window.rear
+
+    def is_left(self, clip, depth):
+        """Whether cutting the triangle by P7 leaves what is at this depth; Undecided on the cut."""
+        if self.projection.is_parallel or (depth + 1).sign > 0:
+            return True
+        is_cut = any(w < self.projection.near / CUT_WITHIN for *_, w in clip)
+        if is_cut and (depth + 1).sign == 0:
+            raise Undecided
+        return not is_cut
+
+
+def unscaled(projection):
+    """The matrix to clip space, without the scales of x and y if they may be irrational; these; and the first
+    by the second."""
+    matrix = projection.matrix()
+    if projection.kind != "perspective":
+        return matrix, (Ball(1), Ball(1)), Ball(1)
+    x_scale, _, y_scale, _ = projection.window()
+    aspect = projection.numbers[1]
+    is_rational = projection.aspect_rule == "ratio" or aspect == 1
+    return (*IDENTITY[:2], *matrix[2:]), (x_scale, y_scale), 1 / aspect if is_rational else x_scale / y_scale
+
+
+def is_owned(edge, side, area_sign):
+    """Whether a center is on the inner side of the edge, or on a left or top edge (Z5)."""
+    step_right, step_up = edge[:2]
+    side = side.sign * area_sign
+    return side > 0 or side == 0 and (step_right.sign * area_sign or -step_up.sign * area_sign) > 0
+
+
+class Outline:
+    """Where a triangle may be on the window, in doubles with their errors."""
+
+    def __init__(self, matrix, points, grid):
+        """`matrix` leads to clip space; of it only the rows for x, y and w, in doubles."""
+        self.grid = grid
+        self.corners = []  # x, y and w, and how far these may be wrong
+        for words in points:
+            terms = [[a * float(b) for a, b in zip(row, (*words, 1))] for row in matrix]
+            self.corners.append(([sum(parts) for parts in terms],
+                                 [ROUNDED * sum(map(abs, parts)) + SMALLEST for parts in terms]))
+        self.has_numbers = all(math.isfinite(x) for corner in self.corners for part in corner for x in part)
+
+    def range_of(self, pixels, axis):
+        """The first and the end of those of the sorted columns (axis 0) or rows (1) that it may reach."""
+        if not self.has_numbers:
+            return 0, len(pixels)
+        if all(p[2] + e[2] <= 0 for p, e in self.corners):
+            return 0, 0
+        if any(p[2] - e[2] <= 0 for p, e in self.corners):
+            return 0, len(pixels)
+        at = (self.grid.column_at, self.grid.row_at)[axis]
+        places = [at((p[axis] + i * e[axis]) / (p[2] + k * e[2]))
+                  for p, e in self.corners for i in (-1, 1) for k in (-1, 1)]
+        return bisect.bisect_left(pixels, min(places) - NEAR), bisect.bisect_right(pixels, max(places) + NEAR)
+
+    def may_cover(self, column, row):
+        """Whether the center may be on the same side of all edges."""
+        if not self.has_numbers:
+            return True
+        x, y = self.grid.x_of(column), self.grid.y_of(row)
+        turned = [(p[0] - x * p[2], p[1] - y * p[2], e[0] + abs(x) * e[2] + ROUNDED * abs(x * p[2]),
+                   e[1] + abs(y) * e[2] + ROUNDED * abs(y * p[2])) for p, e in self.corners]
+        signs = set()
+        for (a, b, a_error, b_error), (c, d, c_error, d_error) in zip(turned, turned[1:] + turned[:1]):
+            error = (abs(a) + a_error) * d_error + (abs(b) + b_error) * c_error + a_error * abs(d) + \
+                b_error * abs(c) + ROUNDED * (abs(a * d) + abs(b * c)) + SMALLEST
+            side = a * d - b * c
+            signs.add(0 if abs(side) <= error else 1 if side > 0 else -1)
+        return not signs >= {1, -1}
