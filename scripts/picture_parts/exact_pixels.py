@@ -19,7 +19,7 @@ FEW_BITS, MOST_BITS = 256, 4096  # the latter are slow, and tell more only of ti
 
 
 def owners(scene, window, pixels):
-    """{(column, row): the number of the triangle that is seen there, or None} of the pixels that MOST_BITS bits
+    """{(column, row): the number of the triangle that is seen there, or None} of the pixels that MOST_BITS
     decide; `scene` is one that `model` has accepted, as text."""
     found, left = {}, None
     for bits in (FEW_BITS, MOST_BITS):
@@ -38,7 +38,8 @@ class Fragment:
     the center."""
 
     def __init__(self, number, triangle, clip, depth, is_sure):
-        self.number, self.triangle, self.clip, self.depth, self.is_sure = number, triangle, clip, depth, is_sure
+        self.number, self.triangle, self.clip = number, triangle, clip
+        self.depth, self.is_sure = depth, is_sure
 
     def hides(self, other):
         """Whether it certainly does."""
@@ -58,7 +59,8 @@ class ExactPixels:
         eye, look, up, (kind, *words) = camera(scene)
         self.projection = Projection(kind, words, number=exactly)
         matrix, self.scales, self.x_per_y = unscaled(self.projection)
-        self.from_world = product(matrix, view_matrix(*(tuple(map(exactly, line)) for line in (eye, look, up))))
+        self.from_world = product(matrix, view_matrix(*(
+            tuple(map(exactly, words)) for words in (eye, look, up))))
         self.edges = {}  # by a triangle's matrix and points
         self.matrices = {}  # by the lines of the transforms: to clip space, unscaled, and in doubles
 
@@ -86,7 +88,7 @@ class ExactPixels:
         return self.matrices[key]
 
     def seen(self, pixel, triangles):
-        """Those of the triangles that may be seen by Z5 to Z8, and whether this is decided: of one or none."""
+        """Those of the triangles that may be seen by Z5 to Z8, and whether this is decided: one or none."""
         try:
             fragments = [found for triangle in triangles if (found := self.fragment(pixel, *triangle))]
         except Undecided:
@@ -125,7 +127,8 @@ class ExactPixels:
             clip = [applied(matrix, [exactly(word) for word in words]) for words in triangle.points]
             a, b, c = ((x, y, w) for x, y, _, w in clip)
             x_scale = self.scales[0]
-            edges = [(x, y * self.x_per_y, z * x_scale) for x, y, z in (cross(b, c), cross(c, a), cross(a, b))]
+            edges = [(x, y * self.x_per_y, z * x_scale)
+                     for x, y, z in (cross(b, c), cross(c, a), cross(a, b))]
             self.edges[key] = clip, edges, dot(a, cross(b, c)) * x_scale
         return self.edges[key]
 

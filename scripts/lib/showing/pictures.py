@@ -215,7 +215,7 @@ def size_of(picture):
 
 
 def with_pixels_of(picture, others):
-    """A picture file as zbuf writes it, with pixels of others like it: pairs of such a file and its places."""
+    """A picture file as zbuf writes it, with pixels of others like it: pairs of such a file and places."""
     width, height = size_of(picture)
     if picture[:2] == b"\x89P":  # no filter of zbuf's looks at the row above, so other rows stay as they are
         *_, size, lines = png_lines(picture)

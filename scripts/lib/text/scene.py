@@ -32,7 +32,8 @@ class SceneTriangle:
     def matrix(self, number=double):
         """The product of the transforms: each is multiplied from the right, so that the last one is applied
         first. `number` makes numbers of words."""
-        return functools.reduce(product, (transform.matrix(number) for transform in self.transforms), IDENTITY)
+        matrices = (transform.matrix(number) for transform in self.transforms)
+        return functools.reduce(product, matrices, IDENTITY)
 
 
 def filled_lines(text):
