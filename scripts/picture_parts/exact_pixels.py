@@ -4,7 +4,7 @@ import collections
 import functools
 import math
 
-from lib.maths.balls import Ball, Undecided, exactly
+from lib.maths.balls import Ball, Undecided, ball, exactly
 from lib.maths.matrices import IDENTITY, Projection, applied, product, view_matrix
 from lib.maths.vectors import cross, dot
 from lib.text.scene import camera, find_triangles
@@ -69,13 +69,15 @@ class ExactPixels:
         columns_of, found = collections.defaultdict(list), {pixel: [] for pixel in pixels}
         for column, row in sorted(pixels):
             columns_of[row].append(column)
-        rows = sorted(columns_of)
+        rows, grid = sorted(columns_of), self.window.grid
+        xs = {column: float(grid.x_of(column)) for column, _ in pixels}
+        ys = {row: float(grid.y_of(row)) for row in rows}
         for number, triangle in enumerate(find_triangles(self.scene)):
             outline = Outline(self.matrices_of(triangle)[1], triangle.points, self.window.grid_in_doubles)
             for row in rows[slice(*outline.range_of(rows, 1))]:
                 columns = columns_of[row]
                 for column in columns[slice(*outline.range_of(columns, 0))]:
-                    if outline.may_cover(column, row):
+                    if outline.may_cover(xs[column], ys[row]):
                         found[column, row].append((number, triangle))
         return found
 
@@ -83,7 +85,7 @@ class ExactPixels:
         key = tuple(transform.line for transform in triangle.transforms)
         if key not in self.matrices:
             matrix = product(self.from_world, triangle.matrix(exactly))
-            self.matrices[key] = matrix, [[float(x) * float(scale) for x in matrix[i]]
+            self.matrices[key] = matrix, [[in_doubles(x * scale) for x in matrix[i]]
                                           for i, scale in zip((0, 1, 3), (*self.scales, 1))]
         return self.matrices[key]
 
@@ -164,17 +166,25 @@ def is_owned(edge, side, area_sign):
     return side > 0 or side == 0 and (step_right.sign * area_sign or -step_up.sign * area_sign) > 0
 
 
+def in_doubles(x):
+    """A double near x, and its distance from it, with what a product with it loses."""
+    x = ball(x)
+    double = float(x)
+    radius = float(Ball.around(x.radius, 0, x.exponent)) if x.exact is None else 0
+    return double, ROUNDED * abs(double) + 2 * radius
+
+
 class Outline:
     """Where a triangle may be on the window, in doubles with their errors."""
 
     def __init__(self, matrix, points, grid):
-        """`matrix` leads to clip space; of it only the rows for x, y and w, in doubles."""
+        """`matrix` leads to clip space; of it only the rows for x, y and w, as in_doubles."""
         self.grid = grid
         self.corners = []  # x, y and w, and how far these may be wrong
         for words in points:
-            terms = [[a * float(b) for a, b in zip(row, (*words, 1))] for row in matrix]
-            self.corners.append(([sum(parts) for parts in terms],
-                                 [ROUNDED * sum(map(abs, parts)) + SMALLEST for parts in terms]))
+            p = [*map(float, words), 1.0]
+            self.corners.append(([sum(a * b for (a, _), b in zip(row, p)) for row in matrix],
+                                 [sum(e * abs(b) for (_, e), b in zip(row, p)) + SMALLEST for row in matrix]))
         self.has_numbers = all(math.isfinite(x) for corner in self.corners for part in corner for x in part)
 
     def range_of(self, pixels, axis):
@@ -190,11 +200,10 @@ class Outline:
                   for p, e in self.corners for i in (-1, 1) for k in (-1, 1)]
         return bisect.bisect_left(pixels, min(places) - NEAR), bisect.bisect_right(pixels, max(places) + NEAR)
 
-    def may_cover(self, column, row):
+    def may_cover(self, x, y):
         """Whether the center may be on the same side of all edges."""
         if not self.has_numbers:
             return True
-        x, y = self.grid.x_of(column), self.grid.y_of(row)
         turned = [(p[0] - x * p[2], p[1] - y * p[2], e[0] + abs(x) * e[2] + ROUNDED * abs(x * p[2]),
                    e[1] + abs(y) * e[2] + ROUNDED * abs(y * p[2])) for p, e in self.corners]
         signs = set()
@@ -202,5 +211,5 @@ class Outline:
             error = (abs(a) + a_error) * d_error + (abs(b) + b_error) * c_error + a_error * abs(d) + \
                 b_error * abs(c) + ROUNDED * (abs(a * d) + abs(b * c)) + SMALLEST
             side = a * d - b * c
-            signs.add(0 if abs(side) <= error else 1 if side > 0 else -1)
+            signs.add((1 if side > 0 else -1) if abs(side) > error else 0)  # 0, too, if they are no numbers
         return not signs >= {1, -1}
