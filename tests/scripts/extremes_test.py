@@ -22,7 +22,7 @@ from lib.running.pipe_tools import Tools  # noqa: E402
 from parts.extremes_measure import (  # noqa: E402
     ROUNDED, SETTINGS, digits_right, shortened, wrong_without_note)
 from parts.extremes_plot import name_of  # noqa: E402
-from parts.extremes_report import Results, promise, short  # noqa: E402
+from parts.extremes_report import Results, certainty, promise, short  # noqa: E402
 from parts.extremes_scenes import AXES, QUICK, Case, scene_text  # noqa: E402
 from parts.extremes_truth import reference, true_owners, true_vertices  # noqa: E402
 
@@ -67,6 +67,14 @@ class Numbers(unittest.TestCase):
         checked = [row for row in COMMITTED if row["wrong_without_note"]]
         self.assertEqual(len(checked), len(COMMITTED) * len(ROUNDED) // len(SETTINGS))
         self.assertEqual([row for row in checked if row["wrong_without_note"] != "0"], [])
+
+    def test_no_pixel_that_is_called_certain_is_wrong(self):
+        """Bounds need extended precision, and what they do not hold for is refused."""
+        refused = [row for row in COMMITTED if row["uncertain_pixels"] == "refused"]
+        self.assertEqual([(row["axis"], row["value"], row["setting"]) for row in refused
+                          if "double" not in row["setting"]], [("angle", "1e-09", "--digits exact")])
+        self.assertEqual(len(refused), 1 + sum("double" in row["setting"] for row in COMMITTED))
+        self.assertEqual({row["wrong_though_certain"] for row in COMMITTED if row not in refused}, {"0"})
 
 
 class Truth(unittest.TestCase):
@@ -135,10 +143,10 @@ class WrongDigits(unittest.TestCase):
             self.assertEqual(shortened(note), words)
 
 
-def row(value, wrong, note="", setting="default", axis="size"):
+def row(value, wrong, note="", setting="default", axis="size", uncertain="0"):
     return {
         "axis": axis, "value": value, "setting": setting, "wrong_pixels": str(wrong), "note": note,
-        "wrong_without_note": "0"}
+        "wrong_without_note": "0", "uncertain_pixels": uncertain, "wrong_though_certain": "0"}
 
 
 class Report(unittest.TestCase):
@@ -152,6 +160,14 @@ class Report(unittest.TestCase):
                          "1e-3 (note from 1e-4)")
         self.assertEqual(self.first(row("1", 0, "n"), row("0.001", 2), row("1e-04", 9)), "1e-3 (no note)")
 
+    def test_uncertain_pixels_stand_where_they_are_first_and_where_some_are_wrong(self):
+        for counts, cell in (("000", ""), ("070", "0.1 (7)"), ("0+0", "0.1 (2 of 2,345)"),
+                             ("7+8", "1 (7), 0.1 (2 of 2,345)"), ("7xx", "1 (7), 0.1 refused, 0.01 refused"),
+                             ("xxx", "refused")):
+            rows = [row(value, 2 * (count == "+"), uncertain={"+": "2345", "x": "refused"}.get(count, count))
+                    for value, count in zip(("1", "0.1", "0.01"), counts)]
+            self.assertEqual(Results(rows).uncertain("size", "default"), cell)
+
     def test_the_angle_goes_two_ways(self):
         rows = [
             row(value, wrong, axis="angle")
@@ -163,6 +179,8 @@ class Report(unittest.TestCase):
         self.assertIn("Of 6 runs of a stage, none printed", promise(Results([row("1", 0), row("2", 0)])))
         self.assertIn("Of 6 runs of a stage, 2 runs printed",
                       promise(Results([row("1", 0), {**row("2", 0), "wrong_without_note": "2"}])))
+        self.assertIn("in 1 pictures, none are wrong", certainty(Results([row("1", 2)])))
+        self.assertIn("2 are wrong", certainty(Results([{**row("1", 2), "wrong_though_certain": "2"}])))
 
     def test_values_are_short(self):
         self.assertEqual([short(word) for word in ("1", "1e+08", "0.001", "179.999", "1000", "1e-12")],
@@ -208,6 +226,10 @@ class Page(unittest.TestCase):
     def test_the_angle_costs_the_default_no_pixel(self):
         for direction in ("wide angle", "narrow angle"):
             self.assertEqual(self.results.first(direction, "default", "wrong_pixels"), "")
+
+    def test_all_digits_leave_no_pixel_uncertain_but_far_away(self):
+        for direction in ("far / near", "size", "wide angle"):
+            self.assertEqual(self.results.uncertain(direction, "--digits exact"), "")
 
     def test_the_default_begins_with_so_many_digits(self):
         digits = self.digits("distance", "default")[1.0]

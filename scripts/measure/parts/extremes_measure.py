@@ -1,6 +1,7 @@
 """What the settings lose on a scene of scripts/measure/extremes, and what the tools note about it."""
 import dataclasses
 import math
+import operator
 import pathlib
 import re
 import sys
@@ -10,7 +11,7 @@ from fractions import Fraction
 
 from lib.running.owners import NOBODY
 from lib.running.pipe import Pipe, Setting
-from lib.running.pipe_tools import Tools
+from lib.running.pipe_tools import ToolFailure, Tools
 from lib.text.stage_text import triangle_lines
 from parts.extremes_scenes import SIZE, scene_text
 from parts.extremes_truth import reference, true_owners, true_vertices
@@ -57,18 +58,30 @@ def measured(job):
 
 def losses(pipe, setting, truth, marks, lossless):
     picture = list(pipe.owners(setting))
+    uncertain = uncertain_pixels(pipe, setting)
+    wrong = {place for place, (owner, mark) in enumerate(zip(picture, marks)) if owner != mark}
     path, _, notes = pipe.text(setting)
     done = pipe.tools.run("zbuf", *pipe.words("zbuf", setting), "--z-buffer", "none", "--image",
                           pipe.folder / "out.ppm", pipe.config, path)
     notes += done.stderr.decode().splitlines()
     return {
-        "digits_right": f"{digits_right(path, truth):.2f}", "wrong_pixels": differences(picture, marks),
-        "pixels_unlike_lossless": differences(picture,
-                                              lossless), "note": shortened(notes[0]) if notes else ""}
+        "digits_right": f"{digits_right(path, truth):.2f}", "wrong_pixels": len(wrong),
+        "pixels_unlike_lossless": sum(map(operator.ne, picture, lossless)),
+        "note": shortened(notes[0]) if notes else "",
+        "uncertain_pixels": "refused" if uncertain is None else len(uncertain),
+        "wrong_though_certain": "" if uncertain is None else len(wrong - uncertain)}
 
 
-def differences(a, b):
-    return sum(x != y for x, y in zip(a, b))
+def uncertain_pixels(pipe, setting):
+    """The pixels that zbuf --certify calls uncertain; None if the tools refuse to write bounds."""
+    certified = dataclasses.replace(setting, certify="-")
+    try:
+        path, _, _ = pipe.text(certified)
+    except ToolFailure:
+        return None
+    report = pipe.tools.output("zbuf", *pipe.words("zbuf", certified), "--image",
+                               pipe.folder / "out.ppm", pipe.config, path).split()[4:]
+    return {int(row) * SIZE + int(column) for row, column in zip(report[::2], report[1::2])}
 
 
 def shortened(note):

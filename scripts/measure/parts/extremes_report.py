@@ -43,6 +43,21 @@ class Results:
                 if noted is None else "noted" if noted is wrong else f"note from {short(noted['value'])}")
         return f"{short(wrong['value'])} ({when})"
 
+    def uncertain(self, direction, setting):
+        """Where pixels are first uncertain, and how many; where they are first wrong, and how many of the
+        uncertain ones; and where bounds are refused."""
+        rows = self.towards(direction, setting)
+        known = [row for row in rows if row["uncertain_pixels"] != "refused"]
+        if not known:
+            return "refused"
+        counts = {}
+        for column in ("uncertain_pixels", "wrong_pixels"):
+            for row in [row for row in known if int(row[column])][:1]:
+                wrong = f"{int(row['wrong_pixels']):,} of " if int(row["wrong_pixels"]) else ""
+                counts[short(row["value"])] = f"({wrong}{int(row['uncertain_pixels']):,})"
+        return ", ".join([*map(" ".join, counts.items()),
+                          *(f"{short(row['value'])} refused" for row in rows if row not in known)])
+
     def first_note(self, direction, setting):
         return next((short(row["value"]) for row in self.towards(direction, setting) if row["note"]), "")
 
@@ -60,9 +75,20 @@ def table(results, cell):
     return "\n".join(lines) + "\n"
 
 
+def counts_of(results, column):
+    return [int(row[column]) for row in results.rows if row[column]]
+
+
+def certainty(results):
+    """Whether what is called certain is true."""
+    counts = counts_of(results, "wrong_though_certain")
+    found = f"{sum(counts):,}" if any(counts) else "none"
+    return f"Of the pixels that it calls certain, in {len(counts)} pictures, {found} are wrong."
+
+
 def promise(results):
     """What the check of single digits has found."""
-    counts = [int(row["wrong_without_note"]) for row in results.rows if row["wrong_without_note"]]
+    counts = counts_of(results, "wrong_without_note")
     found = f"{sum(counts)} runs" if any(counts) else "none"
     return (f"Of {3 * len(counts)} runs of a stage, {found} printed a digit without a note that is not the "
             f"specification's for the numbers the stage had read.")
@@ -75,6 +101,10 @@ def tables(rows):
 notes it:
 
 {table(results, lambda *cell: results.first(*cell, "wrong_pixels"))}
+With bounds and `zbuf --certify`, the first value at which pixels are uncertain (how many of 9,216), and the
+first at which some are wrong (how many of the uncertain ones). {certainty(results)}
+
+{table(results, results.uncertain)}
 The same against the lossless run, `--digits exact`:
 
 {table(results, lambda *cell: results.first(*cell, "pixels_unlike_lossless"))}
