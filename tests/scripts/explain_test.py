@@ -256,8 +256,9 @@ class Words(ToolTest):
             report)
 
     def test_why_a_pixel_is_uncertain(self):
-        """The last of 7 decimals is off by up to half a unit in x, y and z, and a pixel is 1/4."""
-        line = "  uncertain: rounding may have moved edges here by 4.0e-7 pixels, depths by 5.0e-8; %s\n"
+        """In each of three stages, the last of 7 decimals is off by up to half a unit in x, y and z, and a pixel
+        is 1/4."""
+        line = "  uncertain: rounding may have moved edges here by 1.2e-6 pixels, depths by 1.5e-7; %s\n"
         self.assertIn(line % "edge 1-2 is as near", self.on_centers("3,4"))
         self.assertNotIn("uncertain", self.on_centers("2,5") + self.on_centers("3,4", "nearest"))
         walls = [f"triangle\n-9 -9 {z}\n9 -9 {z}\n0 9 {z}\n" for z in ("-.25", "-.25000004", "1")]

@@ -57,8 +57,8 @@ class Bounds(ToolTest):
              "--precision: expected extended, as bounds need it, found 'double'"),
             (["model", "--bounds"], sphere, 1, "a sphere"),
             (["project", "--cull", "back"], bounded, 2,
-             "--cull: expected none with bounds in the text, found it"),
-            *((["project", "--clip", mode], bounded, 2, "--clip frustum, reject or none: ")
+             "--cull: expected none with bounds in the text, found another"),
+            *((["project", "--clip", mode], bounded, 2, "--clip: expected auto or near with bounds")
               for mode in ("frustum", "reject", "none")),
             (["project", "--clip", "near", "--clip-inset", "0.5"], bounded, 2, "--clip-inset: "),
             (["project"], bounded.replace("0 0\n", "0 -1\n"), 1, "the relative bound of at least 0"),

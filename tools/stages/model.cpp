@@ -33,7 +33,8 @@ void add_options(CommandLine& options, ModelOptions& chosen, std::span<char* con
                    "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
   if (is_wanted("--bounds", words))
     options.add_flag("--bounds", chosen.bounds,
-                     "Say in the header how far coordinates may be from those of exact arithmetic");
+                     "Say in the header how far coordinates may be from those of exact arithmetic, for zbuf "
+                     "--certify");
   options.add_word(
       "--first", "N", chosen.first,
       "Number the triangles from N on: of a part of a scene (cut-scene), so that joined texts of "

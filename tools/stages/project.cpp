@@ -70,12 +70,11 @@ void check_inset(const ProjectOptions& chosen) {
 
 /// Turns the bounds of view space into those of NDC; a UsageError if an option excludes them.
 void add_rounding(Bounds& bounds, const ProjectOptions& chosen, CoordinateRounder& rounder) {
-  const auto refuse = [](const std::string& option) {
-    throw UsageError(option + ": " + expected_but_found("none with bounds in the text", "it"));
+  const auto refuse = [](const std::string& option, const std::string& expected = "none") {
+    throw UsageError(option + ": " + expected_but_found(expected + " with bounds in the text", "another"));
   };
   if (chosen.cull != CullMode::nothing) refuse("--cull");
-  if (chosen.clip != ClipMode::automatic && chosen.clip != ClipMode::near)
-    refuse("--clip frustum, reject or none");
+  if (chosen.clip != ClipMode::automatic && chosen.clip != ClipMode::near) refuse("--clip", "auto or near");
   if (chosen.clip_inset > 0) refuse("--clip-inset");
   bounds.rounded = chosen.numbers.kept_bounds(rounder);
   bounds.space = "ndc";

@@ -43,7 +43,7 @@ ZbufOptions::ZbufOptions(CommandLine& options, std::span<char* const> words)
     options.add_word(
         "--certify", "FILE", certainty_path,
         "Write how many pixels certainly show what exact arithmetic shows, and the row and column "
-        "of each other; of a text with bounds (model --bounds), with --coverage center. - is "
+        "of those that may not; of a text with bounds (model --bounds), with --coverage center. - is "
         "standard output, in place of the depths");
   add_pixels(options);
   options.begin_group("Color and light");

@@ -88,21 +88,21 @@ class Stages:
 
     def fragments(self, column, row):
         """Every Fragment of the whole scene at a pixel, in the order they come."""
-        report = self.zbuf(self.projected_whole(self.lossless), "--probe", f"{column},{row}")
+        report = self.zbuf(self.projected_whole(EXACT), "--probe", f"{column},{row}")
         return [Fragment(int(n), depth, fate) for n, depth, fate in FRAGMENT.findall(report)]
 
-    def projected_whole(self, world):
-        """The text of project of the whole scene."""
+    def projected_whole(self, digits, *of_model):
+        """The text of project of the whole scene; `digits` are the option of model and view."""
         project = ["project", "--digits", self.settings.digits, *self.settings.of_project]
-        return self.tools.through(["view", *EXACT], project, stdin=world)
+        return self.tools.through(["model", *digits, *of_model, self.scene], ["view", *digits], project)
 
     def bounds_if_uncertain(self, column, row):
-        """The numbers of the text's `bounds` if zbuf --certify calls the pixel uncertain; None if not, or
-        where bounds are refused."""
+        """The numbers of the text's `bounds` if zbuf --certify calls the pixel uncertain, with the same digits
+        in every stage; None if not, or where bounds are refused."""
         if self.settings.coverage != "center":
             return None
         try:
-            text = self.projected_whole(self.tools.output("model", "--bounds", *EXACT, self.scene))
+            text = self.projected_whole(("--digits", self.settings.digits), "--bounds")
             report = self.zbuf(text, "--certify", "/dev/stderr", "--rows", f"{row}:{row + 1}")
         except ToolFailure:
             return None
