@@ -64,6 +64,7 @@ class Moved:
         if abs(area) < NO_AREA * math.prod(max(map(abs, point)) for point in points):
             return
         is_cut = self.clips_all or not self.is_ortho and min(ws) * 1024 < self.near
+        least = self.near if is_cut else float("-inf") if self.is_ortho else 0
         width, height = self.config.width, self.config.height
         left, bottom, front, rear = map(float, (self.config.left, self.config.bottom, self.config.front,
                                                 self.config.rear))
@@ -77,7 +78,7 @@ class Moved:
                 mean = (a * places[0][2] + b * places[1][2] + c * places[2][2]) / (a + b + c)
                 distance = mean if self.is_ortho else area / (a + b + c)
                 depth = self.depth(distance)
-                if front < depth < rear and distance > (self.near if is_cut else 0):
+                if front < depth < rear and distance > least:
                     yield row, column, distance
 
     def depth(self, distance):
