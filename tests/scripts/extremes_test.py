@@ -20,7 +20,7 @@ MEASURE = SOURCE / "scripts/measure"
 sys.path[:0] = [str(MEASURE), str(SOURCE / "scripts")]
 from lib.running.pipe_tools import Tools  # noqa: E402
 from parts.extremes_measure import (  # noqa: E402
-    ROUNDED, SETTINGS, digits_right, shortened, wrong_without_note)
+    ROUNDED, SETTINGS, digits_right, measured, shortened, wrong_without_note)
 from parts.extremes_plot import name_of  # noqa: E402
 from parts.extremes_report import Results, certainty, promise, short  # noqa: E402
 from parts.extremes_scenes import AXES, QUICK, Case, scene_text  # noqa: E402
@@ -119,18 +119,30 @@ class Truth(unittest.TestCase):
             self.assertEqual(digits_right(path, truth), 0)
 
 
-class WrongDigits(unittest.TestCase):
-    def test_one_is_found_unless_it_is_noted(self):
+def tools_with(folder, tool, change):
+    """Puts the tools into a folder, one of them with its output through a filter."""
+    for name in ("model", "view", "project", "zbuf"):
+        os.symlink(BIN / name, pathlib.Path(folder, name))
+    changed = pathlib.Path(folder, tool)
+    changed.unlink()
+    changed.write_text(f"#!/bin/sh\n'{BIN}/{tool}' \"$@\" | {change}\n")
+    changed.chmod(0o755)
+
+
+class Mistakes(unittest.TestCase):
+    def test_a_wrong_digit_is_found_unless_it_is_noted(self):
         text = scene_text(Case("size", 1.0))
         self.assertEqual(wrong_without_note(Tools(BIN), text, "7"), 0)
         with tempfile.TemporaryDirectory() as folder:
-            for tool in ("model", "view", "project", "zbuf"):
-                os.symlink(BIN / tool, pathlib.Path(folder, tool))
-            view = pathlib.Path(folder, "view")
-            view.unlink()
-            view.write_text(f"#!/bin/sh\n'{BIN}/view' \"$@\" | sed '$!s/3$/4/'\n")
-            view.chmod(0o755)
+            tools_with(folder, "view", "sed '$!s/3$/4/'")
             self.assertEqual(wrong_without_note(Tools(folder), text, "7"), 1)
+
+    def test_wrong_pixels_that_are_called_certain_are_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tools_with(folder, "zbuf", "head -n 5")  # three uncertain ones of the report
+            row = measured((folder, Case("depth", 1e6)))[1]
+        self.assertEqual((row["setting"], row["uncertain_pixels"]), ("default", 3))
+        self.assertEqual(row["wrong_though_certain"], row["wrong_pixels"] - 3)
 
     def test_notes_are_shortened_to_what_they_are_about(self):
         for note, words in (
