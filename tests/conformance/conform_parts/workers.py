@@ -11,6 +11,7 @@ import traceback
 from multiprocessing.connection import Pipe, wait
 
 PATIENCE = 30  # seconds beyond its limit in which a process must answer, and in which the killed must end
+INTERVAL = 0.002  # seconds between two looks at whether the killed have ended
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 1, 4, 36, 38
 LIBC = ctypes.CDLL(None)
 
@@ -50,8 +51,11 @@ def descendants(keep=(), most=sys.maxsize):
 
 def end_all(keep=()):
     """Ends the descendants of this process, also those that have left their parents and their session."""
-    end = time.monotonic() + PATIENCE
+    end, ended = time.monotonic() + PATIENCE, set()
     while (pids := descendants(keep)) and time.monotonic() < end:
+        if ended.issuperset(pids):  # they are killed, and about to end
+            time.sleep(INTERVAL)
+        ended.update(pids)
         for pid in pids:
             with contextlib.suppress(OSError):
                 os.kill(pid, signal.SIGKILL)
