@@ -73,7 +73,7 @@ using Mask = hn::Mask<decltype(kDoubles)>;
 constexpr std::size_t kLanes = hn::MaxLanes(kDoubles), kBlocks = kLanes / 2;
 
 /// Like sixteen_digits in eight_digits.h, for numbers below 10^8, two in each block of sixteen bytes.
-HWY_INLINE auto digits_of(Words eights) {
+PIPELINE_INLINE auto digits_of(Words eights) {
   const auto as_fours = [](auto v) HWY_ATTR { return hn::BitCast(kFours, v); };
   const auto as_pairs = [](auto v) HWY_ATTR { return hn::BitCast(kPairs, v); };
   // x / 10000 for x < 10^8, in 64 bits.
@@ -98,7 +98,7 @@ enum class Rounding {
 
 /// Positive numbers in units of the last decimal; clears those in `good` that it cannot round.
 template <Rounding rounding>
-HWY_INLINE Doubles units_of(Doubles sizes, Doubles scale, Mask& good) {
+PIPELINE_INLINE Doubles units_of(Doubles sizes, Doubles scale, Mask& good) {
   const auto rounder = hn::Set(kDoubles, kWholeRounder);
   const auto scaled = sizes * scale;
   auto units = (scaled + rounder) - rounder;
@@ -129,7 +129,7 @@ class Texts {
  public:
   /// False if a number is too large, not finite or cannot be rounded so.
   template <Rounding rounding>
-  HWY_INLINE bool set(const double* p, double scale) {
+  PIPELINE_INLINE bool set(const double* p, double scale) {
     auto good = hn::Eq(hn::Zero(kDoubles), hn::Zero(kDoubles));
     negative_ = 0;
 #pragma GCC unroll 5
@@ -141,7 +141,7 @@ class Texts {
     return hn::AllTrue(kDoubles, good);
   }
 
-  HWY_INLINE char* write(char* out, const PrintedForm& form, std::size_t number) const {
+  PIPELINE_INLINE char* write(char* out, const PrintedForm& form, std::size_t number) const {
     const std::size_t slot = slot_of(number);
     const auto leading_zero_count = std::countr_zero(filled_[slot] | form.last_whole_digit);
     const auto shuffle = hn::LoadU(kSixteen, form.shuffle.data() + leading_zero_count);
@@ -152,7 +152,7 @@ class Texts {
     return out + form.length - leading_zero_count;
   }
   /// Without zeros at the end, and without a point there.
-  HWY_INLINE char* write_short(char* out, const PrintedForm& form, std::size_t number) const {
+  PIPELINE_INLINE char* write_short(char* out, const PrintedForm& form, std::size_t number) const {
     const unsigned digits = filled_[slot_of(number)] | form.last_whole_digit;
     const int zero_count = std::countl_zero(static_cast<std::uint16_t>(digits));
     return write(out, form, number) - zero_count -
@@ -162,7 +162,7 @@ class Texts {
  private:
   static constexpr std::size_t kSteps = (number_count + kLanes - 1) / kLanes;
 
-  HWY_INLINE void add(std::size_t step, Doubles values, Doubles units) {
+  PIPELINE_INLINE void add(std::size_t step, Doubles values, Doubles units) {
     const auto zero = hn::Zero(kDoubles), one = hn::Set(kDoubles, 1), eight_digits = hn::Set(kDoubles, 1e8);
     // units / 10^8, off by at most one; the exact remainder corrects it.
     const auto quotient = hn::Floor(units * hn::Set(kDoubles, 1e-8));
@@ -177,12 +177,12 @@ class Texts {
     store(2 * step + 1, digits_of(hn::InterleaveUpper(kWords, first, last)));
   }
   /// Of whole numbers from 0 to 2^52.
-  HWY_INLINE static Words word_of(Doubles whole) {
+  PIPELINE_INLINE static Words word_of(Doubles whole) {
     const auto shift = hn::Set(kDoubles, 0x1p52);
     return hn::Xor(hn::BitCast(kWords, whole + shift), hn::BitCast(kWords, shift));
   }
   /// '0' is added to all digits but the first, which is 0 and becomes the point.
-  HWY_INLINE void store(std::size_t part, hn::Vec<decltype(kBytes)> digits) {
+  PIPELINE_INLINE void store(std::size_t part, hn::Vec<decltype(kBytes)> digits) {
     const auto point_and_zeros = hn::LoadDup128(kBytes, kPointAndZeros.data());
     hn::Store(hn::Add(digits, point_and_zeros), kBytes, texts_.data() + 16 * kBlocks * part);
     constexpr hn::RebindToSigned<decltype(kBytes)> kWithSign;
@@ -210,9 +210,9 @@ struct TriangleTexts {
 
 /// Prints a vertex line.
 template <std::size_t group_count, bool may_have_more>
-HWY_INLINE char* write_line(char* out, const PrintedForm& form, const ConstFixedColumns& columns,
-                            std::size_t triangle, std::size_t vertex, const TriangleTexts<group_count>& texts,
-                            bool repeats, LastPrinted& last) {
+PIPELINE_INLINE char* write_line(char* out, const PrintedForm& form, const ConstFixedColumns& columns,
+                                 std::size_t triangle, std::size_t vertex,
+                                 const TriangleTexts<group_count>& texts, bool repeats, LastPrinted& last) {
 #pragma GCC unroll 3
   for (std::size_t group = 0; group < group_count; ++group) {
     if (repeats && group == kRepeatedGroup) {
