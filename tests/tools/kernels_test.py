@@ -8,7 +8,7 @@ import os
 import random
 import unittest
 
-from toolbox import HEADER, HEADERS, SOURCE, ToolTest, run
+from toolbox import HEADER, HEADERS, ToolTest, run
 
 KERNELS = ("scalar", "sse4", "avx2", "avx512")
 DIGITS = ([], *(["--digits", str(decimals)] for decimals in range(18)), ["--digits", "exact"],
@@ -31,7 +31,6 @@ def random_text(count):
 
 class Kernels(ToolTest):
     def assert_same(self, tool, *options, stdin):
-        """The text that every kernel writes."""
         texts = {
             kernel: run(tool, *options, stdin=stdin, env=os.environ | {"PIPELINE_KERNEL": kernel})
             for kernel in KERNELS}
@@ -39,13 +38,6 @@ class Kernels(ToolTest):
             self.assertEqual((done.stderr, done.returncode), (texts["scalar"].stderr, 0))
             self.assertTrue(done.stdout == texts["scalar"].stdout,
                             f"{tool} {options}: {kernel} prints something else")
-        return texts["scalar"].stdout
-
-    def test_every_sample(self):
-        for scene in sorted(SOURCE.glob("samples/*/scene.txt")):
-            stage1 = self.assert_same("model", stdin=scene.read_bytes())
-            stage2 = self.assert_same("view", stdin=stage1)
-            self.assert_same("project", stdin=stage2)
 
     def test_random_texts_with_every_kind_of_digits(self):
         text = random_text(3000)
