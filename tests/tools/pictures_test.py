@@ -106,13 +106,6 @@ class Png(Pictures):
         self.assertTrue(data.startswith(header))
         self.assertEqual(read_png("depth.png"), (COLUMNS, ROWS, 16, data[len(header):]))
 
-    def test_a_full_disk_is_told(self):
-        pathlib.Path("full.png").symlink_to("/dev/full")
-        for option in ("--image", "--depth-image"):
-            done = run("zbuf", "config.txt", option, "full.png", stdin=wall(0))
-            self.assertEqual((done.returncode, done.stderr),
-                             (1, b"zbuf: cannot write full.png: No space left on device\n"))
-
 
 class DepthImages(Pictures):
     def brightness(self, stage3, note=""):
