@@ -7,7 +7,7 @@
 namespace pipeline {
 namespace {
 
-constexpr std::size_t kBlockSize = std::size_t{1} << 16;
+constexpr std::size_t kBufferSize = std::size_t{1} << 16;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ NetpbmWriter::NetpbmWriter(int descriptor, const std::string& path, PixelBytes p
 
 void NetpbmWriter::write_row(std::span<const unsigned char> bytes) {
   buffered_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (buffered_.size() >= kBlockSize) finish();
+  if (buffered_.size() >= kBufferSize) finish();
 }
 
 void NetpbmWriter::finish() {

@@ -55,7 +55,7 @@ TriangleReader::TriangleReader(TextReader& text, const AttributeSet& columns, st
 
 bool TriangleReader::read_buffered(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
-  constexpr int kPause = 8;
+  constexpr int kShortPause = 8;
   if (pause_ > 0) {
     --pause_;
     return false;
@@ -73,7 +73,7 @@ bool TriangleReader::read_buffered(TriangleBatch& batch) {
     std::copy_n(marks.begin(), part.triangle_count, batch.decimal_marks.begin() + old_size);
   // A triangle that ends beyond the buffer is a miss, too, but a single one.
   miss_count_ = part.triangle_count > 0 ? 0 : miss_count_ + 1;
-  if (miss_count_ > 1) pause_ = kPause;
+  if (miss_count_ > 1) pause_ = kShortPause;
   return part.triangle_count > 0;
 }
 

@@ -10,9 +10,9 @@
 namespace pipeline {
 namespace {
 
-constexpr std::size_t kBlockSize = std::size_t{1} << 16;
+constexpr std::size_t kFlushedSize = std::size_t{1} << 16;
 // Texts from this length on are written without being copied.
-constexpr std::size_t kLongText = kBlockSize / 2;
+constexpr std::size_t kLongText = kFlushedSize / 2;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void write_all(int descriptor, std::string_view bytes, const std::string& path) 
 }
 
 TextWriter::TextWriter(int descriptor, std::string file)
-    : descriptor_(descriptor), file_(std::move(file)), buffer_(2 * kBlockSize) {}
+    : descriptor_(descriptor), file_(std::move(file)), buffer_(2 * kFlushedSize) {}
 
 void TextWriter::append(std::string_view text) {
   if (descriptor_ != kNowhere && text.size() >= kLongText) {
@@ -45,7 +45,7 @@ void TextWriter::append(std::string_view text) {
 }
 
 char* TextWriter::reserve(std::size_t size) {
-  if (end_ >= kBlockSize) flush();
+  if (end_ >= kFlushedSize) flush();
   if (buffer_.size() - end_ < size) buffer_.resize(end_ + size);
   return buffer_.data() + end_;
 }
@@ -63,7 +63,7 @@ void TextWriter::flush() {
 
 void TextWriter::write(std::string_view text) {
   while (!text.empty()) {
-    const std::string_view block = text.substr(0, kBlockSize);
+    const std::string_view block = text.substr(0, kFlushedSize);
     write_all(descriptor_, block, file_);
     text.remove_prefix(block.size());
     bytes_written_ += block.size();
