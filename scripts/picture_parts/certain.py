@@ -12,11 +12,12 @@ import textwrap
 
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import read_input
-from lib.rim.output_file import expect_writable, write_file
+from lib.rim.output_file import expect_writable, own_descriptor, target_of, write_file
 from lib.running.pipe_tools import ToolFailure
 from lib.showing.pictures import size_of, with_pixels_of
 
 DIGITS = "12"  # of the first run; 7 take a tenth less, and leave pixels of most large pictures uncertain
+OF_COLORS = "significant digits"  # a note on what bounds do not tell of
 MOST_LISTED = 100
 FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)\Z", re.DOTALL)
 
@@ -79,6 +80,7 @@ class CertainPicture:
     def __init__(self, options, tools, commands, draw):
         self.options, self.tools, self.commands, self.draw = options, tools, commands, draw
         self.kind = next(filter(None, FORMAT.match(options.output).groups()))
+        self.state = state_of(options)
 
     def with_options(self, **changed):
         return argparse.Namespace(**{**vars(self.options), **changed})
@@ -91,6 +93,7 @@ class CertainPicture:
             notes = self.draw(self.with_options(
                 output=image, bounds=["--bounds"], digits=["--digits", digits],
                 certify=["--certify", report, *["--triangle-array", owners] * is_last]))
+            self.expect_unchanged()
             picture = content(image)
             return Run(digits, notes, Certainty(report, size_of(picture)[0]), picture,
                        numbers(owners, size_of(picture)) if is_last else None)
@@ -102,10 +105,16 @@ class CertainPicture:
         except ToolFailure as failure:
             first.notes.append(f"picture: note: no more digits than {first.digits}: {failure}")
             return first
+        run.notes += [note for note in first.notes if OF_COLORS in note]
         if first.certainty.is_complete:
             run.picture = with_pixels_of(first.picture, [(run.picture, first.certainty.places)])
             run.certainty.leave(first.certainty.places)
         return run
+
+    def expect_unchanged(self):
+        if state_of(self.options) != self.state:
+            raise CommandFailure(f"{shown(self.options.model)} or its config has changed while it was drawn: "
+                                 "draw it again")
 
     def scene(self):
         """The bytes that model reads."""
@@ -117,8 +126,9 @@ class CertainPicture:
         return self.tools.output(*first, stdin=self.options.data or b"")
 
     def config(self):
-        config = self.options.config
-        return content(config).decode() if config else self.options.size.replace("x", " ")
+        if self.options.config:
+            return content(self.options.config).decode("utf-8-sig", "replace")
+        return self.options.size.replace("x", " ")
 
     def draw_text(self, text):
         """The picture file of a text of project, and the numbers of the triangles seen."""
@@ -145,10 +155,9 @@ def numbers(path, size):
 def draw_for_certain(options, *tools_and_calls):
     """Draws the picture, says how much of it is certain, and gives the notes of the last run. The rest are
     arguments of CertainPicture."""
-    is_stream = options.image == "-"
+    is_stream = options.image == "-" or own_descriptor(target_of(options.image)) == 1
     if not is_stream:
         expect_writable(options.image)
-    state = state_of(options)
     drawing = CertainPicture(options, *tools_and_calls)
     run, tried = drawing.run(DIGITS), ""
     if run.certainty.uncertain_count:
@@ -156,19 +165,16 @@ def draw_for_certain(options, *tools_and_calls):
     if run.certainty.uncertain_count:
         from picture_parts.decided import decide  # which few pictures need
         tried = decide(drawing, run)
-    if state_of(options) != state:
-        raise CommandFailure(f"{shown(options.model)} has changed while it was drawn: draw it again")
     write_file("/dev/stdout" if is_stream else options.image, run.picture)
     print(told(run.certainty, size_of(run.picture)[0], tried), file=sys.stderr if is_stream else sys.stdout)
     return run.notes
 
 
 def state_of(options):
-    """What changes if another writes to the model's file."""
-    if options.data is not None:
-        return None
-    status = os.stat(options.model)
-    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
+    """What changes if another writes to the model's file, or to the config's."""
+    paths = [options.model] * (options.data is None) + [options.config] * (options.config is not None)
+    return [(status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns)
+            for status in map(os.stat, paths)]
 
 
 def told(certainty, width, tried):

@@ -16,10 +16,16 @@ CUT_WITHIN = 1024  # parts of the distance of the near plane: what is as near to
 
 
 FEW_BITS, MOST_BITS = 256, 4096  # the latter are slow, and tell more only of ties
+MOST_STEPS = 5_000_000  # of some microseconds
+STEPS_OF_A_MATRIX, STEPS_OF_A_CANDIDATE, STEPS_OF_A_TRIANGLE = 300, 100, 10
+
+
+class TooMuch(Exception):
+    """More than MOST_STEPS."""
 
 
 def owners(scene, window, pixels):
-    """{(column, row): the number of the triangle that is seen there, or None} of the pixels that MOST_BITS
+    """{(column, row): the (number, SceneTriangle) that is seen there, or None} of the pixels that MOST_BITS
     decide; `scene` is one that `model` has accepted, as text."""
     found, left = {}, None
     for bits in (FEW_BITS, MOST_BITS):
@@ -29,7 +35,7 @@ def owners(scene, window, pixels):
         for pixel, triangles in list(left.items()):
             left[pixel], is_decided = exact.seen(pixel, triangles)
             if is_decided:
-                found[pixel] = next((number for number, _ in left.pop(pixel)), None)
+                found[pixel] = next(iter(left.pop(pixel)), None)
     return found
 
 
@@ -56,13 +62,13 @@ class ExactPixels:
 
     def __init__(self, scene, window):
         self.scene, self.window = scene, window
-        eye, look, up, (kind, *words) = camera(scene)
+        *_, (kind, *words) = camera(scene)
         self.projection = Projection(kind, words, number=exactly)
         matrix, self.scales, self.x_per_y = unscaled(self.projection)
-        self.from_world = product(matrix, view_matrix(*(
-            tuple(map(exactly, words)) for words in (eye, look, up))))
+        self.from_world = product(matrix, to_view_space(scene))
         self.edges = {}  # by a triangle's matrix and points
-        self.matrices = {}  # by the lines of the transforms: to clip space, unscaled, and in doubles
+        self.matrices = {}  # by the line of the last transform: to clip space, unscaled, and in doubles
+        self.steps = 0
 
     def candidates(self, pixels):
         """{pixel: [(number, SceneTriangle), ...]} of those that doubles cannot tell to be elsewhere."""
@@ -73,21 +79,39 @@ class ExactPixels:
         xs = {column: float(grid.x_of(column)) for column, _ in pixels}
         ys = {row: float(grid.y_of(row)) for row in rows}
         for number, triangle in enumerate(find_triangles(self.scene)):
+            self.count(STEPS_OF_A_TRIANGLE)
             outline = Outline(self.matrices_of(triangle)[1], triangle.points, self.window.grid_in_doubles)
             for row in rows[slice(*outline.range_of(rows, 1))]:
                 columns = columns_of[row]
                 for column in columns[slice(*outline.range_of(columns, 0))]:
+                    self.count(1)
                     if outline.may_cover(xs[column], ys[row]):
+                        self.count(STEPS_OF_A_CANDIDATE)
                         found[column, row].append((number, triangle))
         return found
 
+    def count(self, steps):
+        self.steps += steps
+        if self.steps > MOST_STEPS:
+            raise TooMuch
+
     def matrices_of(self, triangle):
-        key = tuple(transform.line for transform in triangle.transforms)
-        if key not in self.matrices:
-            matrix = product(self.from_world, triangle.matrix(exactly))
-            self.matrices[key] = matrix, [[in_doubles(x * scale) for x in matrix[i]]
-                                          for i, scale in zip((0, 1, 3), (*self.scales, 1))]
-        return self.matrices[key]
+        """Of each chain of transforms, those that the last triangles had need not be multiplied again."""
+        missing, in_force = [], triangle.in_force
+        while line_of(in_force) not in self.matrices and in_force:
+            missing.append(in_force)
+            in_force = in_force[1]
+        if in_force is None and None not in self.matrices:
+            self.matrices[None] = self.with_doubles(self.from_world)
+        for transform in reversed(missing):
+            self.count(STEPS_OF_A_MATRIX)
+            matrix = product(self.matrices[line_of(transform[1])][0], transform[0].matrix(exactly))
+            self.matrices[line_of(transform)] = self.with_doubles(matrix)
+        return self.matrices[line_of(triangle.in_force)]
+
+    def with_doubles(self, matrix):
+        return matrix, [[in_doubles(x * scale) for x in matrix[i]]
+                        for i, scale in zip((0, 1, 3), (*self.scales, 1))]
 
     def seen(self, pixel, triangles):
         """Those of the triangles that may be seen by Z5 to Z8, and whether this is decided: one or none."""
@@ -124,7 +148,7 @@ class ExactPixels:
         if it has a positive area; and this area. All are multiplied so that where x and y have one
         irrational scale, it stands in few of them."""
         matrix, _ = self.matrices_of(triangle)
-        key = id(matrix), *map(tuple, triangle.points)
+        key = line_of(triangle.in_force), *map(tuple, triangle.points)
         if key not in self.edges:
             clip = [applied(matrix, [exactly(word) for word in words]) for words in triangle.points]
             a, b, c = ((x, y, w) for x, y, _, w in clip)
@@ -147,6 +171,10 @@ class ExactPixels:
         return not is_cut
 
 
+def to_view_space(scene):
+    return view_matrix(*(tuple(map(exactly, words)) for words in camera(scene)[:3]))
+
+
 def unscaled(projection):
     """The matrix to clip space, without the scales of x and y if they may be irrational; these; and the first
     by the second."""
@@ -166,12 +194,16 @@ def is_owned(edge, side, area_sign):
     return side > 0 or side == 0 and (step_right.sign * area_sign or -step_up.sign * area_sign) > 0
 
 
+def line_of(in_force):
+    return in_force and in_force[0].line
+
+
 def in_doubles(x):
     """A double near x, and its distance from it, with what a product with it loses."""
     x = ball(x)
     double = float(x)
     radius = float(Ball.around(x.radius, 0, x.exponent)) if x.exact is None else 0
-    return double, ROUNDED * abs(double) + 2 * radius
+    return double, ROUNDED * abs(double) + 2 * radius + math.ulp(0)
 
 
 class Outline:

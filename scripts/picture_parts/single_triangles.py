@@ -1,40 +1,53 @@
 """Draws single triangles of a scene, also at pixels whose centers rounding has moved across their edges."""
+from lib.maths.balls import exactly
+from lib.maths.matrices import applied, product
 from lib.running.pipe_tools import ToolFailure
+from picture_parts.exact_pixels import to_view_space
 
+NOTHING = -1  # where no triangle is seen, as zbuf has it
 EXACT = ("--digits", "exact")
-GROWTHS = (1e-9, 1e-6, 1e-3)  # parts of a triangle; the least is taken by which it covers a center
+NUMBERS = tuple("-0123456789")  # which begin with these
+GROWTHS = (0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3)  # parts of it; the least is taken by which it covers a center
 
 
 class SingleTriangles:
     def __init__(self, tools, scene, draw):
-        """`scene` are bytes that model takes; `draw` makes a picture file, and the numbers of the triangles
+        """`scene` is text that model takes; `draw` makes a picture file, and the numbers of the triangles
         that its pixels show, of a text of project."""
         self.tools, self.draw = tools, draw
-        lines = tools.output("model", *EXACT, stdin=scene).decode().split("\n")
+        self.to_view_space = to_view_space(scene)
+        data = scene.encode(errors="surrogateescape")
+        lines = tools.output("model", *EXACT, stdin=data).decode().split("\n")
         begin = next((i for i, line in enumerate(lines) if not line[:1].isalpha()), len(lines))
         self.header, self.body = lines[:begin], lines[begin:]
 
-    def drawn(self, number, places):
+    def drawn(self, number, triangle, places):
         """Pairs of a picture file that shows triangle `number` alone, and those of the places that are drawn
-        there. Without a number it shows none, and all places."""
-        text = self.projected(number)
+        there. If it is NOTHING, these are all."""
         for growth in GROWTHS:
             try:
-                picture, owners = self.draw(grown(text, growth).encode())
-            except ToolFailure:  # of a coordinate that has become too large
+                picture, owners = self.draw(grown(self.projected(number, triangle), growth).encode())
+            except ToolFailure:  # of a coordinate that is too large
                 return
-            found = {place for place in places if number is None or owners[place] == number}
+            found = {place for place in places if owners[place] == number}
             yield picture, found
             places = places - found
             if not places:
                 return
 
-    def projected(self, number):
-        """The text of project of this triangle alone; that of model has four lines for each."""
-        lines = self.header if number is None else [
+    def projected(self, number, triangle):
+        """The text of project of this triangle alone, without what rounding before has done to its position.
+        That of model has four lines for each."""
+        lines = self.header if number == NOTHING else [
             *self.header, f"triangle {number}", *self.body[4 * number:4 * number + 4]]
-        return self.tools.through(["view", *EXACT], ["project", *EXACT],
-                                  stdin="\n".join([*lines, ""]).encode()).decode()
+        text = self.tools.output("view", *EXACT, stdin="\n".join([*lines, ""]).encode()).decode()
+        lines = text.split("\n")
+        matrix = triangle and product(self.to_view_space, triangle.matrix(exactly))
+        corners = [at for at, line in enumerate(lines) if line[:1] in NUMBERS]
+        for at, words in zip(corners, triangle.points if triangle else ()):
+            p = applied(matrix, [exactly(word) for word in words])
+            lines[at] = " ".join([*(repr(float(x)) for x in p[:3]), *lines[at].split()[3:]])
+        return self.tools.output("project", *EXACT, stdin="\n".join(lines).encode()).decode()
 
 
 def grown(text, growth):
@@ -43,11 +56,9 @@ def grown(text, growth):
     for at, line in enumerate(lines):
         if line == "clipped":
             passed_over = 3
-        elif line[:1] not in ("", *"-0123456789"):
-            continue
-        elif line and passed_over:
+        elif line[:1] in NUMBERS and passed_over:
             passed_over -= 1
-        elif line:
+        elif line[:1] in NUMBERS:
             corners.append(at)
             if len(corners) == 3:
                 grow(lines, corners, growth)

@@ -82,6 +82,7 @@ class CertainPictures(unittest.TestCase):
         pathlib.Path("config.txt").write_text(config)
         done = self.picture("scene.txt", "config.txt", "--certain", "-o", output, **settings)
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.told = done.stdout.replace("\n", " ")
         told, _, pixels = done.stdout.partition("\n")
         count, total = re.fullmatch("([0-9,]+) of ([0-9,]+) pixels are what exact arithmetic shows",
                                     told).groups()
@@ -131,7 +132,7 @@ class CertainPictures(unittest.TestCase):
 
     def test_no_pixel_is_wrong_at_the_extremes(self):
         """Those of docs/extremes.md; at the last of them, no more than 12 digits are taken."""
-        for case in (Case("distance", 1e12), Case("depth", 1e12), Case("size", 1e-12),
+        for case in (Case("distance", 1e13), Case("depth", 1e12), Case("size", 1e-12),
                      Case("angle", 179.999), Case("angle", 1e-9)):
             text = scene_text(case)
             marks = true_owners(true_vertices(text), SIZE)
@@ -180,6 +181,44 @@ class CertainPictures(unittest.TestCase):
             [(200, 50, 0), (105, 150, 0)], (110, 60, 0), set()))
         self.assertEqual(drawn[0][:2], [(0, 0, 0)] * 2)
         self.assertEqual({found[2][0], *found[2], *(row[2] for row in found)}, {(0, 0, 0)})
+
+    def test_no_triangle_is_lost(self):
+        """On the middle of a grid whose double is not 0; where doubles overflow, and where they are all
+        error; behind a BOM, and with a comment that is not UTF-8."""
+        left_half = triangle("0 1 0", "0 -1 0", "1 0 0")
+        for text, size in ((colored([*CAMERA, left_half]), 7),
+                           (colored([*CAMERA, "rotate 30 0 0 1", "scale 5e-324 5e-324 1",
+                                     triangle("1e308 1e308 0", "1e308 -1e308 0", "-1e308 0 0")]), 8),
+                           ("\ufeff" + colored(["0 0 5", *CAMERA[1:3], "60 1 1 9", left_half]), 7)):
+            pathlib.Path("config.txt").write_bytes(b"%d %d # \xe9\n" % (size, size))
+            pathlib.Path("scene.txt").write_text(text)
+            done = self.picture("scene.txt", "config.txt", "--certain", "-o", "out.ppm")
+            true = exact_picture.Exact(text.encode(), "auto").picture(b"%d %d\n" % (size, size))
+            self.assertEqual((done.stdout, done.stderr), (
+                f"{size**2} of {size**2} pixels are what exact arithmetic shows\n", ""))
+            self.assertEqual(self.colors("out.ppm"), [list(map(color_of, row)) for row in true])
+
+    def test_too_much_for_the_exact_program_is_told(self):
+        walls = [triangle("-.9 -.7 0", ".9 -.7 0", ".1 .9 0")] * 5000
+        _, listed, _ = self.certain("\n".join([*CAMERA, "color 9 9 9", *walls, "end\n"]), CONFIG)
+        self.assertGreater(len(listed), 10)
+        self.assertIn("with all digits (too much for the exact program), and drawn by the rules", self.told)
+
+    def test_what_changes_meanwhile_is_refused(self):
+        pathlib.Path("tools").mkdir()
+        for tool in ("model", "view", "project"):
+            os.symlink(BIN / tool, f"tools/{tool}")
+        pathlib.Path("tools/zbuf").write_text(
+            f"#!/bin/sh\necho >> $(cat changed)\nexec '{BIN}/zbuf' \"$@\"\n")
+        pathlib.Path("tools/zbuf").chmod(0o755)
+        pathlib.Path("scene.txt").write_text(colored([*CAMERA, CENTERED]))
+        pathlib.Path("config.txt").write_text(CONFIG)
+        for changed in ("scene.txt", "config.txt"):
+            pathlib.Path("changed").write_text(changed)
+            done = self.picture("scene.txt", "config.txt", "--certain", "-o", "out.ppm", folder="tools")
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (
+                1, "", "picture: scene.txt or its config has changed while it was drawn: draw it again\n"))
+            self.assertFalse(os.path.exists("out.ppm"))
 
     def test_what_stays_undecided_is_listed(self):
         """After a turn, no bits tell that an edge lies on the middle column, but for its end at the origin.

@@ -130,7 +130,9 @@ def exactly(word):
 
 @exact.trimmed.register
 def _(x: Ball):
-    return x
+    """Not exact any more, if its fraction has grown very long."""
+    length = x.exact and max(x.exact.numerator.bit_length(), x.exact.denominator.bit_length())
+    return x.rounded() if length and length > 4 * Ball.bits else x
 
 
 @exact.root.register
@@ -150,7 +152,8 @@ def _(degrees: Ball):
     """By the series of exp(i x), in whole numbers of units; of exact degrees."""
     if not degrees.exact:
         return Ball(0), Ball(1)
-    bits = Ball.bits + GUARD_BITS
+    small = max(0, degrees.exact.denominator.bit_length() - degrees.exact.numerator.bit_length())
+    bits = Ball.bits + GUARD_BITS + small
     x = round(degrees.exact * pi(bits) / 180)
     sums, term, k = [0] * 4, 1 << bits, 0  # of the terms in 1, i, -1, -i
     while term:
@@ -161,7 +164,7 @@ def _(degrees: Ball):
                  for total in (sums[1] - sums[3], sums[0] - sums[2]))
 
 
-@functools.cache
+@functools.lru_cache(16)
 def pi(bits):
     """In units of 2**-bits: 16 arctan(1/5) - 4 arctan(1/239) (Machin, 1706)."""
     def arctan_of_inverse(n):

@@ -27,7 +27,12 @@ class SceneTriangle:
     line: int
     points: list      # the x, y and z of three vertices, as written
     columns: list     # how many numbers each vertex has besides
-    transforms: list  # of Command, as they stand in the scene
+    in_force: object  # the last transform and those before it: (Command, (Command, ...)), or None
+
+    @property
+    def transforms(self):
+        """Of Command, as they stand in the scene."""
+        return listed(self.in_force)
 
     def matrix(self, number=double):
         """The product of the transforms: each is multiplied from the right, so that the last one is applied
@@ -64,8 +69,7 @@ def commands(text):
 
 def find_triangles(text):
     """Every SceneTriangle, in order."""
-    in_force, saved = None, [
-    ]  # in_force is the last transform and those before it: (command, (command, ...))
+    in_force, saved = None, []
     for command in commands(text):
         if command.keyword in TRANSFORMS:
             in_force = (command, in_force)
@@ -76,7 +80,7 @@ def find_triangles(text):
         elif command.keyword == "triangle":
             lines = command.arguments
             yield SceneTriangle(command.line, [words[:3] for words in lines],
-                                len(lines[0]) - 3, listed(in_force))
+                                len(lines[0]) - 3, in_force)
 
 
 def find_triangle(text, number):
