@@ -26,14 +26,15 @@ const char* read_three(const char* p, char separator, Vec3& numbers, unsigned& m
                                                     DecimalMarks& marks) {
   const std::size_t group_count = columns.group_count();
   for (std::size_t group = 0; group < group_count; ++group) {
-    const bool is_last = group + 1 == group_count;
+    const auto separators = columns.separators_after(group);
     unsigned group_marks = 0;
-    const bool ends_line = is_last && columns.materials.empty() && !columns.has_single(group);
-    p = read_three(p, ends_line ? '\n' : ' ', columns.groups[group][triangle][vertex], group_marks);
+    p = read_three(p, separators[0], columns.groups[group][triangle][vertex], group_marks);
     if (p == nullptr) return nullptr;
     if (group == 0) marks = static_cast<DecimalMarks>(marks | group_marks << (3 * vertex));
-    if ((p = read_singles(p, columns, group, is_last, triangle, vertex, read_single)) == nullptr)
-      return nullptr;
+    for (std::size_t i = 0; i < kMaxSingles; ++i)
+      if (const char separator = separators[1 + i]; separator != 0)
+        if ((p = read_single(p, separator, columns.singles[i].numbers[triangle][vertex])) == nullptr)
+          return nullptr;
   }
   return columns.materials.empty() ? p : read_material(p, vertex, columns.materials[triangle]);
 }

@@ -96,6 +96,50 @@ HWY_INLINE hn::Vec<decltype(kPairs)> join_digits(hn::Vec<decltype(kSixteen)> dig
 #endif
 }
 
+/// A bit for each of sixteen bytes.
+template <typename Mask>
+HWY_INLINE unsigned bits_of(Mask mask) {
+  std::array<std::uint8_t, 8> bytes;
+  hn::StoreMaskBits(kSixteen, mask, bytes.data());
+  std::uint16_t bits = 0;
+  std::memcpy(&bits, bytes.data(), sizeof bits);
+  return bits;
+}
+
+/// The index of the first byte with a bit, or 16.
+HWY_INLINE std::size_t first_of(unsigned bits) {
+  return static_cast<std::size_t>(std::countr_zero(bits | 0x10000u));
+}
+
+/// The nearest double to a number of sixteen digits.
+HWY_INLINE double number_of(hn::Vec<decltype(kSixteen)> digits, double units_per_one, bool is_negative) {
+  const auto fours = hn::DemoteTo(hn::FixedTag<std::uint16_t, 4>(), join(kFours, join_digits(digits), 100));
+  const auto eights = hn::BitCast(hn::FixedTag<std::uint64_t, 1>(), join(kEights, fours, 10000));
+  const std::uint64_t both = hn::GetLane(eights);
+  const std::uint64_t units = (both & 0xffffffff) * 100'000'000 + (both >> 32);
+  // Below 2^53 the conversion is exact, so the quotient is the nearest double to the decimal.
+  const double magnitude = static_cast<double>(static_cast<std::int64_t>(units)) / units_per_one;
+  const std::uint64_t sign = std::uint64_t{is_negative} << 63;
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign);
+}
+
+/// Reads a single number and the separator after it; null if the form differs. Of those with at most eight
+/// digits before the point, and fifteen in all, any count of decimals takes the same time.
+HWY_INLINE const char* read_short(const char* p, char separator, double& value) {
+  const bool is_negative = *p == '-';
+  const char* const first = p + (is_negative ? 1 : 0);
+  const auto less_zeros =
+      hn::Sub(hn::LoadU(kSixteen, reinterpret_cast<const std::uint8_t*>(first)), hn::Set(kSixteen, '0'));
+  const unsigned others = bits_of(hn::Gt(less_zeros, hn::Set(kSixteen, 9)));
+  const std::size_t count = first_of(others), end = first_of(others & (others - 1));
+  if (count - 1 >= 8 || first[count] != '.' || first[end] != separator)
+    return read_single(p, separator, value);
+  const std::size_t decimals = end - count - 1;
+  const auto shuffle = hn::Load(kSixteen, kDigitShuffles[decimals].rows[count].data());
+  value = number_of(hn::TableLookupBytesOr0(less_zeros, shuffle), kPowersOfTen[decimals], is_negative);
+  return first + end + 1;
+}
+
 template <std::size_t group_count, bool may_have_more>
 class ColumnReader {
  public:
@@ -105,6 +149,8 @@ class ColumnReader {
         }(std::make_index_sequence<group_count>())),
         columns_(columns) {
     have_one_digit_.fill(true);
+    for (std::size_t group = 0; group < group_count; ++group)
+      separators_[group] = columns.separators_after(group);
   }
 
   /// Reads the vertex lines of a triangle; null if the form differs.
@@ -117,9 +163,8 @@ class ColumnReader {
 #pragma GCC unroll 3
       for (std::size_t group = 0; group < group_count; ++group) {
         Vec3& numbers = columns_.groups[group][triangle][vertex];
-        const bool is_last = group + 1 == group_count;
-        const bool has_single = may_have_more && columns_.has_single(group);
-        const bool ends_line = is_last && !has_single && !(may_have_more && !columns_.materials.empty());
+        const char end_of_groups = group + 1 == group_count ? '\n' : ' ';
+        const char separator = may_have_more ? separators_[group][0] : end_of_groups;
         if (group == kRepeatedGroup && last_.is_at(p)) {
           numbers = last_.numbers();
           p += last_.length();
@@ -127,89 +172,61 @@ class ColumnReader {
           const char* const begin = p;
           p = read_number(p, group, ' ', numbers.x);
           p = read_number(p, group, ' ', numbers.y);
-          p = read_number(p, group, ends_line ? '\n' : ' ', numbers.z);
+          p = read_number(p, group, separator, numbers.z);
           if (group == kRepeatedGroup) last_.set(begin, p, numbers);
         }
-        const auto read = [&](const char* at, char separator, double& value)
-                              HWY_ATTR { return read_like_position(at, separator, value); };
-        if (has_single && (p = read_singles(p, columns_, group, is_last, triangle, vertex, read)) == nullptr)
-          return nullptr;
+#pragma GCC unroll 2
+        for (std::size_t i = 0; may_have_more && i < kMaxSingles; ++i)
+          if (const char after = separators_[group][1 + i]; after != 0)
+            if ((p = read_short(p, after, columns_.singles[i].numbers[triangle][vertex])) == nullptr)
+              return nullptr;
       }
       if (may_have_more && !columns_.materials.empty() &&
           (p = read_material(p, vertex, columns_.materials[triangle])) == nullptr)
         return nullptr;
     }
     bool have_points = true;
-    for (std::size_t group = 0; group < counts_.size(); ++group) {
+    for (std::size_t group = 0; group < group_count; ++group) {
       have_one_digit_[group] = counts_[group] == 1;
       have_points &= counts_[group] < 16;
     }
-    const bool have_digits = are_digits();
+    const bool have_digits = hn::AllTrue(kSixteen, hn::Eq(no_digits_, hn::Zero(kSixteen)));
     return is_in_place_ && have_points && have_digits ? p : nullptr;
   }
 
  private:
-  [[nodiscard]] HWY_INLINE bool are_digits() const {
-    return hn::AllTrue(kSixteen, hn::Eq(no_digits_, hn::Zero(kSixteen)));
-  }
-
-  /// Reads a single number, which mostly has as many decimals as the position, and the separator after it.
-  HWY_INLINE const char* read_like_position(const char* p, char separator, double& value) {
-    if (!is_in_place_) return nullptr;
-    const auto no_digits = no_digits_;
-    const std::size_t count = counts_.back();
-    const char* const end = read_number(p, group_count, separator, value);
-    if (is_in_place_ && are_digits()) return end;
-    is_in_place_ = true;
-    no_digits_ = no_digits;
-    counts_.back() = count;
-    return read_single(p, separator, value);
-  }
-
   /// Reads one number and the separator after it.
   HWY_INLINE const char* read_number(const char* p, std::size_t group, char separator, double& value) {
-    const ReadForm& form = forms_[group % group_count];
+    const ReadForm& form = forms_[group];
     const bool is_negative = *p == '-';
     p += is_negative ? 1 : 0;
     const char point = form.end > 0 ? '.' : separator;
     const auto text = hn::LoadU(kSixteen, reinterpret_cast<const std::uint8_t*>(p));
     std::size_t count = 1;
     if (!have_one_digit_[group] || p[1] != point) {
-      std::array<std::uint8_t, 8> bytes;
-      hn::StoreMaskBits(kSixteen, hn::Eq(text, hn::Set(kSixteen, static_cast<std::uint8_t>(point))),
-                        bytes.data());
-      std::uint16_t points = 0;
-      std::memcpy(&points, bytes.data(), sizeof points);
-      count = static_cast<std::size_t>(std::countr_zero(points | 0x10000u));
+      count = first_of(bits_of(hn::Eq(text, hn::Set(kSixteen, static_cast<std::uint8_t>(point)))));
       counts_[group] |= count;
     }
     const auto shuffle = hn::Load(kSixteen, form.shuffles.rows[count].data());
     const auto digits = hn::TableLookupBytesOr0(hn::Sub(text, hn::Set(kSixteen, '0')), shuffle);
     no_digits_ = hn::Or(no_digits_, hn::SaturatedSub(digits, hn::Set(kSixteen, 9)));
     is_in_place_ &= p[count + form.end] == separator;
-    const auto fours = hn::DemoteTo(hn::FixedTag<std::uint16_t, 4>(), join(kFours, join_digits(digits), 100));
-    const auto eights = hn::BitCast(hn::FixedTag<std::uint64_t, 1>(), join(kEights, fours, 10000));
-    const std::uint64_t both = hn::GetLane(eights);
-    const std::uint64_t units = (both & 0xffffffff) * 100'000'000 + (both >> 32);
-    // Below 2^53 the conversion is exact, so the quotient is the nearest double to the decimal.
-    const double magnitude = static_cast<double>(static_cast<std::int64_t>(units)) / form.units_per_one;
-    const std::uint64_t sign = std::uint64_t{is_negative} << 63;
-    value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign);
+    value = number_of(digits, form.units_per_one, is_negative);
     return p + count + form.end + 1;
   }
 
   const std::array<ReadForm, group_count> forms_;  // of the groups
   const FixedColumns& columns_;
+  std::array<std::array<char, 1 + kMaxSingles>, group_count> separators_;
   LastRead last_;
   /// Whether the numbers of each group have one digit before the point. Where the last ones had, a branch
   /// lets the processor go ahead to the next number, whose beginning would otherwise depend on this one;
   /// otherwise the branch is mispredicted often.
-  std::array<bool, group_count + may_have_more> have_one_digit_;  // last that of single numbers
+  std::array<bool, group_count> have_one_digit_;
   // In the triangle being read:
-  hn::Vec<decltype(kSixteen)> no_digits_;  // above 0 where a digit should be
-  bool is_in_place_;                       // every separator
-  /// Of digits before the point, in each group and in single numbers: the bits of all.
-  std::array<std::size_t, group_count + may_have_more> counts_;
+  hn::Vec<decltype(kSixteen)> no_digits_;        // above 0 where a digit should be
+  bool is_in_place_;                             // every separator
+  std::array<std::size_t, group_count> counts_;  // of digits before the point: the bits of all
 };
 
 template <std::size_t group_count, bool may_have_more>

@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/numbers/vec.h"
@@ -97,6 +98,15 @@ struct FixedColumnsOf {
     for (std::size_t i = first; i < kMaxSingles; ++i)
       if (group <= kLastGroupBefore[i] && singles[i].after == group) return true;
     return false;
+  }
+  /// What follows a group, and each single number after it, 0 for those that do not come after it.
+  [[nodiscard]] std::array<char, 1 + kMaxSingles> separators_after(std::size_t group) const {
+    std::array<char, 1 + kMaxSingles> separators{};
+    char next = group + 1 == group_count() && materials.empty() ? '\n' : ' ';
+    for (std::size_t i = kMaxSingles; i-- > 0;)
+      if (singles[i].after == group) separators[1 + i] = std::exchange(next, ' ');
+    separators[0] = next;
+    return separators;
   }
   /// Whether there are groups alone.
   [[nodiscard]] bool has_groups_alone() const {

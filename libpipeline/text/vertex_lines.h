@@ -108,20 +108,6 @@ inline const char* read_single(const char* p, char separator, double& value) {
   return p == nullptr || *p != separator ? nullptr : p + 1;
 }
 
-/// Reads the single numbers after a group, and the separators after them, by `read`, which is like
-/// read_single; null if the form differs.
-template <typename Read>
-const char* read_singles(const char* p, const FixedColumns& columns, std::size_t group, bool is_last_group,
-                         std::size_t triangle, std::size_t vertex, const Read& read) {
-  for (std::size_t i = 0; i < kMaxSingles; ++i) {
-    if (columns.singles[i].after != group) continue;
-    const bool ends_line = is_last_group && columns.materials.empty() && !columns.has_single(group, i + 1);
-    p = read(p, ends_line ? '\n' : ' ', columns.singles[i].numbers[triangle][vertex]);
-    if (p == nullptr) return nullptr;
-  }
-  return p;
-}
-
 /// Reads the material and the end of a line; null if the form differs, or from the triangle's first vertex.
 inline const char* read_material(const char* p, std::size_t vertex, std::uint32_t& material) {
   const std::uint64_t less_zeros = load_eight(p) - kEightZeros;
