@@ -1,78 +1,173 @@
 #include "libpipeline/picture/certain_pixels.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdint>
 
+#include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/stream/memory.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libpipeline/picture/certain_pixels.cpp"
+#include "libpipeline/numbers/vector_lanes.h"
+
+PIPELINE_BEGIN_KERNELS();
+
+constexpr int kColumns = static_cast<int>(kLanes);
+static_assert(kColumns <= PixelBounds::kPadding + 1);
+
+/// For as many rows as a vector has lanes, the columns that a triangle may cover, and those that it surely
+/// covers, counted from the first of its outline.
+struct Columns {
+  HWY_INLINE Columns(const TrueOutline& outline, int row) {
+    /// Of a column, more than the divisions for it can lose on a screen.
+    constexpr double kMargin = 1e-6;
+    const double count = outline.columns.end - outline.columns.first;
+    std::array<Doubles, 2> low = {all(-0.5), all(-0.5)}, high = {all(count - 0.5), all(count - 0.5)};
+    for (const Side& side : outline.sides) {
+      const auto value = all(side.v) * hn::Iota(kDoubles, row) + all(side.constant);
+      const auto crossing = value * all(side.columns_per_value);
+      for (std::size_t i = 0; i < 2; ++i) {
+        low[i] = hn::Max(low[i], crossing + all(side.low[i]));
+        high[i] = hn::Min(high[i], crossing + all(side.high[i]));
+      }
+    }
+    const std::array margins = {-kMargin, kMargin};
+    for (std::size_t i = 0; i < 2; ++i) {
+      // Conversions round down.
+      hn::StoreU(hn::DemoteTo(kWhole, hn::Min(low[i], all(count)) + all(1 + margins[i])), kWhole,
+                 first[i].data());
+      hn::StoreU(hn::DemoteTo(kWhole, hn::Max(high[i], all(-1)) + all(1 - margins[i])), kWhole,
+                 end[i].data());
+    }
+  }
+  static constexpr hn::Rebind<std::int32_t, decltype(kDoubles)> kWhole{};
+
+  std::array<std::array<std::int32_t, kLanes>, 2> first, end;  // of the possible, of the sure ones
+};
+
+/// A triangle that is added.
+class AddedOutline {
+ public:
+  HWY_INLINE AddedOutline(const TrueOutline& outline, std::uint64_t number, PixelBounds& bounds)
+      : outline_(outline),
+        bounds_(bounds),
+        number_(std::bit_cast<double>(number)),
+        is_near_limits_(outline.least <= bounds.front[1] || outline.greatest >= bounds.rear[0]) {}
+
+  HWY_INLINE void add_row(int row, const RowRange& possible, const RowRange& sure) {
+    if (possible.first >= possible.end) return;
+    constexpr int kBlock = PixelBounds::kBlockColumns;
+    const int first = outline_.columns.first, in_outline = row - outline_.rows.first;
+    pixels_ = &bounds_.pixels[bounds_.index_of(row, first)];
+    nearest_at_0_ = outline_.nearest.v * in_outline + outline_.nearest.constant;
+    farthest_at_0_ = outline_.farthest.v * in_outline + outline_.farthest.constant;
+    double* const farthest =
+        &bounds_.farthest[static_cast<std::size_t>((row - bounds_.first_row) * bounds_.block_count)];
+    const int nearest_in_block = outline_.nearest.u < 0 ? kBlock - 1 : 0;  // beyond the outline, too
+    const int farthest_in_block = outline_.farthest.u < 0 ? 0 : kBlock - 1;
+    const int end_block = (first + possible.end - 1) / kBlock + 1;
+    for (int block = (first + possible.first) / kBlock; block < end_block; ++block) {
+      const int begin = block * kBlock - first, end = std::min(begin + kBlock, bounds_.columns - first);
+      if (nearest(begin + nearest_in_block) > farthest[block]) continue;  // hidden
+      add_pixels({std::max(possible.first, begin), std::min(possible.end, end)}, sure);
+      if (is_near_limits_ || sure.first > begin || sure.end < end) continue;
+      farthest[block] = std::min(farthest[block], this->farthest(begin + farthest_in_block));
+    }
+  }
+
+ private:
+  [[nodiscard]] double nearest(int column) const {
+    return std::max(nearest_at_0_ + outline_.nearest.u * column, outline_.least);
+  }
+  [[nodiscard]] double farthest(int column) const {
+    return std::min(farthest_at_0_ + outline_.farthest.u * column, outline_.greatest);
+  }
+
+  HWY_INLINE void add_pixels(const RowRange& possible, const RowRange& sure) const {
+    double* const at_sure = pixels_;
+    double *const at_number = at_sure + bounds_.stride, *const at_possible = at_number + bounds_.stride;
+    double* const at_second = at_possible + bounds_.stride;
+    for (int i = possible.first; i < possible.end; i += kColumns) {
+      const auto columns = hn::Iota(kDoubles, i);
+      auto nearest = hn::Max(all(nearest_at_0_) + all(outline_.nearest.u) * columns, all(outline_.least));
+      const auto farthest =
+          hn::Min(all(farthest_at_0_) + all(outline_.farthest.u) * columns, all(outline_.greatest));
+      auto is_possible = hn::Lt(columns, all(possible.end));
+      auto is_sure =
+          hn::And(is_possible, hn::And(hn::Ge(columns, all(sure.first)), hn::Lt(columns, all(sure.end))));
+      if (is_near_limits_) {
+        const std::array front = bounds_.front, rear = bounds_.rear;
+        is_sure = hn::And(is_sure, hn::And(hn::Gt(nearest, all(front[1])), hn::Lt(farthest, all(rear[0]))));
+        is_possible =
+            hn::And(is_possible, hn::And(hn::Ge(farthest, all(front[0])), hn::Le(nearest, all(rear[1]))));
+        nearest = hn::Max(nearest, all(front[0]));
+      }
+      nearest = hn::IfThenElse(is_possible, nearest, all(PixelBounds::kFar));
+      const auto before = hn::LoadU(kDoubles, at_possible + i), second = hn::LoadU(kDoubles, at_second + i);
+      hn::StoreU(hn::Min(before, nearest), kDoubles, at_possible + i);
+      hn::StoreU(hn::Min(second, hn::Max(before, nearest)), kDoubles, at_second + i);
+      if (i >= sure.end || i + kColumns <= sure.first) continue;
+      const auto sure_before = hn::LoadU(kDoubles, at_sure + i), number = hn::LoadU(kDoubles, at_number + i);
+      is_sure = hn::And(is_sure, hn::Lt(farthest, sure_before));
+      hn::StoreU(hn::IfThenElse(is_sure, farthest, sure_before), kDoubles, at_sure + i);
+      hn::StoreU(hn::IfThenElse(is_sure, all(number_), number), kDoubles, at_number + i);
+    }
+  }
+
+  const TrueOutline& outline_;
+  PixelBounds& bounds_;
+  const double number_;  // its bits
+  const bool is_near_limits_;
+  // Of the row:
+  double* pixels_ = nullptr;
+  double nearest_at_0_ = 0, farthest_at_0_ = 0;
+};
+
+void add_outline(const TrueOutline& outline, std::uint64_t number, PixelBounds& bounds) {
+  AddedOutline added(outline, number, bounds);
+  for (int row = outline.rows.first; row < outline.rows.end; row += kColumns) {
+    const auto& [first, end] = Columns(outline, row - outline.rows.first);
+    const int count = std::min(outline.rows.end - row, kColumns);
+    for (int i = 0; i < count; ++i)
+      added.add_row(row + i, {first[0][i], end[0][i]}, {first[1][i], end[1][i]});
+  }
+}
+
+PIPELINE_END_KERNELS();
+
+#if HWY_ONCE
 
 namespace pipeline {
 namespace {
 
-/// The length of the blocks of a row that are skipped where a triangle is hidden.
-constexpr int kBlockColumns = 32;
+using AddOutline = void (*)(const TrueOutline& outline, std::uint64_t number, PixelBounds& bounds);
+constexpr KernelTable<AddOutline> kAddOutline = PIPELINE_KERNEL_TABLE(add_outline);
+
 /// A triangle whose box has at most so many pixels is looked up there before its sides are calculated.
 constexpr int kFewPixels = 64;
-/// Of a column, more than the divisions for it can lose on a screen.
-constexpr double kMargin = 1e-6;
-
-/// The columns of a row that a triangle may cover, and those that it surely covers, counted from the first of
-/// its outline.
-struct Columns {
-  Columns(const TrueOutline& outline, int row) {
-    const double count = outline.columns.end - outline.columns.first;
-    std::array<double, 2> low = {-0.5, -0.5}, high = {count - 0.5, count - 0.5};
-    for (const Side& side : outline.sides) {
-      const double crossing = side.crossing(row);
-      for (std::size_t i = 0; i < 2; ++i) {
-        low[i] = std::max(low[i], crossing + side.low[i]);
-        high[i] = std::min(high[i], crossing + side.high[i]);
-      }
-    }
-    // Conversions to int round down.
-    const auto rounded = [](double at, double by) { return static_cast<int>(at + (1 + by)); };
-    possible = {rounded(std::min(low[0], count), -kMargin), rounded(std::max(high[0], -1.0), kMargin)};
-    sure = {rounded(std::min(low[1], count), kMargin), rounded(std::max(high[1], -1.0), -kMargin)};
-  }
-
-  RowRange possible, sure;
-};
 
 }  // namespace
 
-/// The pixels and the depths of a triangle on a row, by column from the first of its outline.
-struct CertainPixels::Row {
-  [[nodiscard]] double nearest(int column) const {
-    return std::max(nearest_at_0 + nearest_per_column * column, least);
-  }
-  [[nodiscard]] double farthest(int column) const {
-    return std::min(farthest_at_0 + farthest_per_column * column, greatest);
-  }
-  [[nodiscard]] double& sure(int column) const { return pixels[column]; }
-  [[nodiscard]] double& sure_number(int column) const { return pixels[stride + column]; }
-  [[nodiscard]] double& possible(int column) const { return pixels[2 * stride + column]; }
-  [[nodiscard]] double& second_possible(int column) const { return pixels[3 * stride + column]; }
-
-  double number;  // its bits
-  double nearest_per_column, farthest_per_column, least, greatest;
-  std::ptrdiff_t stride;
-  double* pixels = nullptr;
-  double nearest_at_0 = 0, farthest_at_0 = 0;
-};
-
 CertainPixels::CertainPixels(const Viewport& screen, const Bounds& bounds, const Projection& projected)
-    : screen_(screen),
-      outlines_(screen, bounds, projected),
-      front_(outlines_.depths_at(screen.front)),
-      rear_(outlines_.depths_at(screen.rear)),
-      block_count_((screen.columns + kBlockColumns - 1) / kBlockColumns) {
-  front_[1] = std::max(front_[1], outlines_.near_depth());  // what is nearer may be cut
-  const std::size_t count = index_of(screen.drawn_rows().end, 0);
+    : outlines_(screen, bounds, projected),
+      bounds_{.columns = screen.columns,
+              .first_row = screen.drawn_rows().first,
+              .stride = screen.columns + PixelBounds::kPadding,
+              .block_count = (screen.columns + PixelBounds::kBlockColumns - 1) / PixelBounds::kBlockColumns,
+              .front = outlines_.depths_at(screen.front),
+              .rear = outlines_.depths_at(screen.rear)} {
+  bounds_.front[1] = std::max(bounds_.front[1], outlines_.near_depth());  // what is nearer may be cut
+  const std::size_t count = bounds_.index_of(screen.drawn_rows().end, 0);
   expect_available_memory(count * sizeof(double));
-  pixels_.resize(count, kFar);
-  farthest_.resize(static_cast<std::size_t>(block_count_ * screen.drawn_row_count()), kFar);
+  bounds_.pixels.resize(count, PixelBounds::kFar);
+  bounds_.farthest.resize(static_cast<std::size_t>(bounds_.block_count * screen.drawn_row_count()),
+                          PixelBounds::kFar);
 }
 
 void CertainPixels::add(const TriangleBatch& p_ndc) {
+  static const AddOutline add_outline = chosen_kernel(kAddOutline);
   TrueOutline outline;
   for (std::size_t i = 0; i < p_ndc.size(); ++i) {
     if (!p_ndc.unclipped.empty()) {
@@ -82,13 +177,7 @@ void CertainPixels::add(const TriangleBatch& p_ndc) {
     outlines_.set_box(outline, p_ndc, i);
     if (outline.is_empty() || is_hidden(outline)) continue;
     outlines_.set_sides(outline);
-    Row part = {std::bit_cast<double>(p_ndc.numbers[i]),
-                outline.nearest.u,
-                outline.farthest.u,
-                outline.least,
-                outline.greatest,
-                screen_.columns};
-    for (int row = outline.rows.first; row < outline.rows.end; ++row) add_row(part, outline, row);
+    add_outline(outline, p_ndc.numbers[i], bounds_);
   }
 }
 
@@ -96,72 +185,13 @@ bool CertainPixels::is_hidden(const TrueOutline& outline) const {
   const int first = outline.columns.first, end = outline.columns.end;
   if (std::int64_t{end - first} * (outline.rows.end - outline.rows.first) > kFewPixels) return false;
   for (int row = outline.rows.first; row < outline.rows.end; ++row) {
-    const double* const sure = &pixels_[index_of(row, 0)];
+    const double* const sure = &bounds_.pixels[bounds_.index_of(row, 0)];
     for (int column = first; column < end; ++column)
       if (!(sure[column] < outline.least)) return false;
   }
   return true;
 }
 
-void CertainPixels::add_row(Row& part, const TrueOutline& outline, int row) {
-  const int first = outline.columns.first, in_outline = row - outline.rows.first;
-  const auto& [columns, sure] = Columns(outline, in_outline);
-  if (columns.first >= columns.end) return;
-  part.pixels = &pixels_[index_of(row, first)];
-  part.nearest_at_0 = outline.nearest.v * in_outline + outline.nearest.constant;
-  part.farthest_at_0 = outline.farthest.v * in_outline + outline.farthest.constant;
-  double* const farthest =
-      &farthest_[static_cast<std::size_t>((row - screen_.drawn_rows().first) * block_count_)];
-  const int nearest_in_block =
-      part.nearest_per_column < 0 ? kBlockColumns - 1 : 0;  // beyond the outline, too
-  const int end_block = (first + columns.end - 1) / kBlockColumns + 1;
-  for (int block = (first + columns.first) / kBlockColumns; block < end_block; ++block) {
-    const int begin = block * kBlockColumns - first;
-    if (part.nearest(begin + nearest_in_block) > farthest[block]) continue;  // hidden
-    const int end = std::min(begin + kBlockColumns, screen_.columns - first);
-    const int from = std::max(columns.first, begin), to = std::min(columns.end, end);
-    const int sure_from = std::clamp(sure.first, from, to), sure_to = std::clamp(sure.end, sure_from, to);
-    if (part.least <= front_[1] || part.greatest >= rear_[0]) {
-      add_near_limits(part, {from, to}, {sure_from, sure_to});
-      continue;
-    }
-    add_pixels<false>(part, from, sure_from);
-    add_pixels<true>(part, sure_from, sure_to);
-    add_pixels<false>(part, sure_to, to);
-    if (sure_from > begin || sure_to < end) continue;
-    const int farthest_column = part.farthest_per_column < 0 ? begin : end - 1;
-    farthest[block] = std::min(farthest[block], part.farthest(farthest_column));
-  }
-}
-
-/// Adds pixels to a triangle that is within the limits. Written so that compilers make vectors of it.
-template <bool kIsSure>
-void CertainPixels::add_pixels(const Row& of, int begin, int end) {
-  const Row row = of;  // in no pixel's memory
-  for (int i = begin; i < end; ++i) {
-    const double nearest = row.nearest(i), other = row.possible(i);
-    row.second_possible(i) = std::min(row.second_possible(i), std::max(other, nearest));
-    row.possible(i) = std::min(other, nearest);
-    if constexpr (kIsSure) {
-      const double farthest = row.farthest(i), before = row.sure(i), number_before = row.sure_number(i);
-      row.sure(i) = std::min(before, farthest);
-      row.sure_number(i) = before - farthest > 0 ? row.number : number_before;
-    }
-  }
-}
-
-void CertainPixels::add_near_limits(const Row& row, const RowRange& columns, const RowRange& sure) const {
-  for (int i = columns.first; i < columns.end; ++i) {
-    const double nearest = row.nearest(i), farthest = row.farthest(i);
-    if (farthest < front_[0] || nearest > rear_[1]) continue;
-    const double shown = std::max(nearest, front_[0]);
-    row.second_possible(i) = std::min(row.second_possible(i), std::max(row.possible(i), shown));
-    row.possible(i) = std::min(row.possible(i), shown);
-    const bool is_sure = i >= sure.first && i < sure.end && nearest > front_[1] && farthest < rear_[0];
-    if (!is_sure || farthest >= row.sure(i)) continue;
-    row.sure(i) = farthest;
-    row.sure_number(i) = row.number;
-  }
-}
-
 }  // namespace pipeline
+
+#endif

@@ -22,14 +22,15 @@ CertainPixels certain_pixels(const StageReader& reader, const Viewport& screen) 
 CertaintyReport::CertaintyReport(const StageReader& reader, const Viewport& screen)
     : pixels_(certain_pixels(reader, screen)), row_(screen.drawn_rows().first) {}
 
-void CertaintyReport::add_row(std::span<const std::int64_t> numbers) {
+void CertaintyReport::add_row(std::span<const PixelTag> tags, const TriangleStore& store) {
   std::uint64_t uncertain_count = 0;
-  pixels_.for_each_uncertain(row_, numbers, [&](int column) {
+  const auto number_of = [&](PixelTag tag) { return store.shown_number(tag); };
+  pixels_.for_each_uncertain(row_, tags, number_of, [&](int column) {
     ++uncertain_count;
     if (uncertain_.size() < kMaxLines) uncertain_.emplace_back(row_, column);
   });
   uncertain_count_ += uncertain_count;
-  certain_count_ += numbers.size() - uncertain_count;
+  certain_count_ += tags.size() - uncertain_count;
   ++row_;
 }
 

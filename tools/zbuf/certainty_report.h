@@ -8,6 +8,7 @@
 #include "libpipeline/picture/certain_pixels.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/text_writer.h"
+#include "tools/zbuf/triangle_store.h"
 
 namespace pipeline {
 
@@ -22,8 +23,8 @@ class CertaintyReport {
 
   /// Takes the next triangles.
   void add(const TriangleBatch& p_ndc) { pixels_.add(p_ndc); }
-  /// Takes the numbers of the triangles that the next row shows, -1 for none.
-  void add_row(std::span<const std::int64_t> numbers);
+  /// Takes the tags of the triangles that the next row shows.
+  void add_row(std::span<const PixelTag> tags, const TriangleStore& store);
   void write(TextWriter& text) const;
 
  private:

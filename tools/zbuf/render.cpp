@@ -148,7 +148,7 @@ template <VisibilityAlgorithm Visible>
     if (store.keeps_corners()) set_exact_depths(rule, store, number++, row.tags, exact);
     outputs.write_depths(row.depths, exact);
     if (outputs.wants_triangles()) outputs.write_triangles(store.numbers_of(row.tags, numbers));
-    if (certainty) certainty->add_row(store.numbers_of(row.tags, numbers));
+    if (certainty) certainty->add_row(row.tags, store);
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));

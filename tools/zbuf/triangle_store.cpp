@@ -46,9 +46,7 @@ void TriangleStore::color(std::span<const PixelTag> tags, std::span<Color> color
 std::span<const std::int64_t> TriangleStore::numbers_of(std::span<const PixelTag> tags,
                                                         std::vector<std::int64_t>& numbers) const {
   numbers.resize(tags.size());
-  std::ranges::transform(tags, numbers.begin(), [this](PixelTag id) {
-    return id == KeptIds::kNoTriangle ? std::int64_t{-1} : static_cast<std::int64_t>(number(id));
-  });
+  std::ranges::transform(tags, numbers.begin(), [this](PixelTag id) { return shown_number(id); });
   return numbers;
 }
 

@@ -77,7 +77,11 @@ class TriangleStore {
   /// The colors of pixels with these tags, unless there is a shader.
   void color(std::span<const PixelTag> tags, std::span<Color> colors);
 
-  /// The numbers of the triangles with these tags, if they are kept, -1 for none; `numbers` holds them.
+  /// The number of the triangle with this tag, if it is kept, -1 for none.
+  [[nodiscard]] std::int64_t shown_number(PixelTag id) const {
+    return id == KeptIds::kNoTriangle ? -1 : static_cast<std::int64_t>(number(id));
+  }
+  /// The same for many; `numbers` holds them.
   std::span<const std::int64_t> numbers_of(std::span<const PixelTag> tags,
                                            std::vector<std::int64_t>& numbers) const;
 
