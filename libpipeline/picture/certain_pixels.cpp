@@ -10,7 +10,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/picture/certain_pixels.cpp"
-#include "libpipeline/numbers/vector_lanes.h"
+#include "libpipeline/picture/true_outline_lanes.h"
 
 PIPELINE_BEGIN_KERNELS();
 
@@ -20,12 +20,12 @@ static_assert(kColumns <= PixelBounds::kPadding + 1);
 /// For as many rows as a vector has lanes, the columns that a triangle may cover, and those that it surely
 /// covers, counted from the first of its outline.
 struct Columns {
-  HWY_INLINE Columns(const TrueOutline& outline, int row) {
+  HWY_INLINE Columns(const TrueOutline<double>& outline, int row) {
     /// Of a column, more than the divisions for it can lose on a screen.
     constexpr double kMargin = 1e-6;
-    const double count = outline.columns.end - outline.columns.first;
+    const double count = outline.end_column - outline.first_column;
     std::array<Doubles, 2> low = {all(-0.5), all(-0.5)}, high = {all(count - 0.5), all(count - 0.5)};
-    for (const Side& side : outline.sides) {
+    for (const Side<double>& side : outline.sides) {
       const auto value = all(side.v) * hn::Iota(kDoubles, row) + all(side.constant);
       const auto crossing = value * all(side.columns_per_value);
       for (std::size_t i = 0; i < 2; ++i) {
@@ -50,16 +50,18 @@ struct Columns {
 /// A triangle that is added.
 class AddedOutline {
  public:
-  HWY_INLINE AddedOutline(const TrueOutline& outline, std::uint64_t number, PixelBounds& bounds)
+  HWY_INLINE AddedOutline(const TrueOutline<double>& outline, std::uint64_t number, PixelBounds& bounds)
       : outline_(outline),
         bounds_(bounds),
+        first_column_(static_cast<int>(outline.first_column)),
+        first_row_(static_cast<int>(outline.first_row)),
         number_(std::bit_cast<double>(number)),
         is_near_limits_(outline.least <= bounds.front[1] || outline.greatest >= bounds.rear[0]) {}
 
   HWY_INLINE void add_row(int row, const RowRange& possible, const RowRange& sure) {
     if (possible.first >= possible.end) return;
     constexpr int kBlock = PixelBounds::kBlockColumns;
-    const int first = outline_.columns.first, in_outline = row - outline_.rows.first;
+    const int first = first_column_, in_outline = row - first_row_;
     pixels_ = &bounds_.pixels[bounds_.index_of(row, first)];
     nearest_at_0_ = outline_.nearest.v * in_outline + outline_.nearest.constant;
     farthest_at_0_ = outline_.farthest.v * in_outline + outline_.farthest.constant;
@@ -116,8 +118,9 @@ class AddedOutline {
     }
   }
 
-  const TrueOutline& outline_;
+  const TrueOutline<double>& outline_;
   PixelBounds& bounds_;
+  const int first_column_, first_row_;
   const double number_;  // its bits
   const bool is_near_limits_;
   // Of the row:
@@ -125,13 +128,68 @@ class AddedOutline {
   double nearest_at_0_ = 0, farthest_at_0_ = 0;
 };
 
-void add_outline(const TrueOutline& outline, std::uint64_t number, PixelBounds& bounds) {
+void add_outline(const TrueOutline<double>& outline, std::uint64_t number, PixelBounds& bounds) {
   AddedOutline added(outline, number, bounds);
-  for (int row = outline.rows.first; row < outline.rows.end; row += kColumns) {
-    const auto& [first, end] = Columns(outline, row - outline.rows.first);
-    const int count = std::min(outline.rows.end - row, kColumns);
+  const int first_row = static_cast<int>(outline.first_row), end_row = static_cast<int>(outline.end_row);
+  for (int row = first_row; row < end_row; row += kColumns) {
+    const auto& [first, end] = Columns(outline, row - first_row);
+    const int count = std::min(end_row - row, kColumns);
     for (int i = 0; i < count; ++i)
       added.add_row(row + i, {first[0][i], end[0][i]}, {first[1][i], end[1][i]});
+  }
+}
+
+/// Whether some triangle surely covers every pixel of a small box, and is nearer.
+HWY_INLINE bool is_hidden(const RowRange& columns, const RowRange& rows, double nearest,
+                          const PixelBounds& bounds) {
+  /// A triangle whose box has at most so many pixels is looked up there before its sides are calculated.
+  constexpr int kFewPixels = 64;
+  if (std::int64_t{columns.end - columns.first} * (rows.end - rows.first) > kFewPixels) return false;
+  for (int row = rows.first; row < rows.end; ++row) {
+    const double* const sure = &bounds.pixels[bounds.index_of(row, 0)];
+    for (int column = columns.first; column < columns.end; column += kColumns) {
+      const auto is_inside = hn::Lt(hn::Iota(kDoubles, column), all(columns.end));
+      const auto is_seen = hn::Ge(hn::LoadU(kDoubles, sure + column), all(nearest));
+      if (!hn::AllFalse(kDoubles, hn::And(is_inside, is_seen))) return false;
+    }
+  }
+  return true;
+}
+
+/// A bit for each of the outlines with a box that is not hidden.
+HWY_INLINE unsigned open_lanes(const TrueOutline<Doubles>& outlines, std::size_t count,
+                               const PixelBounds& bounds) {
+  std::array<std::array<double, kLanes>, 5> box;
+  const std::array sides = {outlines.first_column, outlines.end_column, outlines.first_row, outlines.end_row,
+                            outlines.least};
+  for (std::size_t i = 0; i < sides.size(); ++i) hn::StoreU(sides[i], kDoubles, box[i].data());
+  unsigned open = 0;
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const auto range = [&](std::size_t i) {
+      return RowRange{static_cast<int>(box[i][lane]), static_cast<int>(box[i + 1][lane])};
+    };
+    const RowRange columns = range(0), rows = range(2);
+    if (columns.first < columns.end && rows.first < rows.end &&
+        !is_hidden(columns, rows, box[4][lane], bounds))
+      open |= 1u << lane;
+  }
+  return open;
+}
+
+/// Adds the triangles of these indices.
+void add_triangles(const TrueView& view, const TriangleBatch& p_ndc, std::span<const std::size_t> indices,
+                   PixelBounds& bounds) {
+  for (; !indices.empty(); indices = indices.subspan(std::min(kLanes, indices.size()))) {
+    const UncertainVertices vertices(view, p_ndc, indices);
+    TrueOutline<Doubles> outlines;
+    set_box(view, vertices, outlines);
+    unsigned open = open_lanes(outlines, std::min(kLanes, indices.size()), bounds);
+    if (open == 0) continue;
+    set_sides(view, vertices, outlines);
+    for (; open != 0; open &= open - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(open));
+      add_outline(in_lane(outlines, lane), p_ndc.numbers[indices[lane]], bounds);
+    }
   }
 }
 
@@ -142,23 +200,21 @@ PIPELINE_END_KERNELS();
 namespace pipeline {
 namespace {
 
-using AddOutline = void (*)(const TrueOutline& outline, std::uint64_t number, PixelBounds& bounds);
-constexpr KernelTable<AddOutline> kAddOutline = PIPELINE_KERNEL_TABLE(add_outline);
-
-/// A triangle whose box has at most so many pixels is looked up there before its sides are calculated.
-constexpr int kFewPixels = 64;
+using AddTriangles = void (*)(const TrueView& view, const TriangleBatch& p_ndc,
+                              std::span<const std::size_t> indices, PixelBounds& bounds);
+constexpr KernelTable<AddTriangles> kAddTriangles = PIPELINE_KERNEL_TABLE(add_triangles);
 
 }  // namespace
 
 CertainPixels::CertainPixels(const Viewport& screen, const Bounds& bounds, const Projection& projected)
-    : outlines_(screen, bounds, projected),
+    : view_(screen, bounds, projected),
       bounds_{.columns = screen.columns,
               .first_row = screen.drawn_rows().first,
               .stride = screen.columns + PixelBounds::kPadding,
               .block_count = (screen.columns + PixelBounds::kBlockColumns - 1) / PixelBounds::kBlockColumns,
-              .front = outlines_.depths_at(screen.front),
-              .rear = outlines_.depths_at(screen.rear)} {
-  bounds_.front[1] = std::max(bounds_.front[1], outlines_.near_depth());  // what is nearer may be cut
+              .front = view_.depths_at(screen.front),
+              .rear = view_.depths_at(screen.rear)} {
+  bounds_.front[1] = std::max(bounds_.front[1], view_.near_depth());  // what is nearer may be cut
   const std::size_t count = bounds_.index_of(screen.drawn_rows().end, 0);
   expect_available_memory(count * sizeof(double));
   bounds_.pixels.resize(count, PixelBounds::kFar);
@@ -167,29 +223,16 @@ CertainPixels::CertainPixels(const Viewport& screen, const Bounds& bounds, const
 }
 
 void CertainPixels::add(const TriangleBatch& p_ndc) {
-  static const AddOutline add_outline = chosen_kernel(kAddOutline);
-  TrueOutline outline;
+  static const AddTriangles add_triangles = chosen_kernel(kAddTriangles);
+  indices_.clear();
   for (std::size_t i = 0; i < p_ndc.size(); ++i) {
     if (!p_ndc.unclipped.empty()) {
       if (p_ndc.unclipped[i] && p_ndc.unclipped[i] == last_whole_) continue;
       last_whole_ = p_ndc.unclipped[i];
     }
-    outlines_.set_box(outline, p_ndc, i);
-    if (outline.is_empty() || is_hidden(outline)) continue;
-    outlines_.set_sides(outline);
-    add_outline(outline, p_ndc.numbers[i], bounds_);
+    indices_.push_back(i);
   }
-}
-
-bool CertainPixels::is_hidden(const TrueOutline& outline) const {
-  const int first = outline.columns.first, end = outline.columns.end;
-  if (std::int64_t{end - first} * (outline.rows.end - outline.rows.first) > kFewPixels) return false;
-  for (int row = outline.rows.first; row < outline.rows.end; ++row) {
-    const double* const sure = &bounds_.pixels[bounds_.index_of(row, 0)];
-    for (int column = first; column < end; ++column)
-      if (!(sure[column] < outline.least)) return false;
-  }
-  return true;
+  add_triangles(view_, p_ndc, indices_, bounds_);
 }
 
 }  // namespace pipeline

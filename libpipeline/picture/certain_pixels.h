@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libpipeline/picture/true_outline.h"
+#include "libpipeline/stream/triangle_batch.h"
 
 namespace pipeline {
 
@@ -66,10 +67,9 @@ class CertainPixels {
   }
 
  private:
-  [[nodiscard]] bool is_hidden(const TrueOutline& outline) const;
-
-  TrueOutlines outlines_;
+  TrueView view_;
   PixelBounds bounds_;
+  std::vector<std::size_t> indices_;  // of a batch's triangles that count
   std::shared_ptr<const ClipTriangle> last_whole_;
 };
 

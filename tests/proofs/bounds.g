@@ -1,5 +1,5 @@
 # How far a text may be from the truth: rounding_error and error_in_view (libpipeline/stream/bounds.h), and the edge functions of
-# libpipeline/picture/true_outline.cpp, which has the proof for projection.
+# libpipeline/picture/true_outline_lanes.h, which has the proof for projection.
 #
 # The rule. m is the largest |coordinate| of a vertex as its text is read. Printing d decimals is off by half a unit, where a tie may be
 # missed by 2^-20 of one more, and reading them by u m, u = 2^-53; all digits are the nearest double. A vertex p of a text with the bound

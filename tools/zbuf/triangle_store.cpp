@@ -30,17 +30,19 @@ TriangleStore::TriangleStore(const Setup& setup, std::optional<SurfaceShader>& s
 }
 
 void TriangleStore::color(std::span<const PixelTag> tags, std::span<Color> colors) {
+  if (!has_ids()) {
+    std::ranges::transform(tags, colors.begin(), Color::from_rgb);
+    return;
+  }
   PixelTag last = KeptIds::kNoTriangle;
   Color color = setup_.background;
-  const auto color_of = [&](PixelTag id) {
-    if (id != last) color = id == KeptIds::kNoTriangle ? setup_.background : colors_.of(number(id));
-    last = id;
-    return color;
-  };
-  if (has_ids())
-    std::ranges::transform(tags, colors.begin(), color_of);
-  else
-    std::ranges::transform(tags, colors.begin(), Color::from_rgb);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    if (tags[i] != last) {
+      last = tags[i];
+      color = last == KeptIds::kNoTriangle ? setup_.background : colors_.of(number(last));
+    }
+    colors[i] = color;
+  }
 }
 
 std::span<const std::int64_t> TriangleStore::numbers_of(std::span<const PixelTag> tags,
