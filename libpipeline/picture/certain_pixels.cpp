@@ -53,53 +53,64 @@ class AddedOutline {
   HWY_INLINE AddedOutline(const TrueOutline<double>& outline, std::uint64_t number, PixelBounds& bounds)
       : outline_(outline),
         bounds_(bounds),
-        first_column_(static_cast<int>(outline.first_column)),
         first_row_(static_cast<int>(outline.first_row)),
-        number_(std::bit_cast<double>(number)),
-        is_near_limits_(outline.least <= bounds.front[1] || outline.greatest >= bounds.rear[0]) {}
+        is_near_limits_(outline.least <= bounds.front[1] || outline.greatest >= bounds.rear[0]),
+        depths_{number,
+                static_cast<int>(outline.first_column),
+                0,
+                outline.nearest.u,
+                0,
+                outline.farthest.u,
+                outline.least,
+                outline.greatest} {}
 
   HWY_INLINE void add_row(int row, const RowRange& possible, const RowRange& sure) {
     if (possible.first >= possible.end) return;
     constexpr int kBlock = PixelBounds::kBlockColumns;
-    const int first = first_column_, in_outline = row - first_row_;
-    pixels_ = &bounds_.pixels[bounds_.index_of(row, first)];
-    nearest_at_0_ = outline_.nearest.v * in_outline + outline_.nearest.constant;
-    farthest_at_0_ = outline_.farthest.v * in_outline + outline_.farthest.constant;
-    double* const farthest =
-        &bounds_.farthest[static_cast<std::size_t>((row - bounds_.first_row) * bounds_.block_count)];
+    const int first = depths_.first_column, in_outline = row - first_row_;
+    depths_.nearest_at_0 = outline_.nearest.v * in_outline + outline_.nearest.constant;
+    depths_.farthest_at_0 = outline_.farthest.v * in_outline + outline_.farthest.constant;
     const int nearest_in_block = outline_.nearest.u < 0 ? kBlock - 1 : 0;  // beyond the outline, too
     const int farthest_in_block = outline_.farthest.u < 0 ? 0 : kBlock - 1;
-    const int end_block = (first + possible.end - 1) / kBlock + 1;
-    for (int block = (first + possible.first) / kBlock; block < end_block; ++block) {
-      const int begin = block * kBlock - first, end = std::min(begin + kBlock, bounds_.columns - first);
-      if (nearest(begin + nearest_in_block) > farthest[block]) continue;  // hidden
-      add_pixels({std::max(possible.first, begin), std::min(possible.end, end)}, sure);
-      if (is_near_limits_ || sure.first > begin || sure.end < end) continue;
-      farthest[block] = std::min(farthest[block], this->farthest(begin + farthest_in_block));
+    int column = (first + possible.first) / kBlock * kBlock;
+    PixelBounds::Block* blocks = &bounds_.blocks[bounds_.block_of(row, column)];
+    for (; column < first + possible.end; column += kBlock) {
+      PixelBounds::Block& block = *blocks++;
+      const int begin = column - first, end = std::min(begin + kBlock, bounds_.columns - first);
+      if (depths_.nearest(begin + nearest_in_block) > block.farthest) continue;  // hidden
+      const bool is_whole = !is_near_limits_ && sure.first <= begin && sure.end >= end;
+      if (is_whole) block.farthest = std::min(block.farthest, depths_.farthest(begin + farthest_in_block));
+      if (is_whole && block.is_free) {
+        block.alone = depths_;
+      } else {
+        if (block.alone) {
+          const int to_its = first - block.alone->first_column;
+          add_pixels(*block.alone, row, {begin + to_its, end + to_its}, {begin + to_its, end + to_its},
+                     false);
+          block.alone.reset();
+        }
+        const RowRange columns = {std::max(possible.first, begin), std::min(possible.end, end)};
+        add_pixels(depths_, row, columns, sure, is_near_limits_);
+      }
+      block.is_free = false;
     }
   }
 
  private:
-  [[nodiscard]] double nearest(int column) const {
-    return std::max(nearest_at_0_ + outline_.nearest.u * column, outline_.least);
-  }
-  [[nodiscard]] double farthest(int column) const {
-    return std::min(farthest_at_0_ + outline_.farthest.u * column, outline_.greatest);
-  }
-
-  HWY_INLINE void add_pixels(const RowRange& possible, const RowRange& sure) const {
-    double* const at_sure = pixels_;
+  void add_pixels(const RowDepths& of, int row, const RowRange& possible, const RowRange& sure,
+                  bool is_near_limits) const {
+    double* const at_sure = &bounds_.pixels[bounds_.index_of(row, of.first_column)];
     double *const at_number = at_sure + bounds_.stride, *const at_possible = at_number + bounds_.stride;
     double* const at_second = at_possible + bounds_.stride;
     for (int i = possible.first; i < possible.end; i += kColumns) {
       const auto columns = hn::Iota(kDoubles, i);
-      auto nearest = hn::Max(all(nearest_at_0_) + all(outline_.nearest.u) * columns, all(outline_.least));
+      auto nearest = hn::Max(all(of.nearest_at_0) + all(of.nearest_per_column) * columns, all(of.least));
       const auto farthest =
-          hn::Min(all(farthest_at_0_) + all(outline_.farthest.u) * columns, all(outline_.greatest));
+          hn::Min(all(of.farthest_at_0) + all(of.farthest_per_column) * columns, all(of.greatest));
       auto is_possible = hn::Lt(columns, all(possible.end));
       auto is_sure =
           hn::And(is_possible, hn::And(hn::Ge(columns, all(sure.first)), hn::Lt(columns, all(sure.end))));
-      if (is_near_limits_) {
+      if (is_near_limits) {
         const std::array front = bounds_.front, rear = bounds_.rear;
         is_sure = hn::And(is_sure, hn::And(hn::Gt(nearest, all(front[1])), hn::Lt(farthest, all(rear[0]))));
         is_possible =
@@ -114,18 +125,16 @@ class AddedOutline {
       const auto sure_before = hn::LoadU(kDoubles, at_sure + i), number = hn::LoadU(kDoubles, at_number + i);
       is_sure = hn::And(is_sure, hn::Lt(farthest, sure_before));
       hn::StoreU(hn::IfThenElse(is_sure, farthest, sure_before), kDoubles, at_sure + i);
-      hn::StoreU(hn::IfThenElse(is_sure, all(number_), number), kDoubles, at_number + i);
+      hn::StoreU(hn::IfThenElse(is_sure, all(std::bit_cast<double>(of.number)), number), kDoubles,
+                 at_number + i);
     }
   }
 
   const TrueOutline<double>& outline_;
   PixelBounds& bounds_;
-  const int first_column_, first_row_;
-  const double number_;  // its bits
+  const int first_row_;
   const bool is_near_limits_;
-  // Of the row:
-  double* pixels_ = nullptr;
-  double nearest_at_0_ = 0, farthest_at_0_ = 0;
+  RowDepths depths_;  // of the row
 };
 
 void add_outline(const TrueOutline<double>& outline, std::uint64_t number, PixelBounds& bounds) {
@@ -150,7 +159,10 @@ HWY_INLINE bool is_hidden(const RowRange& columns, const RowRange& rows, double 
     for (int column = columns.first; column < columns.end; column += kColumns) {
       const auto is_inside = hn::Lt(hn::Iota(kDoubles, column), all(columns.end));
       const auto is_seen = hn::Ge(hn::LoadU(kDoubles, sure + column), all(nearest));
-      if (!hn::AllFalse(kDoubles, hn::And(is_inside, is_seen))) return false;
+      if (hn::AllFalse(kDoubles, hn::And(is_inside, is_seen))) continue;
+      const int last = std::min(column + kColumns, columns.end) - 1;
+      const auto is_far = [&](int at) { return bounds.blocks[bounds.block_of(row, at)].farthest < nearest; };
+      if (!is_far(column) || !is_far(last)) return false;
     }
   }
   return true;
@@ -218,8 +230,7 @@ CertainPixels::CertainPixels(const Viewport& screen, const Bounds& bounds, const
   const std::size_t count = bounds_.index_of(screen.drawn_rows().end, 0);
   expect_available_memory(count * sizeof(double));
   bounds_.pixels.resize(count, PixelBounds::kFar);
-  bounds_.farthest.resize(static_cast<std::size_t>(bounds_.block_count * screen.drawn_row_count()),
-                          PixelBounds::kFar);
+  bounds_.blocks.resize(static_cast<std::size_t>(bounds_.block_count * screen.drawn_row_count()));
 }
 
 void CertainPixels::add(const TriangleBatch& p_ndc) {

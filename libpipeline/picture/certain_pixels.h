@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,9 +16,31 @@
 
 namespace pipeline {
 
+/// The depths of a triangle on a row, by column from the first of its outline.
+struct RowDepths {
+  [[nodiscard]] double nearest(int column) const {
+    return std::max(nearest_at_0 + nearest_per_column * column, least);
+  }
+  [[nodiscard]] double farthest(int column) const {
+    return std::min(farthest_at_0 + farthest_per_column * column, greatest);
+  }
+
+  std::uint64_t number;  // of the triangle
+  int first_column;
+  double nearest_at_0, nearest_per_column, farthest_at_0, farthest_per_column, least, greatest;
+};
+
 /// What is known of a picture's pixels, by the depths of true outlines.
 struct PixelBounds {
   static constexpr double kFar = std::numeric_limits<double>::infinity();
+  /// Some pixels of a row.
+  struct Block {
+    double farthest = kFar;  // a depth that no upper bound there exceeds
+    bool is_free = true;     // of any triangle
+    /// The only triangle so far, which surely covers all of its pixels. They do not have it yet.
+    std::optional<RowDepths> alone = {};
+  };
+
   /// The length of the blocks of a row that are skipped where a triangle is hidden.
   static constexpr int kBlockColumns = 32;
   /// A row's arrays are longer than it, so that vectors of columns that begin in it end in them.
@@ -26,6 +50,9 @@ struct PixelBounds {
     return 4 * static_cast<std::size_t>(row - first_row) * static_cast<std::size_t>(stride) +
            static_cast<std::size_t>(column);
   }
+  [[nodiscard]] std::size_t block_of(int row, int column) const {
+    return static_cast<std::size_t>((row - first_row) * block_count + column / kBlockColumns);
+  }
 
   int columns, first_row;
   std::ptrdiff_t stride, block_count;
@@ -34,8 +61,7 @@ struct PixelBounds {
   // pixel's center; the bits of the number of that one; and the two least lower bounds of those that may
   // cover it.
   std::vector<double> pixels = {};
-  /// For each block of a row, a depth that no upper bound there exceeds.
-  std::vector<double> farthest = {};
+  std::vector<Block> blocks = {};  // of each row
 };
 
 /// Which pixels show, by rule `center`, the triangle that exact arithmetic shows, whatever the true vertices
@@ -53,16 +79,32 @@ class CertainPixels {
   template <typename Tag, typename NumberOf, typename Visit>
   void for_each_uncertain(int row, std::span<const Tag> tags, NumberOf&& number_of, Visit&& visit) const {
     const std::ptrdiff_t stride = bounds_.stride;
-    const double* pixel = &bounds_.pixels[bounds_.index_of(row, 0)];
+    const double* const pixels = &bounds_.pixels[bounds_.index_of(row, 0)];
+    const PixelBounds::Block* block = &bounds_.blocks[bounds_.block_of(row, 0)];
     Tag last = tags[0];
     std::int64_t number = number_of(last);
-    for (std::size_t i = 0; i < tags.size(); ++i, ++pixel) {
-      if (tags[i] != last) number = number_of(last = tags[i]);
-      // The one that surely covers may, too.
-      const bool is_certain =
-          number < 0 ? pixel[2 * stride] == PixelBounds::kFar
-                     : std::bit_cast<std::int64_t>(pixel[stride]) == number && pixel[3 * stride] > pixel[0];
-      if (!is_certain) visit(static_cast<int>(i));
+    for (std::size_t begin = 0, end = 0; begin < tags.size(); begin = end, ++block) {
+      end = std::min(begin + PixelBounds::kBlockColumns, tags.size());
+      if (block->alone) {
+        const auto is_its = [&](Tag tag) {
+          return number_of(tag) >= 0 && static_cast<std::uint64_t>(number_of(tag)) == block->alone->number;
+        };
+        Tag differences = 0;
+        for (std::size_t i = begin; i < end; ++i) differences |= tags[i] ^ tags[begin];
+        if (differences == 0 && is_its(tags[begin])) continue;
+        for (std::size_t i = begin; i < end; ++i)
+          if (!is_its(tags[i])) visit(static_cast<int>(i));
+        continue;
+      }
+      const double* pixel = pixels + begin;
+      for (std::size_t i = begin; i < end; ++i, ++pixel) {
+        if (tags[i] != last) number = number_of(last = tags[i]);
+        // The one that surely covers may, too.
+        const bool is_certain =
+            number < 0 ? pixel[2 * stride] == PixelBounds::kFar
+                       : std::bit_cast<std::int64_t>(pixel[stride]) == number && pixel[3 * stride] > pixel[0];
+        if (!is_certain) visit(static_cast<int>(i));
+      }
     }
   }
 
