@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/stream/memory.h"
@@ -64,6 +66,16 @@ class AddedOutline {
                 outline.least,
                 outline.greatest} {}
 
+  HWY_INLINE void add() {
+    const int end_row = static_cast<int>(outline_.end_row);
+    for (int row = first_row_; row < end_row; row += kColumns) {
+      const auto& [first, end] = Columns(outline_, row - first_row_);
+      for (int i = 0; i < std::min(end_row - row, kColumns); ++i)
+        add_row(row + i, {first[0][i], end[0][i]}, {first[1][i], end[1][i]});
+    }
+  }
+
+ private:
   HWY_INLINE void add_row(int row, const RowRange& possible, const RowRange& sure) {
     if (possible.first >= possible.end) return;
     constexpr int kBlock = PixelBounds::kBlockColumns;
@@ -96,7 +108,6 @@ class AddedOutline {
     }
   }
 
- private:
   void add_pixels(const RowDepths& of, int row, const RowRange& possible, const RowRange& sure,
                   bool is_near_limits) const {
     double* const at_sure = &bounds_.pixels[bounds_.index_of(row, of.first_column)];
@@ -130,62 +141,25 @@ class AddedOutline {
     }
   }
 
-  const TrueOutline<double>& outline_;
+  const TrueOutline<double> outline_;
   PixelBounds& bounds_;
   const int first_row_;
   const bool is_near_limits_;
   RowDepths depths_;  // of the row
 };
 
-void add_outline(const TrueOutline<double>& outline, std::uint64_t number, PixelBounds& bounds) {
-  AddedOutline added(outline, number, bounds);
-  const int first_row = static_cast<int>(outline.first_row), end_row = static_cast<int>(outline.end_row);
-  for (int row = first_row; row < end_row; row += kColumns) {
-    const auto& [first, end] = Columns(outline, row - first_row);
-    const int count = std::min(end_row - row, kColumns);
-    for (int i = 0; i < count; ++i)
-      added.add_row(row + i, {first[0][i], end[0][i]}, {first[1][i], end[1][i]});
-  }
-}
-
-/// Whether some triangle surely covers every pixel of a small box, and is nearer.
-HWY_INLINE bool is_hidden(const RowRange& columns, const RowRange& rows, double nearest,
-                          const PixelBounds& bounds) {
+/// Whether triangles surely cover every pixel of a small box, and are nearer.
+bool is_hidden(const RowRange& columns, const RowRange& rows, double nearest, const PixelBounds& bounds) {
   /// A triangle whose box has at most so many pixels is looked up there before its sides are calculated.
   constexpr int kFewPixels = 64;
   if (std::int64_t{columns.end - columns.first} * (rows.end - rows.first) > kFewPixels) return false;
   for (int row = rows.first; row < rows.end; ++row) {
     const double* const sure = &bounds.pixels[bounds.index_of(row, 0)];
-    for (int column = columns.first; column < columns.end; column += kColumns) {
-      const auto is_inside = hn::Lt(hn::Iota(kDoubles, column), all(columns.end));
-      const auto is_seen = hn::Ge(hn::LoadU(kDoubles, sure + column), all(nearest));
-      if (hn::AllFalse(kDoubles, hn::And(is_inside, is_seen))) continue;
-      const int last = std::min(column + kColumns, columns.end) - 1;
-      const auto is_far = [&](int at) { return bounds.blocks[bounds.block_of(row, at)].farthest < nearest; };
-      if (!is_far(column) || !is_far(last)) return false;
-    }
+    for (int column = columns.first; column < columns.end; ++column)
+      if (!(sure[column] < nearest) && !(bounds.blocks[bounds.block_of(row, column)].farthest < nearest))
+        return false;
   }
   return true;
-}
-
-/// A bit for each of the outlines with a box that is not hidden.
-HWY_INLINE unsigned open_lanes(const TrueOutline<Doubles>& outlines, std::size_t count,
-                               const PixelBounds& bounds) {
-  std::array<std::array<double, kLanes>, 5> box;
-  const std::array sides = {outlines.first_column, outlines.end_column, outlines.first_row, outlines.end_row,
-                            outlines.least};
-  for (std::size_t i = 0; i < sides.size(); ++i) hn::StoreU(sides[i], kDoubles, box[i].data());
-  unsigned open = 0;
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const auto range = [&](std::size_t i) {
-      return RowRange{static_cast<int>(box[i][lane]), static_cast<int>(box[i + 1][lane])};
-    };
-    const RowRange columns = range(0), rows = range(2);
-    if (columns.first < columns.end && rows.first < rows.end &&
-        !is_hidden(columns, rows, box[4][lane], bounds))
-      open |= 1u << lane;
-  }
-  return open;
 }
 
 /// Adds the triangles of these indices.
@@ -195,12 +169,21 @@ void add_triangles(const TrueView& view, const TriangleBatch& p_ndc, std::span<c
     const UncertainVertices vertices(view, p_ndc, indices);
     TrueOutline<Doubles> outlines;
     set_box(view, vertices, outlines);
-    unsigned open = open_lanes(outlines, std::min(kLanes, indices.size()), bounds);
+    unsigned open = 0;  // a bit for each triangle with a box that is not hidden
+    for (std::size_t lane = 0; lane < std::min(kLanes, indices.size()); ++lane) {
+      const auto whole = [&](Doubles number)
+                             HWY_ATTR { return static_cast<int>(hn::ExtractLane(number, lane)); };
+      const RowRange columns = {whole(outlines.first_column), whole(outlines.end_column)};
+      const RowRange rows = {whole(outlines.first_row), whole(outlines.end_row)};
+      const bool is_empty = columns.first >= columns.end || rows.first >= rows.end;
+      if (!is_empty && !is_hidden(columns, rows, hn::ExtractLane(outlines.least, lane), bounds))
+        open |= 1u << lane;
+    }
     if (open == 0) continue;
     set_sides(view, vertices, outlines);
     for (; open != 0; open &= open - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(open));
-      add_outline(in_lane(outlines, lane), p_ndc.numbers[indices[lane]], bounds);
+      AddedOutline(in_lane(outlines, lane), p_ndc.numbers[indices[lane]], bounds).add();
     }
   }
 }

@@ -81,28 +81,23 @@ class CertainPixels {
     const std::ptrdiff_t stride = bounds_.stride;
     const double* const pixels = &bounds_.pixels[bounds_.index_of(row, 0)];
     const PixelBounds::Block* block = &bounds_.blocks[bounds_.block_of(row, 0)];
-    Tag last = tags[0];
-    std::int64_t number = number_of(last);
     for (std::size_t begin = 0, end = 0; begin < tags.size(); begin = end, ++block) {
       end = std::min(begin + PixelBounds::kBlockColumns, tags.size());
-      if (block->alone) {
-        const auto is_its = [&](Tag tag) {
-          return number_of(tag) >= 0 && static_cast<std::uint64_t>(number_of(tag)) == block->alone->number;
-        };
-        Tag differences = 0;
-        for (std::size_t i = begin; i < end; ++i) differences |= tags[i] ^ tags[begin];
-        if (differences == 0 && is_its(tags[begin])) continue;
-        for (std::size_t i = begin; i < end; ++i)
-          if (!is_its(tags[i])) visit(static_cast<int>(i));
-        continue;
-      }
+      Tag last = tags[begin];
+      std::int64_t number = number_of(last);
+      const auto is_alone = [&] {
+        return number >= 0 && std::bit_cast<std::int64_t>(block->alone->number) == number;
+      };
+      const auto of_block = tags.subspan(begin, end - begin);
+      if (block->alone && is_alone() && std::ranges::count(of_block, last) == std::ssize(of_block)) continue;
       const double* pixel = pixels + begin;
       for (std::size_t i = begin; i < end; ++i, ++pixel) {
         if (tags[i] != last) number = number_of(last = tags[i]);
         // The one that surely covers may, too.
-        const bool is_certain =
-            number < 0 ? pixel[2 * stride] == PixelBounds::kFar
-                       : std::bit_cast<std::int64_t>(pixel[stride]) == number && pixel[3 * stride] > pixel[0];
+        const bool is_certain = block->alone ? is_alone()
+                                : number < 0 ? pixel[2 * stride] == PixelBounds::kFar
+                                             : std::bit_cast<std::int64_t>(pixel[stride]) == number &&
+                                                   pixel[3 * stride] > pixel[0];
         if (!is_certain) visit(static_cast<int>(i));
       }
     }

@@ -1,5 +1,6 @@
 // No include guard: included once for each target, see numbers/vector_targets.h.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -74,7 +75,16 @@ HWY_INLINE LinearLanes sum(const LinearLanes& f, Doubles factor, const LinearLan
 struct UncertainVertices {
   /// Pieces stand for the triangle that they were cut from. The last index stands in for those beyond it.
   HWY_INLINE UncertainVertices(const TrueView& view, const TriangleBatch& p_ndc,
-                               std::span<const std::size_t> indices);
+                               std::span<const std::size_t> indices) {
+    const auto largest_rounded = set_vertices(view, p_ndc, indices);
+    least_w = least(w);
+    greatest_w = greatest(w);
+    largest_w = largest(least_w, greatest_w);
+    nearest = least(distance);
+    farthest = greatest(distance);
+    set_errors(view, largest_rounded);
+    nearest_shown = hn::Max(least_w, all(view.nearest_shown) - w_error);
+  }
 
   std::array<ThreeDoubles, 2> p;                   // x and y
   ThreeDoubles w, distance;                        // in front of the eye: w, but for ortho, where w is 1
@@ -87,93 +97,79 @@ struct UncertainVertices {
   Mask is_whole;                                   // before it was cut
 
  private:
+  /// Returns the largest coordinate of each triangle that was rounded.
   HWY_INLINE Doubles set_vertices(const TrueView& view, const TriangleBatch& p_ndc,
-                                  std::span<const std::size_t> indices);
-  HWY_INLINE void set_errors(const TrueView& view, Doubles largest_rounded);
-};
-
-HWY_INLINE UncertainVertices::UncertainVertices(const TrueView& view, const TriangleBatch& p_ndc,
-                                                std::span<const std::size_t> indices) {
-  const auto largest_rounded = set_vertices(view, p_ndc, indices);
-  least_w = least(w);
-  greatest_w = greatest(w);
-  largest_w = largest(least_w, greatest_w);
-  nearest = least(distance);
-  farthest = greatest(distance);
-  set_errors(view, largest_rounded);
-  nearest_shown = hn::Max(least_w, all(view.nearest_shown) - w_error);
-}
-
-/// Returns the largest coordinate of each triangle that was rounded.
-HWY_INLINE Doubles UncertainVertices::set_vertices(const TrueView& view, const TriangleBatch& p_ndc,
-                                                   std::span<const std::size_t> indices) {
-  std::array<std::array<std::array<double, kLanes>, 4>, 3> read;
-  std::array<double, kLanes> are_whole;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const std::size_t index = indices[std::min(lane, indices.size() - 1)];
-    const ClipTriangle* const whole = p_ndc.unclipped_of(index);  // in clip space, with all digits
-    are_whole[lane] = whole == nullptr ? 0 : 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3& at = whole == nullptr ? p_ndc.triangles[index][i] : (*whole)[i].position;
-      read[i][0][lane] = at.x;
-      read[i][1][lane] = at.y;
-      read[i][2][lane] = at.z;
-      read[i][3][lane] = whole == nullptr ? p_ndc.attributes.w[index][i] : (*whole)[i].w;
+                                  std::span<const std::size_t> indices) {
+    std::array<std::array<std::array<double, kLanes>, 4>, 3> read;
+    std::array<double, kLanes> are_whole;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t index = indices[std::min(lane, indices.size() - 1)];
+      const ClipTriangle* const whole = p_ndc.unclipped_of(index);  // in clip space, with all digits
+      are_whole[lane] = whole == nullptr ? 0 : 1;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& at = whole == nullptr ? p_ndc.triangles[index][i] : (*whole)[i].position;
+        read[i][0][lane] = at.x;
+        read[i][1][lane] = at.y;
+        read[i][2][lane] = at.z;
+        read[i][3][lane] = whole == nullptr ? p_ndc.attributes.w[index][i] : (*whole)[i].w;
+      }
     }
+    is_whole = hn::Gt(hn::LoadU(kDoubles, are_whole.data()), all(0));
+    std::array<ThreeDoubles, 2> ndc;
+    auto largest_rounded = all(0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto number = [&](std::size_t k) HWY_ATTR { return hn::LoadU(kDoubles, read[i][k].data()); };
+      const Vectors at = {number(0), number(1), number(2)};
+      w[i] = view.is_perspective ? number(3) : all(1);
+      const auto to_clip = hn::IfThenElse(is_whole, all(1), w[i]);
+      const auto to_ndc = hn::IfThenElse(is_whole, all(1) / w[i], all(1));
+      p[0][i] = at.x * to_clip;
+      p[1][i] = at.y * to_clip;
+      ndc[0][i] = at.x * to_ndc;
+      ndc[1][i] = at.y * to_ndc;
+      distance[i] = view.is_perspective
+                        ? number(3)
+                        : (at.z * all(view.far - view.near) + all(view.far) + all(view.near)) * all(0.5);
+      largest_rounded = hn::Max(largest_rounded, largest_in(at));
+    }
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      least_ndc[axis] = least(ndc[axis]);
+      greatest_ndc[axis] = greatest(ndc[axis]);
+    }
+    return largest_rounded;
   }
-  is_whole = hn::Gt(hn::LoadU(kDoubles, are_whole.data()), all(0));
-  std::array<ThreeDoubles, 2> ndc;
-  auto largest_rounded = all(0);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto number = [&](std::size_t k) HWY_ATTR { return hn::LoadU(kDoubles, read[i][k].data()); };
-    const Vectors at = {number(0), number(1), number(2)};
-    w[i] = view.is_perspective ? number(3) : all(1);
-    const auto to_clip = hn::IfThenElse(is_whole, all(1), w[i]);
-    const auto to_ndc = hn::IfThenElse(is_whole, all(1) / w[i], all(1));
-    p[0][i] = at.x * to_clip;
-    p[1][i] = at.y * to_clip;
-    ndc[0][i] = at.x * to_ndc;
-    ndc[1][i] = at.y * to_ndc;
-    distance[i] = view.is_perspective
-                      ? number(3)
-                      : (at.z * all(view.far - view.near) + all(view.far) + all(view.near)) * all(0.5);
-    largest_rounded = hn::Max(largest_rounded, largest_in(at));
-  }
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    least_ndc[axis] = least(ndc[axis]);
-    greatest_ndc[axis] = greatest(ndc[axis]);
-  }
-  return largest_rounded;
-}
 
-HWY_INLINE void UncertainVertices::set_errors(const TrueView& view, Doubles largest_rounded) {
-  largest_rounded = hn::Max(largest_rounded, hn::IfThenElseZero(is_whole, largest_w));
-  const ErrorBound of_whole = rounding_error(kShortest), of_text = *view.bounds.rounded;
-  const auto rounded = (choose(is_whole, of_whole.absolute, of_text.absolute) +
-                        choose(is_whole, of_whole.relative, of_text.relative) * largest_rounded) *
-                       all(ErrorBound::kRoundUp);
-  const auto by_rounding = rounded + lost(largest_rounded, all(0)) * all(0.25);
-  own = hn::IfThenElseZero(is_whole, by_rounding);
-  own_per_w = hn::IfThenZeroElse(is_whole, by_rounding);
-  const double range = view.far - view.near;
-  const auto of_depth = view.is_perspective ? all(0)
-                                            : all(range / 2) * rounded + lost(largest_rounded * all(range),
-                                                                              all(view.far), all(view.near));
-  // x and y in view space, of clip space's at most so much
-  const auto in_clip =
-      hn::IfThenElse(is_whole, largest_rounded, largest_rounded * largest_w) + by_rounding * largest_w;
-  const auto in_view = [&](const TrueView::Axis& a) HWY_ATTR {
-    return (in_clip + own + all(std::fabs(a.center)) * largest_w) * all(a.view_per_clip);
-  };
-  const auto x = in_view(view.axes[0]), y = in_view(view.axes[1]), z = largest(nearest, farthest) + of_depth;
-  const ErrorBound of_view = view.bounds.error;
-  const auto bound =
-      (all(of_view.absolute) + all(of_view.relative) * (hn::Max(hn::Max(x, y), z) * all(kUp))) *
-      all(ErrorBound::kRoundUp) * all(kUp);
-  error = hn::IfThenElse(hn::Lt(x + y + z, all(kInfinity)), bound, all(kInfinity));
-  w_error = view.is_perspective ? error : all(0);
-  depth_error = (error + of_depth) * all(kUp);
-}
+  HWY_INLINE void set_errors(const TrueView& view, Doubles largest_rounded) {
+    largest_rounded = hn::Max(largest_rounded, hn::IfThenElseZero(is_whole, largest_w));
+    const ErrorBound of_whole = rounding_error(kShortest), of_text = *view.bounds.rounded;
+    const auto rounded = (choose(is_whole, of_whole.absolute, of_text.absolute) +
+                          choose(is_whole, of_whole.relative, of_text.relative) * largest_rounded) *
+                         all(ErrorBound::kRoundUp);
+    const auto by_rounding = rounded + lost(largest_rounded, all(0)) * all(0.25);
+    own = hn::IfThenElseZero(is_whole, by_rounding);
+    own_per_w = hn::IfThenZeroElse(is_whole, by_rounding);
+    const double range = view.far - view.near;
+    const auto of_depth =
+        view.is_perspective
+            ? all(0)
+            : all(range / 2) * rounded + lost(largest_rounded * all(range), all(view.far), all(view.near));
+    // x and y in view space, of clip space's at most so much
+    const auto in_clip =
+        hn::IfThenElse(is_whole, largest_rounded, largest_rounded * largest_w) + by_rounding * largest_w;
+    const auto in_view = [&](const TrueView::Axis& a) HWY_ATTR {
+      return (in_clip + own + all(std::fabs(a.center)) * largest_w) * all(a.view_per_clip);
+    };
+    const auto x = in_view(view.axes[0]), y = in_view(view.axes[1]),
+               z = largest(nearest, farthest) + of_depth;
+    const ErrorBound of_view = view.bounds.error;
+    const auto bound =
+        (all(of_view.absolute) + all(of_view.relative) * (hn::Max(hn::Max(x, y), z) * all(kUp))) *
+        all(ErrorBound::kRoundUp) * all(kUp);
+    error = hn::IfThenElse(hn::Lt(x + y + z, all(kInfinity)), bound, all(kInfinity));
+    w_error = view.is_perspective ? error : all(0);
+    depth_error = (error + of_depth) * all(kUp);
+  }
+};
 
 HWY_INLINE Doubles from_center(const TrueView::Axis& a, Doubles low, Doubles high) {
   const auto center = all(a.center);
@@ -221,7 +217,33 @@ HWY_INLINE void set_box(const TrueView& view, const UncertainVertices& v, TrueOu
 /// Triangles as the centers of their outlines' first pixels see them, in pixels.
 struct SeenTriangles {
   HWY_INLINE SeenTriangles(const TrueView& view, const UncertainVertices& v,
-                           const TrueOutline<Doubles>& outline);
+                           const TrueOutline<Doubles>& outline) {
+    std::array<Doubles, 2> reach;  // X and Y of the proof
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const TrueView::Axis& a = view.axes[axis];
+      const auto first = axis == 0 ? outline.first_column : outline.first_row;
+      const auto end = axis == 0 ? outline.end_column : outline.end_row;
+      const auto center = all(a.first) + first * all(a.step), size = all(std::fabs(a.per_step) * kUp);
+      ThreeDoubles from_center_of_pixel;
+      for (std::size_t i = 0; i < 3; ++i) {
+        from_center_of_pixel[i] = (v.p[axis][i] - center * v.w[i]) * all(a.per_step);
+        (axis == 0 ? q[i].x : q[i].y) = from_center_of_pixel[i];
+      }
+      const auto turn =
+          view.is_perspective ? from_center(a, center, all(a.first) + end * all(a.step)) : all(0);
+      const auto of_center = hn::IfThenElseZero(v.is_whole, all(a.error) * v.largest_w);
+      const auto fixed_shift =
+          ((all(a.scale) + turn + all(2 * a.error)) * v.error + v.own + of_center) * size;
+      shift[axis] = view.is_perspective ? fixed_shift : all(0);
+      shift_per_w[axis] =
+          (v.own_per_w + all(2 * a.error)) * size + (view.is_perspective ? all(0) : fixed_shift);
+      reach[axis] = largest(least(from_center_of_pixel), greatest(from_center_of_pixel)) + fixed_shift +
+                    (end - first + shift_per_w[axis]) * v.largest_w;
+    }
+    for (std::size_t i = 0; i < 3; ++i) q[i].z = v.w[i];
+    edge_error = all(0x1p-45) * reach[0] * reach[1];
+    area_error = edge_error * v.largest_w;
+  }
 
   /// |N| a of a function, and |N| b.
   [[nodiscard]] HWY_INLINE Doubles fixed(const LinearLanes& f) const { return moved(f, shift); }
@@ -229,9 +251,35 @@ struct SeenTriangles {
   HWY_INLINE static Doubles moved(const LinearLanes& f, const std::array<Doubles, 2>& by) {
     return (hn::Abs(f.u) * by[0] + hn::Abs(f.v) * by[1]) * all(kUp);
   }
-  HWY_INLINE void set_edges();
-  [[nodiscard]] HWY_INLINE Side<Doubles> side(const LinearLanes& e_k, Doubles margin, Mask is_regular,
-                                              Mask may_be_sure) const;
+  /// Sets e, and D, above 0.
+  HWY_INLINE void set_edges() {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vectors &a = q[(k + 1) % 3], &b = q[(k + 2) % 3];
+      e[k] = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
+    const auto determinant = dot(q[0], {e[0].u, e[0].v, e[0].constant});
+    const auto sign = choose(hn::Lt(determinant, all(0)), -1, 1);
+    for (LinearLanes& edge : e) edge = {edge.u * sign, edge.v * sign, edge.constant * sign};
+    area = hn::Abs(determinant);
+  }
+  /// The side where `e_k` is 0, which may be off by the margin; anywhere if not regular.
+  HWY_INLINE Side<Doubles> side(const LinearLanes& e_k, Doubles margin, Mask is_regular,
+                                Mask may_be_sure) const {
+    // Where u is next to nothing, so is its part in the value, and a row is wholly on one side: over 2^16
+    // columns another u of that size moves the value by at most an eighth of what roundings may.
+    const auto least_u = all(0x1p-20) * edge_error;
+    const auto per_value = all(-1) / hn::IfThenElse(hn::Gt(hn::Abs(e_k.u), least_u), e_k.u, least_u);
+    const auto far = all(kInfinity), before = all(-kInfinity);
+    const auto by = hn::IfThenElse(is_regular, margin * hn::Abs(per_value) * all(kUp), far);
+    const auto is_left = hn::Lt(per_value, all(0)), is_unsure = hn::Not(may_be_sure);
+    return {hn::IfThenElseZero(is_regular, e_k.v),
+            hn::IfThenElseZero(is_regular, e_k.constant),
+            hn::IfThenElseZero(is_regular, per_value),
+            {hn::IfThenElse(hn::Or(is_left, is_unsure), hn::Neg(by), before),
+             hn::IfThenElse(is_unsure, far, hn::IfThenElse(is_left, by, before))},
+            {hn::IfThenElse(hn::And(is_left, may_be_sure), far, by),
+             hn::IfThenElse(is_unsure, before, hn::IfThenElse(is_left, far, hn::Neg(by)))}};
+  }
 
   std::array<Vectors, 3> q;                   // z is w
   std::array<Doubles, 2> shift, shift_per_w;  // a and b of the proof
@@ -239,64 +287,6 @@ struct SeenTriangles {
   std::array<LinearLanes, 3> e;
   Doubles area;  // D
 };
-
-HWY_INLINE SeenTriangles::SeenTriangles(const TrueView& view, const UncertainVertices& v,
-                                        const TrueOutline<Doubles>& outline) {
-  std::array<Doubles, 2> reach;  // X and Y of the proof
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const TrueView::Axis& a = view.axes[axis];
-    const auto first = axis == 0 ? outline.first_column : outline.first_row;
-    const auto end = axis == 0 ? outline.end_column : outline.end_row;
-    const auto center = all(a.first) + first * all(a.step), size = all(std::fabs(a.per_step) * kUp);
-    ThreeDoubles from_center_of_pixel;
-    for (std::size_t i = 0; i < 3; ++i) {
-      from_center_of_pixel[i] = (v.p[axis][i] - center * v.w[i]) * all(a.per_step);
-      (axis == 0 ? q[i].x : q[i].y) = from_center_of_pixel[i];
-    }
-    const auto turn = view.is_perspective ? from_center(a, center, all(a.first) + end * all(a.step)) : all(0);
-    const auto of_center = hn::IfThenElseZero(v.is_whole, all(a.error) * v.largest_w);
-    const auto fixed_shift = ((all(a.scale) + turn + all(2 * a.error)) * v.error + v.own + of_center) * size;
-    shift[axis] = view.is_perspective ? fixed_shift : all(0);
-    shift_per_w[axis] =
-        (v.own_per_w + all(2 * a.error)) * size + (view.is_perspective ? all(0) : fixed_shift);
-    reach[axis] = largest(least(from_center_of_pixel), greatest(from_center_of_pixel)) + fixed_shift +
-                  (end - first + shift_per_w[axis]) * v.largest_w;
-  }
-  for (std::size_t i = 0; i < 3; ++i) q[i].z = v.w[i];
-  edge_error = all(0x1p-45) * reach[0] * reach[1];
-  area_error = edge_error * v.largest_w;
-}
-
-/// Sets e, and D, above 0.
-HWY_INLINE void SeenTriangles::set_edges() {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vectors &a = q[(k + 1) % 3], &b = q[(k + 2) % 3];
-    e[k] = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
-  const auto determinant = dot(q[0], {e[0].u, e[0].v, e[0].constant});
-  const auto sign = choose(hn::Lt(determinant, all(0)), -1, 1);
-  for (LinearLanes& edge : e) edge = {edge.u * sign, edge.v * sign, edge.constant * sign};
-  area = hn::Abs(determinant);
-}
-
-/// The side where `e_k` is 0, which may be off by the margin; anywhere if not regular.
-HWY_INLINE Side<Doubles> SeenTriangles::side(const LinearLanes& e_k, Doubles margin, Mask is_regular,
-                                             Mask may_be_sure) const {
-  // Where u is next to nothing, so is its part in the value, and a row is wholly on one side: over 2^16
-  // columns another u of that size moves the value by at most an eighth of what roundings may.
-  const auto least_u = all(0x1p-20) * edge_error;
-  const auto per_value = all(-1) / hn::IfThenElse(hn::Gt(hn::Abs(e_k.u), least_u), e_k.u, least_u);
-  const auto far = all(kInfinity), before = all(-kInfinity);
-  const auto by = hn::IfThenElse(is_regular, margin * hn::Abs(per_value) * all(kUp), far);
-  const auto is_left = hn::Lt(per_value, all(0)), is_unsure = hn::Not(may_be_sure);
-  return {hn::IfThenElseZero(is_regular, e_k.v),
-          hn::IfThenElseZero(is_regular, e_k.constant),
-          hn::IfThenElseZero(is_regular, per_value),
-          {hn::IfThenElse(hn::Or(is_left, is_unsure), hn::Neg(by), before),
-           hn::IfThenElse(is_unsure, far, hn::IfThenElse(is_left, by, before))},
-          {hn::IfThenElse(hn::And(is_left, may_be_sure), far, by),
-           hn::IfThenElse(is_unsure, before, hn::IfThenElse(is_left, far, hn::Neg(by)))}};
-}
 
 /// Sets the depths where `has_depths`, if 1 / w' is at most `most_per_w`; elsewhere they are the range's.
 HWY_INLINE void set_depths(const TrueView& view, const UncertainVertices& v, const SeenTriangles& seen,

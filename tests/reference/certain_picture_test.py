@@ -183,13 +183,11 @@ class CertainPictures(unittest.TestCase):
         self.assertEqual({found[2][0], *found[2], *(row[2] for row in found)}, {(0, 0, 0)})
 
     def test_no_triangle_is_lost(self):
-        """On the middle of a grid whose double is not 0; where doubles overflow, and where they are all
-        error; behind a BOM, and with a comment that is not UTF-8."""
-        left_half = triangle("0 1 0", "0 -1 0", "1 0 0")
-        for text, size in ((colored([*CAMERA, left_half]), 7),
+        """On the middle of a grid whose double is not 0, behind a BOM, and with a comment that is not UTF-8;
+        where doubles overflow, and where they are all error."""
+        for text, size in (("\ufeff" + colored([*CAMERA, triangle("0 1 0", "0 -1 0", "1 0 0")]), 7),
                            (colored([*CAMERA, "rotate 30 0 0 1", "scale 5e-324 5e-324 1",
-                                     triangle("1e308 1e308 0", "1e308 -1e308 0", "-1e308 0 0")]), 8),
-                           ("\ufeff" + colored(["0 0 5", *CAMERA[1:3], "60 1 1 9", left_half]), 7)):
+                                     triangle("1e308 1e308 0", "1e308 -1e308 0", "-1e308 0 0")]), 8)):
             pathlib.Path("config.txt").write_bytes(b"%d %d # \xe9\n" % (size, size))
             pathlib.Path("scene.txt").write_text(text)
             done = self.picture("scene.txt", "config.txt", "--certain", "-o", "out.ppm")
