@@ -26,7 +26,7 @@ const char* read_three(const char* p, char separator, Vec3& numbers, unsigned& m
                                                     DecimalMarks& marks) {
   const std::size_t group_count = columns.group_count();
   for (std::size_t group = 0; group < group_count; ++group) {
-    const auto separators = columns.separators_after(group);
+    const auto separators = columns.separators_after(group, group + 1 == group_count);
     unsigned group_marks = 0;
     p = read_three(p, separators[0], columns.groups[group][triangle][vertex], group_marks);
     if (p == nullptr) return nullptr;

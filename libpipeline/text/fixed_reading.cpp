@@ -149,8 +149,9 @@ class ColumnReader {
         }(std::make_index_sequence<group_count>())),
         columns_(columns) {
     have_one_digit_.fill(true);
-    for (std::size_t group = 0; group < group_count; ++group)
-      separators_[group] = columns.separators_after(group);
+#pragma GCC unroll 3
+    for (std::size_t group = 0; may_have_more && group < group_count; ++group)
+      separators_[group] = columns.separators_after(group, group + 1 == group_count);
   }
 
   /// Reads the vertex lines of a triangle; null if the form differs.
@@ -176,10 +177,12 @@ class ColumnReader {
           if (group == kRepeatedGroup) last_.set(begin, p, numbers);
         }
 #pragma GCC unroll 2
-        for (std::size_t i = 0; may_have_more && i < kMaxSingles; ++i)
+        for (std::size_t i = 0; may_have_more && i < kMaxSingles; ++i) {
+          if (group > kLastGroupBefore[i]) continue;
           if (const char after = separators_[group][1 + i]; after != 0)
             if ((p = read_short(p, after, columns_.singles[i].numbers[triangle][vertex])) == nullptr)
               return nullptr;
+        }
       }
       if (may_have_more && !columns_.materials.empty() &&
           (p = read_material(p, vertex, columns_.materials[triangle])) == nullptr)

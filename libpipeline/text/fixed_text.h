@@ -100,11 +100,12 @@ struct FixedColumnsOf {
     return false;
   }
   /// What follows a group, and each single number after it, 0 for those that do not come after it.
-  [[nodiscard]] std::array<char, 1 + kMaxSingles> separators_after(std::size_t group) const {
+  [[nodiscard]] std::array<char, 1 + kMaxSingles> separators_after(std::size_t group, bool is_last) const {
     std::array<char, 1 + kMaxSingles> separators{};
-    char next = group + 1 == group_count() && materials.empty() ? '\n' : ' ';
+    char next = is_last && materials.empty() ? '\n' : ' ';
     for (std::size_t i = kMaxSingles; i-- > 0;)
-      if (singles[i].after == group) separators[1 + i] = std::exchange(next, ' ');
+      if (group <= kLastGroupBefore[i] && singles[i].after == group)
+        separators[1 + i] = std::exchange(next, ' ');
     separators[0] = next;
     return separators;
   }
