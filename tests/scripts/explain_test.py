@@ -256,8 +256,8 @@ class Words(ToolTest):
             report)
 
     def test_why_a_pixel_is_uncertain(self):
-        """In each of three stages, the last of 7 decimals is off by up to half a unit in x, y and z, and a pixel
-        is 1/4."""
+        """In each of three stages, the last of 7 decimals is off by up to half a unit in x, y and z, and a
+        pixel is 1/4."""
         line = "  uncertain: rounding may have moved edges here by 1.2e-6 pixels, depths by 1.5e-7; %s\n"
         self.assertIn(line % "edge 1-2 is as near", self.on_centers("3,4"))
         self.assertNotIn("uncertain", self.on_centers("2,5") + self.on_centers("3,4", "nearest"))

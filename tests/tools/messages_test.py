@@ -582,9 +582,10 @@ class OneLine(ToolTest):
 
     def test_an_empty_file_name_is_shown(self):
         self.assert_fails(run("model", ""), 1, "model: cannot open '': No such file or directory")
-        for words in (("zbuf", "--certify"), ("zbuf", "--z-buffer"), ("project", "--scene"), ("view", "--stats")):
-            self.assert_fails(run(*words, ""), 2,
-                              "{0}: {1}: expected a file's name, found nothing (try {0} --help)".format(*words))
+        for tool, option in (("zbuf", "--certify"), ("zbuf", "--z-buffer"), ("project", "--scene"),
+                             ("view", "--stats")):
+            self.assert_fails(run(tool, option, ""), 2,
+                              f"{tool}: {option}: expected a file's name, found nothing (try {tool} --help)")
 
     def test_a_mistake_behind_the_first_block_is_found_on_its_line(self):
         text = CAMERA + TRIANGLE * 20000 + "triangle 0 0 0\n0 0 x\n"

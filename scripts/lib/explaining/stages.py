@@ -97,8 +97,8 @@ class Stages:
         return self.tools.through(["model", *digits, *of_model, self.scene], ["view", *digits], project)
 
     def bounds_if_uncertain(self, column, row):
-        """The numbers of the text's `bounds` if zbuf --certify calls the pixel uncertain, with the same digits
-        in every stage; None if not, or where bounds are refused."""
+        """The numbers of the text's `bounds` if zbuf --certify calls the pixel uncertain, with the same
+        digits in every stage; None if not, or where bounds are refused."""
         if self.settings.coverage != "center":
             return None
         try:
