@@ -67,8 +67,8 @@ class AddedOutline {
                 outline.greatest} {}
 
   HWY_INLINE void add() {
-    const int end_row = static_cast<int>(outline_.end_row);
-    for (int row = first_row_; row < end_row; row += kColumns) {
+    const int end_row = std::min(static_cast<int>(outline_.end_row), bounds_.end_row);
+    for (int row = std::max(first_row_, bounds_.first_row); row < end_row; row += kColumns) {
       const auto& [first, end] = Columns(outline_, row - first_row_);
       for (int i = 0; i < std::min(end_row - row, kColumns); ++i)
         add_row(row + i, {first[0][i], end[0][i]}, {first[1][i], end[1][i]});
@@ -174,7 +174,8 @@ void add_triangles(const TrueView& view, const TriangleBatch& p_ndc, std::span<c
       const auto whole = [&](Doubles number)
                              HWY_ATTR { return static_cast<int>(hn::ExtractLane(number, lane)); };
       const RowRange columns = {whole(outlines.first_column), whole(outlines.end_column)};
-      const RowRange rows = {whole(outlines.first_row), whole(outlines.end_row)};
+      const RowRange rows = {std::max(whole(outlines.first_row), bounds.first_row),
+                             std::min(whole(outlines.end_row), bounds.end_row)};
       const bool is_empty = columns.first >= columns.end || rows.first >= rows.end;
       if (!is_empty && !is_hidden(columns, rows, hn::ExtractLane(outlines.least, lane), bounds))
         open |= 1u << lane;
@@ -205,6 +206,7 @@ CertainPixels::CertainPixels(const Viewport& screen, const Bounds& bounds, const
     : view_(screen, bounds, projected),
       bounds_{.columns = screen.columns,
               .first_row = screen.drawn_rows().first,
+              .end_row = screen.drawn_rows().end,
               .stride = screen.columns + PixelBounds::kPadding,
               .block_count = (screen.columns + PixelBounds::kBlockColumns - 1) / PixelBounds::kBlockColumns,
               .front = view_.depths_at(screen.front),

@@ -54,7 +54,7 @@ struct PixelBounds {
     return static_cast<std::size_t>((row - first_row) * block_count + column / kBlockColumns);
   }
 
-  int columns, first_row;
+  int columns, first_row, end_row;  // those that are drawn
   std::ptrdiff_t stride, block_count;
   std::array<double, 2> front, rear;  // depths that these limits lie between
   // For each row, by column: the least upper bound on the depths of those triangles that surely cover the

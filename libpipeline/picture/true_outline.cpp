@@ -28,7 +28,7 @@ TrueView::TrueView(const Viewport& screen, const Bounds& error, const Projection
     near = p.near;
     far = p.far;
     axes = {axis(p.left, p.right, screen.left_x(), screen.dx(), screen.left, {0, screen.columns}),
-            axis(p.bottom, p.top, screen.top_y(), -screen.dy(), screen.bottom, screen.drawn_rows())};
+            axis(p.bottom, p.top, screen.top_y(), -screen.dy(), screen.bottom, {0, screen.rows})};
   };
   if (is_perspective)
     set(std::get<Frustum>(projected));
