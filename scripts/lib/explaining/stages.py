@@ -12,7 +12,7 @@ from lib.maths.window import Window
 from lib.rim.input_file import read_input
 from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.running.tool_options import words_of_project
-from lib.text.stage_text import parse_stage_text, text_of
+from lib.text.stage_text import header_and_body, parse_stage_text, text_of
 
 FRAGMENT = re.compile(r"zbuf: \d+,\d+: triangle (\d+), depth (\S+): (.*)")
 EXACT = ("--digits", "exact")
@@ -49,10 +49,8 @@ class Stages:
     def __init__(self, tools, scene, config, settings):
         self.tools, self.scene, self.config, self.settings = tools, scene, config, settings
         self.lossless = tools.output("model", *EXACT, scene)
-        lines = self.lossless.decode().split("\n")
-        begin = next((i for i, line in enumerate(lines) if not line[:1].isalpha()), len(lines))
-        self.header, self.body = lines[:begin], lines[begin:]
-        self.count = len(self.body) // 4  # three vertex lines and a blank line each
+        self.header, self.body = header_and_body(self.lossless)
+        self.count = len(self.body) // 4
 
     def camera(self):
         """The header's lines of the camera: {keyword: words}."""

@@ -4,6 +4,11 @@ import math
 KEYWORDS = ("perspective", "frustum", "ortho")
 
 
+def with_keyword(words):
+    """The words of a scene's fourth line, which may leave out the first one."""
+    return words if words and words[0] in KEYWORDS else ["perspective", *words]
+
+
 def line_of(words_of):
     """The header line of the projection, in words; `words_of` gives the words behind a keyword, or None."""
     return next([keyword, *words_of(keyword)] for keyword in KEYWORDS if words_of(keyword))

@@ -6,7 +6,7 @@ import itertools
 
 from lib.maths.exact import double
 from lib.maths.matrices import IDENTITY, TRANSFORMS, product
-from lib.text.projection import KEYWORDS
+from lib.text.projection import with_keyword
 
 CAMERA_LINES = 4
 ARGUMENT_LINES = {"triangle": 3, "push": 0, "pop": 0, "end": 0}  # others have one
@@ -50,8 +50,8 @@ def filled_lines(text):
 
 def camera(text):
     """The words of eye, look, up and, with its keyword, the projection."""
-    *position, last = (words for _, words in itertools.islice(filled_lines(text), CAMERA_LINES))
-    return *position, last if last[0] in KEYWORDS else ["perspective", *last]
+    *position, projection = (words for _, words in itertools.islice(filled_lines(text), CAMERA_LINES))
+    return *position, with_keyword(projection)
 
 
 def commands(text):

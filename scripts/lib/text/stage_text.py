@@ -72,6 +72,14 @@ def header_of(data):
     return header
 
 
+def header_and_body(data):
+    """The lines of a tool's text of world or view space: those of its header, and the others, of which each
+    triangle has three and a blank one."""
+    lines = data.decode().split("\n")
+    begin = next((i for i, line in enumerate(lines) if not line[:1].isalpha()), len(lines))
+    return lines[:begin], lines[begin:]
+
+
 def triangle_lines(lines):
     """(number, its three vertex lines) of each triangle, or piece of one, as they come; `lines` are the bytes
     of a text that a tool has written, however long."""
