@@ -43,8 +43,8 @@ class SingleTriangles:
         return self.tools.output("view", *EXACT, stdin="\n".join([*lines, ""]).encode())
 
     def projected(self, text, triangle, growth):
-        """The text of project of a text of view whose triangle, if any, is put where no rounding has moved it,
-        larger by a part about its middle."""
+        """The text of project of a text of view whose triangle, if any, is put where no rounding has moved
+        it, larger by a part about its middle."""
         header, body = header_and_body(text)
         points = self.exact_points(triangle) if triangle else []
         middle = [sum(axis) * Fraction(1, 3) for axis in zip(*points)]
