@@ -155,7 +155,7 @@ class OldPython(ToolTest):
 class Readme(ToolTest):
     def test_lists_every_command(self):
         scripts = SOURCE / "scripts"
-        listed = re.findall(r"^\| `([^`]+[^`/])`", (scripts / "README.md").read_text(), re.M)
+        listed = re.findall(r"^- `([^`]+[^`/])`:", (scripts / "README.md").read_text(), re.M)
         self.assertEqual(sorted(listed),
                          sorted([*(str(path.relative_to(scripts)) for path in commands()), "view.awk"]))
 
