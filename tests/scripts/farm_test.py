@@ -4,7 +4,7 @@ is killed.
 
 usage: farm_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
-import contextlib
+import itertools
 import os
 import pathlib
 import random
@@ -24,8 +24,8 @@ from ssh_server import SshServer
 from toolbox import BIN, SOURCE, ToolTest, pipe, run, run_script
 
 FARM = SOURCE / "scripts/farm"
-SETTINGS = ([], ["--coverage", "center", "--samples",
-                 "2"], ["--wireframe", "--clip", "frustum", "--depth", "f32"])
+SETTINGS = ([], ["--coverage", "center", "--samples", "2"],
+            ["--wireframe", "--clip", "frustum", "--depth", "f32"])
 OF_PROJECT = ("--clip", "--cull", "--aspect")
 
 
@@ -45,7 +45,7 @@ def setUpModule():  # noqa: N802
 def logged(folder, output):
     """(host, start, exit status) of the job that made the output, from the job log: its last run."""
     rows = [line.split("\t", 8) for line in pathlib.Path(folder, "jobs.log").read_text().splitlines()[1:]]
-    found = [(row[1], float(row[2]), int(row[6])) for row in rows if f"output={output};" in row[8]]
+    found = [(row[1], float(row[2]), int(row[6])) for row in rows if f"draw.sh {output} " in row[8]]
     return found[-1]
 
 
@@ -154,29 +154,25 @@ class FarmTest(ToolTest):
 
 class Local(FarmTest):
     def test_parts_and_bands(self):
-        for is_lit in (False, True):
-            for settings in SETTINGS:
-                self.expect(settings, is_lit)
-                for cut in (["--parts", "20"], ["--parts", "3", "--bands",
-                                                "3"], ["--parts", "1", "--bands", "4"]):
-                    with self.subTest(is_lit=is_lit, settings=settings, cut=cut):
-                        self.assertEqual(self.check(settings, *cut), "")
-                        self.assertFalse(pathlib.Path("farm.ppm.farm").exists())
+        cuts = (["--parts", "20"], ["--parts", "3", "--bands", "3"], ["--parts", "1", "--bands", "4"])
+        for is_lit, settings in itertools.product((False, True), SETTINGS):
+            self.expect(settings, is_lit)
+            for cut in cuts:
+                with self.subTest(is_lit=is_lit, settings=settings, cut=cut):
+                    self.assertEqual(self.check(settings, *cut), "")
+                    self.assertFalse(pathlib.Path("farm.ppm.farm").exists())
 
     def test_other_formats(self):
         self.expect([], True)
-        for name in ("one.bmp", "one.png"):
-            pipe(["model"], ["view"], ["project"], ["zbuf", "config.txt", "-o", name], stdin=scene(True))
-        for name in ("farm.bmp", "farm.png"):
-            for cut in (["--parts", "4"], ["--bands", "3"]):
-                done = subprocess.run([FARM, "scene.txt", "config.txt", "-o", name, *cut],
-                                      capture_output=True, env={**os.environ, "BIN": str(BIN)})
-                self.assertEqual((done.returncode, done.stderr), (0, b""))
-                self.assertEqual(read_picture(name), read_picture("one.bmp"))
-                if name == "farm.bmp" or "--parts" in cut:
-                    self.assertEqual(
-                        pathlib.Path(name).read_bytes(),
-                        pathlib.Path(name.replace("farm", "one")).read_bytes())
+        for extension, cut in itertools.product(("bmp", "png"), (["--parts", "4"], ["--bands", "3"])):
+            one, many = (pathlib.Path(f"{name}.{extension}") for name in ("one", "farm"))
+            pipe(["model"], ["view"], ["project"], ["zbuf", "config.txt", "-o", one], stdin=scene(True))
+            done = subprocess.run([FARM, "scene.txt", "config.txt", "-o", many, *cut], capture_output=True,
+                                  env={**os.environ, "BIN": str(BIN)})
+            self.assertEqual((done.returncode, done.stderr), (0, b""))
+            self.assertEqual(read_picture(many), read_picture(one))
+            if extension == "bmp" or "--parts" in cut:
+                self.assertEqual(many.read_bytes(), one.read_bytes())
 
     def test_an_empty_picture_is_noted_once(self):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 9\n1 0 9\n0 1 9\n" * 9 + "end\n")
@@ -185,13 +181,12 @@ class Local(FarmTest):
                          (0, "zbuf: note: the picture is empty: no triangle came\n"))
 
     def test_a_killed_worker(self):
-        for is_lit in (False, True):
-            self.expect([], is_lit)
-            self.use_slow_tools(HOLD.format(pathlib.Path.cwd()), "model")
-            process = self.start([], "--parts", "4", "--keep", "--", "--jobs", "2")
-            output, chain = chains_to_zbuf(process, process.pid, 2).popitem()
-            os.kill(chain[0][0], signal.SIGKILL)
-            self.end(process, [output])
+        self.expect([], True)
+        self.use_slow_tools(HOLD.format(pathlib.Path.cwd()), "model")
+        process = self.start([], "--parts", "4", "--keep", "--", "--jobs", "2")
+        output, chain = chains_to_zbuf(process, process.pid, 2).popitem()
+        os.kill(chain[0][0], signal.SIGKILL)
+        self.end(process, [output])
 
     def test_a_second_run_does_what_is_left(self):
         self.expect([], True)
@@ -200,10 +195,10 @@ class Local(FarmTest):
         done = self.farm([], "--parts", "5", "--", "--jobs", "1")
         self.assertEqual(done.returncode, 1)
         self.assertIn(
-            "farm: no picture: 1 of 5 parts are missing, the first is seen-0-0-3.txt (of parts/3.txt); "
+            "farm: no picture: 1 of 5 parts are missing, the first is seen-0-3.txt (of parts/3.txt); "
             "farm.ppm.farm/jobs.log tells where they ran, ",
             done.stderr)
-        self.assertIn("seen-0-0-3.txt: zbuf: ", done.stderr)
+        self.assertIn("seen-0-3.txt: zbuf: ", done.stderr)
         self.assertFalse(pathlib.Path("farm.ppm").exists() or pathlib.Path("farm.txt").exists())
         before = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("farm.ppm.farm").glob("seen*")}
         self.assertEqual(len(before), 4)
@@ -294,92 +289,73 @@ class OtherMachines(FarmTest):
         server = SshServer(self, ["w1", "w2", "w3", "w4"], full="w3",
                            silent={"w4": listener.getsockname()[1]})
         hosts = ["--", *server.words, "--sshlogin", "1/w1,1/w2,1/w3,1/w4"]
-        for is_lit in (False, True):
-            for settings in SETTINGS:
-                with self.subTest(is_lit=is_lit, settings=settings):
-                    self.expect(settings, is_lit)
-                    self.use_slow_tools(HOLD.format(pathlib.Path.cwd()), "model")
-                    process = self.start(settings, "--parts", "4", "--keep", *hosts)
-                    chains = chains_to_zbuf(process, server.process.pid, 2, ("w1", "w2"))
-                    one, two = chains
-                    connection = next(i for i, name in chains[one] if name.startswith("sshd"))
-                    self.assertNotEqual(connection, server.process.pid)
-                    os.kill(connection, signal.SIGKILL)
-                    os.kill(chains[two][0][0], signal.SIGKILL)
-                    self.end(process, [one, two])
-                    jobs = [logged("farm.ppm.farm", f"seen-0-0-{i}.txt") for i in range(1, 5)]
-                    self.assertEqual({(host, status)
-                                      for host, _, status in jobs} - {("w1", 0), ("w2", 0)}, set())
-                    without_part = pathlib.Path("without-part").read_text().splitlines()
-                    self.assertEqual(
-                        {
-                            pathlib.Path(folder).relative_to(pathlib.Path.cwd()).parts[0]
-                            for folder in without_part}, {"w3"})
-                    pathlib.Path("without-part").unlink()
-                    listener.settimeout(0)
-                    asked = 0
-                    with contextlib.suppress(BlockingIOError):
-                        while True:
-                            listener.accept()[0].close()
-                            asked += 1
-                    self.assertGreater(asked, 0, "the host that does not answer was not asked")
+        self.expect(SETTINGS[1], True)
+        self.use_slow_tools(HOLD.format(pathlib.Path.cwd()), "model")
+        process = self.start(SETTINGS[1], "--parts", "4", "--keep", *hosts)
+        chains = chains_to_zbuf(process, server.process.pid, 2, ("w1", "w2"))
+        one, two = chains
+        connection = next(i for i, name in chains[one] if name.startswith("sshd"))
+        self.assertNotEqual(connection, server.process.pid)
+        os.kill(connection, signal.SIGKILL)
+        os.kill(chains[two][0][0], signal.SIGKILL)
+        self.end(process, [one, two])
+        jobs = [logged("farm.ppm.farm", f"seen-0-{i}.txt") for i in range(1, 5)]
+        self.assertEqual({(host, status) for host, _, status in jobs} - {("w1", 0), ("w2", 0)}, set())
+        without_part = map(pathlib.Path, pathlib.Path("without-part").read_text().splitlines())
+        self.assertEqual({folder.relative_to(pathlib.Path.cwd()).parts[0] for folder in without_part}, {"w3"})
+        listener.settimeout(0)
+        listener.accept()[0].close()  # the host that does not answer was asked
 
 
 class Refusals(FarmTest):
+    # A command line, and a part of what farm says.
+    LINES = (
+        ("--probe 1,2", "expected no --probe: it is about triangles that are hidden, and a part does not "),
+        ("--fragments=f.txt", "expected no --fragments: it is about triangles that are hidden"),
+        ("--stats s", "expected no --stats: it is about triangles that are hidden"),
+        ("--depth-image d.pgm", "expected no --depth-image: draw it from the text of zbuf --seen"),
+        ("--parts 0", "expected a whole number from 1 to 9999, found '0'"),
+        ("--background 01020300",
+         "--background: expected an opaque background, or -o FILE.png, found '01020300'"),
+        ("--seen x", "unrecognized arguments: --seen x"),
+    )
+
     def test_what_cannot_be_distributed(self):
         self.expect([], False)
-        for words, reason in (
-            (["--probe", "1,2"],
-             "expected no --probe: it tells of triangles that are hidden, and a part does not know what "
-             "hides them"
-             ),
-            (["--fragments=f.txt"],
-             "expected no --fragments: it lists triangles that are hidden, and a part does not know what "
-             "hides them"
-             ), (["--stats", "s"], "expected no --stats: it counts triangles that are hidden"), ([
-                 "--parts", "0"], "expected a whole number from 1 to 9999, found '0'"), ([
-                     "--background", "01020300"
-                 ], "--background: expected an opaque background, or -o FILE.png, found '01020300'"), ([
-                     "--seen", "x"], "unrecognized arguments: --seen x")):
-            done = self.farm(words)
+        for words, reason in self.LINES:
+            done = self.farm(words.split())
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
             self.assertIn(reason, done.stderr)
 
+    def refuse(self, message, *words):
+        done = self.farm(words)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, rf"\Afarm: {message}\n\Z")
+        self.assertFalse(pathlib.Path("farm.ppm").exists())
+
     def test_what_the_tools_refuse(self):
         self.expect([], False)
-        done = self.farm(["--samples", "99"])
-        self.assertEqual(
-            (done.returncode, done.stderr),
-            (1,
-             "farm: zbuf: --samples: expected a whole number from 1 to 16, found '99' (try zbuf --help)\n"))
+        self.refuse(r"zbuf: --samples: expected a whole number from 1 to 16, found '99' \(try zbuf --help\)",
+                    "--samples", "99")
+        pathlib.Path("scene.txt").write_text("0 0 5\n")
+        self.refuse(r"cut-scene: \S*scene.txt:2:1: expected the four lines of the camera, found the end of "
+                    "the input")
+        text = scene(False)
+        pathlib.Path("scene.txt").write_text(text.replace("end\n", "sphere 0 0 0 1\nend\n"))
+        line = text.count("\n")
+        self.refuse(f"model: scene.txt:{line}:1: expected triangles alone, found a sphere: .*")
         pathlib.Path("scene.txt").unlink()
         os.symlink("/dev/zero", "scene.txt")
-        done = self.farm([])
-        self.assertEqual((done.returncode, done.stderr), (
-            1, "farm: expected a regular file, whose size tells where to cut, found scene.txt\n"))
-        pathlib.Path("scene.txt").unlink()
-        pathlib.Path("scene.txt").write_text("0 0 5\n")
-        done = self.farm([])
-        self.assertEqual(done.returncode, 1)
-        self.assertRegex(
-            done.stderr,
-            r"\Afarm: cut-scene: \S*scene.txt:2:1: expected the four lines of the camera, found the end of "
-            r"the input\n\Z"
-        )
-        pathlib.Path("scene.txt").write_text(scene(False).replace("end\n", "sphere 0 0 0 1\nend\n"))
-        line = scene(False).count("\n")
-        done = self.farm([], "--parts", "3")
-        self.assertEqual((done.returncode, done.stderr), (
-            1,
-            f"farm: model: scene.txt:{line}:1: expected triangles alone, found a sphere: trace draws it, and "
-            "model --facets N makes triangles of it\n"))
+        self.refuse("expected a regular file, whose size tells where to cut, found scene.txt")
+
+    def test_what_a_part_refuses(self):
         pathlib.Path("scene.txt").write_text(
             scene(False).replace("end\n", "triangle\n0 0 0\n1 0 0\n0 x 0\nend\n"))
         done = self.farm([], "--parts", "3")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("seen-0-0-3.txt: model: parts/3.txt:", done.stderr)
+        self.assertIn("seen-0-3.txt: model: parts/3.txt:", done.stderr)
         self.assertIn(
-            "farm: no picture: 1 of 3 parts are missing, the first is seen-0-0-3.txt (of parts/3.txt)",
+            "farm: no picture: 1 of 3 parts are missing, the first is seen-0-3.txt (of parts/3.txt)",
             done.stderr)
         self.assertFalse(pathlib.Path("farm.ppm").exists())
 

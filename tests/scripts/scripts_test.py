@@ -65,7 +65,7 @@ class Writing(ToolTest):
         "lib/judging/program.py": "in the temporary folder of check-stage and grade",
         "grade_parts/kit_classroom50.py": "a result that was handed in, by the name of its own",
         "grade_parts/programs.py": "in the temporary folder of grade",
-        "farm_parts/work.py": "its jobs, the logs of their own",
+        "farm": "its jobs, the logs of their own",
         "film_parts/frames.py": "its jobs, the logs of their own",
         "check": "the folder build of the source tree",
         "build-release": "the folder build of the source tree",

@@ -188,35 +188,6 @@ class Joins(Split):
         self.assertEqual((done.returncode, done.stderr.decode()), (1, f"join-seen: {message}\n"))
         self.assertTrue(done.stdout.endswith(f"error join-seen: {message}\n".encode()))
 
-    def test_seen_parts_in_any_grouping(self):
-        pathlib.Path("config.txt").write_text("50 40\n")
-        for seed in range(SCENE_COUNT // 2):
-            rng = random.Random(seed)
-            scene = random_scene(rng, 40)
-            parts = self.stage1(self.split(scene, 5), "--framed")
-            def after_project(name):
-                text = pathlib.Path(name).read_bytes() if isinstance(name, str) else name
-                for tool in ("view", "project"):
-                    text = run(tool, *(["--clip", "near"] if tool == "project" else []), stdin=text).stdout
-                return text
-            def picture(text):
-                done = run("zbuf", "config.txt", "-o", "out.ppm", "--expect-framed", stdin=text)
-                self.assertEqual(done.returncode, 0, done.stderr)
-                return done.stdout, pathlib.Path("out.ppm").read_bytes()
-            expected = picture(after_project(run("model", "--framed", "scene.txt").stdout))
-            for i, name in enumerate(parts):
-                done = run("zbuf", "config.txt", "--expect-framed", "--seen", f"seen.{i}",
-                           stdin=after_project(name))
-                self.assertEqual(done.returncode, 0, done.stderr)
-            names = [f"seen.{i}" for i in range(len(parts))]
-            while len(names) > 2:
-                at = rng.randrange(len(names) - 1)
-                done = run("zbuf", "config.txt", "--expect-framed", "--seen", names[at] + "+",
-                           stdin=run("join-seen", "--expect-framed", *names[at:at + 2]).stdout)
-                self.assert_quiet_success(done)
-                names[at:at + 2] = [names[at] + "+"]
-            self.assertEqual(picture(run("join-seen", *names).stdout), expected)
-
     def test_one_frame_is_written(self):
         for name in "ab":
             pathlib.Path(name).write_text("framed\n0 0 0\n1 0 0\n0 1 0\n\nend\n")

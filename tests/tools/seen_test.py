@@ -3,7 +3,6 @@
 
 usage: seen_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
-import itertools
 import os
 import pathlib
 import random
@@ -24,56 +23,16 @@ CLIPS = ("auto", "near", "frustum", "frustum --clip-inset 0.2")
 WALL = "-9 -9 {0}\n9 -9 {0}\n0 9 {0}\n\n"
 
 
-class StageText:
-    """The header lines of a stage text, and its triangles: (number, lines), all pieces of one together."""
-
-    def __init__(self, text):
-        self.header, self.triangles, self.is_framed = [], [], False
-        number, clipped = 0, ""
-        blocks = text.decode().split("\n\n")
-        first = blocks[0].split("\n")
-        while first and re.match(r"(?!triangle|clipped|end)[a-z]", first[0]):
-            self.header.append(first.pop(0) + "\n")
-        for lines in itertools.chain([first], (block.split("\n") for block in blocks[1:])):
-            if lines in ([""], []):
-                continue
-            if lines[0] == "end":
-                self.is_framed = True
-                continue
-            if lines[0].startswith("triangle "):
-                number = int(lines.pop(0).split()[1])
-            block = "\n".join(lines) + "\n\n"
-            if lines[0] == "clipped":
-                clipped = block
-                continue
-            block, clipped = clipped + block, ""
-            if self.triangles and self.triangles[-1][0] == number:
-                self.triangles[-1][1].append(block)
-            else:
-                self.triangles.append((number, [block]))
+def numbers_of(text):
+    """The numbers of the triangles of a stage text without clipped ones, each once."""
+    numbers, number = [], 0
+    for line in re.findall(r"^triangle \d+$|^\n", text.decode(), re.M):
+        if line == "\n":
+            numbers.append(number)
             number += 1
-
-    def text(self, triangles):
-        """The stage text of some of the triangles."""
-        body, expected = "", 0
-        for number, pieces in triangles:
-            for piece in pieces:
-                body += (f"triangle {number}\n" if number != expected else "") + piece
-                expected = number + 1
-        return ("".join(self.header) + body + ("end\n" if self.is_framed else "")).encode()
-
-    def parts(self, rng, count):
-        """The text in parts: each has the header, and numbers its triangles."""
-        cuts = sorted(rng.randrange(len(self.triangles) + 1) for _ in range(count - 1))
-        return [
-            self.text(self.triangles[begin:end])
-            for begin, end in zip([0, *cuts], [*cuts, len(self.triangles)])]
-
-
-def joined(parts):
-    """One text: the first header, all bodies."""
-    texts = [StageText(part) for part in parts]
-    return texts[0].text([triangle for text in texts for triangle in text.triangles])
+        else:
+            number = int(line.split()[1])
+    return sorted(set(numbers))
 
 
 class Seen(ToolTest):
@@ -94,28 +53,15 @@ class Seen(ToolTest):
     def seen(self, text, *options):
         return self.zbuf(*options, "--seen", "-", stdin=text)
 
-    def check(self, text, *options, rng=None):
-        """The seen triangles give the whole picture; so do those of parts, in any grouping."""
-        expected = self.picture(text, *options)
+    def check(self, text, *options):
+        """The seen triangles give the whole picture; of parts of a scene, farm_test says so."""
         seen = self.seen(text, *options)
-        self.assertEqual(self.picture(seen, *options), expected)
+        self.assertEqual(self.picture(seen, *options), self.picture(text, *options))
         self.assertEqual(self.seen(seen, *options), seen)
-        whole = StageText(text)
-        self.assertEqual(whole.text(whole.triangles).split(), text.split())
-        if rng is None or not whole.triangles:
-            return seen
-        partial = [self.seen(part, *options) for part in whole.parts(rng, 3)]
-        in_groups = self.seen(joined(partial[:2]), *options)
-        self.assertEqual(self.picture(joined(partial), *options), expected)
-        self.assertEqual(self.picture(joined([in_groups, partial[2]]), *options), expected)
-        if "--depth-epsilon" not in options:
-            self.assertEqual(self.seen(joined([in_groups, partial[2]]), *options), seen)
-        return seen
 
 
 class Pictures(Seen):
-    def test_samples_with_all_settings_are_the_same_from_what_is_seen_and_from_parts(self):
-        rng = random.Random(1)
+    def test_samples_with_all_settings_are_the_same_from_what_is_seen(self):
         count = 0
         for k, sample in enumerate(SAMPLES):
             pathlib.Path("config.txt").write_bytes((sample / "config.txt").read_bytes())
@@ -127,99 +73,13 @@ class Pictures(Seen):
                     if "shading" in setting and not is_lit:
                         continue
                     with self.subTest(sample=sample.name, clip=clip, setting=setting):
-                        self.check(ndc, *setting.split(), rng=rng if clip != "auto" else None)
+                        self.check(ndc, *setting.split())
                         count += 1
         self.assertGreaterEqual(count, 296 // STEP)
 
 
-class RandomScenes(Seen):
-    """Also with equal depths, several colors, lights and cuts."""
-
-    HEADERS = (
-        "", "background 10 20 30\ncolor 200 100 50\n",
-        "attributes color normal\nbackground 9 9 9\nlight 1 2 3 1 1 1\nambient 0.2 0.2 0.2\nmaterial 1 "
-        "1 0.5 8\n",
-        "attributes normal\nlight 3 1 3 1 0.5 1\n",
-        "attributes normal\nmaterial 1 1 0 1\nmaterial 0.2 0.5 1 9\nlight 3 1 3 1 0.5 1\n")
-
-    def scene(self, rng, kind, count):
-        coordinate = lambda: rng.choice((rng.uniform(-2, 2), rng.randrange(-4, 5) / 2))
-        def vertex(z):
-            words = [coordinate(), coordinate(), z if z is not None else coordinate()]
-            if "attributes color" in kind:
-                words += [rng.randrange(256) for _ in range(3)]
-            if "normal" in kind:
-                words += [rng.uniform(-1, 1), rng.uniform(-1, 1), 1]
-            return " ".join(f"{word:.5g}" for word in words) + "\n"
-        lines = "1 0.5 4\n0 0 0\n0 1 0\n50 1 2.5 8\n" + kind
-        for _ in range(count):
-            z = rng.choice((None, None, 0, 0.5))
-            if kind.count("material") > 1 and rng.random() < 0.5:
-                lines += f"use {rng.randrange(2)}\n"
-            lines += "triangle\n" + "".join(vertex(z) for _ in range(3))
-        return lines + "end\n"
-
-    def options(self, rng, kind):
-        options = [
-            "--coverage",
-            rng.choice(("nearest", "center")), "--depth",
-            rng.choice(("f64", "f32", "u24"))]
-        if rng.random() < 0.4:
-            options += ["--samples", str(rng.choice((2, 3)))]
-        if rng.random() < 0.3:
-            options += ["--wireframe"]
-        if "light" in kind and rng.random() < 0.5:
-            options += ["--shading", rng.choice(("flat", "gouraud", "phong", "none"))]
-        return options
-
-    def ndc(self, rng, kind, count):
-        clip = rng.choice(("near", "frustum", "reject", "auto"))
-        digits = rng.choice(("3", "7", "exact"))
-        return pipe(["model", "--digits", digits, *rng.choice(
-            ([], ["--framed"]))], ["view", "--digits", digits],
-                    ["project", "--clip", clip, "--digits", digits], stdin=self.scene(rng, kind, count))
-
-    def test_any_cut_into_parts_in_any_grouping_gives_the_whole(self):
-        pathlib.Path("config.txt").write_text("40 30\n")
-        for seed, kind in itertools.product(range(SCENE_COUNT), self.HEADERS):
-            rng = random.Random(seed)
-            ndc, options = self.ndc(rng, kind, 60), self.options(rng, kind)
-            with self.subTest(seed=seed, kind=kind, options=options):
-                self.check(ndc, *options, rng=rng)
-
-    def test_so_it_does_under_a_depth_epsilon(self):
-        pathlib.Path("config.txt").write_text("20 20\n")
-        differences = 0
-        for seed, kind in itertools.product(range(SCENE_COUNT), self.HEADERS):
-            rng = random.Random(100 + seed)
-            ndc = self.ndc(rng, kind, 200)
-            options = [*self.options(rng, kind), "--depth-epsilon", str(rng.choice((0.001, 0.01, 0.1)))]
-            with self.subTest(seed=seed, kind=kind, options=options):
-                seen = self.check(ndc, *options, rng=rng)
-                differences += len(StageText(seen).triangles) != len(
-                    StageText(self.seen(ndc, *options[:-2])).triangles)
-        self.assertGreater(differences, 0)  # the winners alone would not do
-
-    def test_threads_algorithms_and_kernels_write_the_same(self):
-        pathlib.Path("config.txt").write_text("40 30\n")
-        for seed, kind in itertools.product(range(2), self.HEADERS):
-            rng = random.Random(seed)
-            ndc = self.ndc(rng, kind, 100)
-            for options in (["--coverage", "nearest"], ["--coverage", "center", "--samples", "2"]):
-                expected = self.seen(ndc, *options)
-                self.assertEqual(self.seen(ndc, *options, "--threads", "3"), expected)
-                self.assertEqual(self.seen(ndc, *options, "--algorithm", "scanline"), expected)
-                for kernel in ("scalar", "sse4", "avx2", "avx512"):
-                    done = run("zbuf", "config.txt", "--seen", "-", *options, stdin=ndc,
-                               env={**os.environ, "PIPELINE_KERNEL": kernel})
-                    self.assertEqual(done.stdout, expected)
-
-
 class Owners(Seen):
     """Against the fragments that zbuf reports."""
-
-    def numbers(self, text):
-        return [number for number, _ in StageText(text).triangles]
 
     def fragments(self, text, *options):
         """(pixel, number) of every fragment that was kept, in order."""
@@ -240,7 +100,7 @@ class Owners(Seen):
             text = self.text(seed)
             for options in (["--coverage", "nearest"], ["--coverage", "center"], ["--depth", "u24"]):
                 owners = dict(self.fragments(text, *options))
-                seen = self.numbers(self.seen(text, *options, "--stats", "stats.txt"))
+                seen = numbers_of(self.seen(text, *options, "--stats", "stats.txt"))
                 self.assertEqual(seen, sorted(set(owners.values())))
                 self.assertIn(f"seen {len(seen)}\npixels_written {len(owners)}\n",
                               pathlib.Path("stats.txt").read_text())
@@ -250,7 +110,7 @@ class Owners(Seen):
         for seed in range(SCENE_COUNT):
             text = self.text(seed)
             kept = {number for _, number in self.fragments(text)}
-            self.assertEqual(self.numbers(self.seen(text, "--depth-epsilon", "0.01")), sorted(kept))
+            self.assertEqual(numbers_of(self.seen(text, "--depth-epsilon", "0.01")), sorted(kept))
 
     def test_a_sample_counts_like_a_pixel(self):
         pathlib.Path("config.txt").write_text("1 1\n")
