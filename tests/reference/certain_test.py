@@ -4,6 +4,7 @@ scenes in which few digits are felt. The bounds in the texts hold, and wrong one
 
 usage: certain_test.py BIN_DIR [SCENES] [FIRST]
 """
+import math
 import pathlib
 import random
 import re
@@ -21,10 +22,6 @@ import exact_picture
 import moved_picture
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(SOURCE / "scripts/measure"))
-
-from parts.tradeoff_scenes import layers as layers_of_trade
-
 FIRST = int(sys.argv.pop()) if len(sys.argv) > 3 else 0
 SCENES = int(sys.argv.pop()) if len(sys.argv) > 2 else 300
 BIN = pathlib.Path(sys.argv.pop()).resolve()
@@ -52,6 +49,21 @@ def layers(rng):
     x, y = rng.uniform(-3, 3), rng.uniform(-3, 3)
     return sum((triangle(*("%.9f %.9f %.9f" % (a, b, a * x + b * y + i * gap) for a, b in (
         (-2, -2), (2, rng.uniform(-2, -1)), (rng.uniform(-1, 1), 2)))) for i in range(rng.randint(2, 3))), [])
+
+
+def two_planes(ratio):
+    """A scene of two oblique planes 1e-5 apart, where far / near is `ratio`. The rear one comes first, so that
+    it also wins where both depths are equal."""
+    lines = ["0 0 3", "0 0 0", "0 1 0", f"45 1 {10 / ratio:.17g} 10"]
+    for cells, lift in ((2, 0), (9, 1e-5 / math.hypot(0.6, 0.3, 1))):
+        def corner(i, k):
+            x, y = 2 * k / cells - 1, 2 * i / cells - 1
+            return "%.9g %.9g %.9g" % (x - 0.6 * lift, y - 0.3 * lift, 0.6 * x + 0.3 * y + lift)
+
+        for i, k in ((i, k) for i in range(cells) for k in range(cells)):
+            a, b, c, d = corner(i, k), corner(i, k + 1), corner(i + 1, k + 1), corner(i + 1, k)
+            lines += [*triangle(a, b, c), *triangle(a, c, d)]
+    return "\n".join([*lines, "end", ""]).encode()
 
 
 def ground(rng):
@@ -216,7 +228,7 @@ class Certain(unittest.TestCase):
         scenes = {path.parent.name: path.read_bytes() for path in (SOURCE / "samples").glob("*/scene.txt")
                   if path.stat().st_size < 5000}
         self.assertGreater(len(scenes), 7)
-        scenes |= {n: layers_of_trade("", "", 10**n, (4, 6), (40, 30)).text.encode() for n in (4, 6)}
+        scenes |= {n: two_planes(10**n) for n in (4, 6)}
         uncertain = {}
         for name, text in scenes.items():
             given = text, b"40 30\n"

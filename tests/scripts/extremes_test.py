@@ -5,14 +5,12 @@ digit would be seen.
 usage: extremes_test.py BIN_DIR SOURCE_DIR [UNITTEST ARGUMENT...]
 """
 import csv
-import itertools
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
-import xml.etree.ElementTree
 from fractions import Fraction
 
 BIN, SOURCE = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
@@ -21,8 +19,7 @@ sys.path[:0] = [str(MEASURE), str(SOURCE / "scripts")]
 from lib.running.pipe_tools import Tools  # noqa: E402
 from parts.extremes_measure import (  # noqa: E402
     ROUNDED, SETTINGS, digits_right, measured, shortened, wrong_without_note)
-from parts.extremes_plot import name_of  # noqa: E402
-from parts.extremes_report import Results, certainty, promise, short  # noqa: E402
+from parts.extremes_report import Results, certainty, promise, short, tables  # noqa: E402
 from parts.extremes_scenes import AXES, QUICK, Case, scene_text  # noqa: E402
 from parts.extremes_truth import reference, true_owners, true_vertices  # noqa: E402
 
@@ -243,27 +240,9 @@ class Page(unittest.TestCase):
         for direction in ("far / near", "size", "wide angle"):
             self.assertEqual(self.results.uncertain(direction, "--digits exact"), "")
 
-    def test_the_default_begins_with_so_many_digits(self):
-        digits = self.digits("distance", "default")[1.0]
-        self.assertIn(f"it has {digits:.1f} of seven decimals to begin with", " ".join(
-            (SOURCE / "docs/extremes.md").read_text().split()))
-
-
-class Plots(unittest.TestCase):
-    def test_labels_are_apart_and_inside(self):
-        for axis in AXES:
-            svg = xml.etree.ElementTree.parse(MEASURE / f"results/extremes-{axis}.svg").getroot()
-            height, places = float(svg.get("height")), []
-            for element in svg.iter("{http://www.w3.org/2000/svg}text"):
-                x, y, width = float(element.get("x")), float(element.get("y")), 6.2 * len(element.text)
-                begin = x - {"end": 1, "middle": 0.5}.get(element.get("text-anchor"), 0) * width
-                places.append((begin, begin + width, y, element.text))
-                self.assertTrue(0 <= begin and begin + width <= 860 and 10 <= y <= height - 5, element.text)
-            for (a, b, y, one), (c, d, v, other) in itertools.combinations(places, 2):
-                self.assertFalse(a < d and c < b and abs(y - v) < 11, (axis, one, other))
-            self.assertLessEqual({name_of(str(setting))
-                                  for setting in SETTINGS}, {name
-                                                             for *_, name in places})
+    def test_the_tables_are_those_of_the_numbers(self):
+        self.assertIn(f"<!-- extremes: begin -->\n{tables(COMMITTED)}<!-- extremes: end -->",
+                      (SOURCE / "docs/extremes.md").read_text())
 
 
 if __name__ == "__main__":

@@ -820,18 +820,6 @@ class InABrowser(ToolTest):
         self.assertEqual((shown.splitlines()[-1], shown.count(" depth ")),
                          (told.splitlines()[-1], len(self.competitors()) + told[begin:end].count(" depth ")))
 
-    def test_the_bench_measures_every_way_to_point(self):
-        done = subprocess.run([SOURCE / "scripts/measure/inspect", "--triangles", "200", "--times", "3"],
-                              capture_output=True, text=True, env={
-                                  "BIN": str(BIN), "PATH": "/usr/bin:/bin", "HOME": "."})
-        self.assertEqual(done.stderr, "")
-        rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in done.stdout.splitlines()]
-        self.assertRegex(rows[0][0], "^[12][0-9][0-9] triangles$")
-        self.assertEqual([row[0] for row in rows[2:]], ["hover", "pixel hover", "drag"])
-        for row in rows[2:]:
-            self.assertGreaterEqual(float(row[2]), float(row[1]))
-            self.assertGreater(float(row[1]), 0)
-
     def test_a_background_with_an_alpha_is_no_obstacle(self):
         self.load_text(SCENE.replace("triangle", "background 200 100 50 128\ntriangle", 1))
 

@@ -626,19 +626,6 @@ class TheFolder(PageTest):
         self.assertEqual(len(self.asked), count)
 
 
-@unittest.skipUnless((BUILT / "site/playground.html").exists(), NOT_BUILT)
-@unittest.skipIf(MISSING, f"missing: {' '.join(MISSING)}")
-class TheBench(unittest.TestCase):
-    def test_it_measures_picture_and_panels(self):
-        done = subprocess.run([ROOT / "scripts/measure/playground", "--triangles", "5", "6", "--times", "3"],
-                              capture_output=True, text=True)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        rows = re.findall(r"(?m)^\| (\d+) +\| (\d+) +\| (\d+) +\| (\d+)", done.stdout)
-        self.assertEqual([row[0] for row in rows], ["5", "6"])
-        for _, picture, slowest, _ in rows:
-            self.assertLessEqual(int(picture), int(slowest))
-
-
 AXE = BUILT / "npm/node_modules/axe-core/axe.min.js"
 VIOLATIONS = """return axe.run().then(found => found.violations.map(({impact, id, nodes}) =>
   [impact, id, nodes[0].html.slice(0, 100)]).filter(found => /critical|serious/.test(found[0])));"""

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """zbuf --algorithm scanline, end to end: the same bytes as the z-buffer, and no memory for the frame.
 
-usage: scanline_test.py BIN_DIR [SameBytes|Memory|LongMemory|Measurement]
+usage: scanline_test.py BIN_DIR [SameBytes|Memory|LongMemory]
 """
 import os
 import pathlib
 import random
 import subprocess
-import sys
 import unittest
 
 from toolbox import SOURCE, BIN, ToolTest, command
@@ -88,17 +87,6 @@ class Memory(MemoryTest):
 class LongMemory(MemoryTest):
     def test_the_largest_screen_takes_no_memory(self):
         self.assertLess(self.check("65535 65535\n"), 40)
-
-
-class Measurement(ToolTest):
-    def test_the_quick_measurement_runs(self):
-        subprocess.run([
-            sys.executable, SOURCE / "scripts/measure/algorithms", "--quick", "--bin", BIN, "--output",
-            "results"], check=True, stdout=subprocess.DEVNULL)
-        self.assertEqual(self.files_in("results"), ["algorithms.csv", "algorithms.md", "algorithms.svg"])
-
-    def files_in(self, folder):
-        return sorted(os.listdir(folder))
 
 
 if __name__ == "__main__":

@@ -7,16 +7,19 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
-
-#include "scripts/measure/baselines/numbers_of.h"
 
 namespace {
 
@@ -25,8 +28,23 @@ struct Point {
 };
 using Triangle = std::array<Point, 3>;
 
+/// All numbers in a text, whatever separates them.
+std::vector<double> numbers_of(const char* path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::vector<double> numbers;
+  const char* const end = text.data() + text.size();
+  for (const char* at = text.data(); at < end;) {
+    double number = 0;
+    const auto [after, error] = std::from_chars(at, end, number);
+    if (error == std::errc{}) numbers.push_back(number);
+    at = error == std::errc{} ? after : at + 1;
+  }
+  return numbers;
+}
+
 std::vector<Triangle> triangles_of(const char* path) {
-  const std::vector<double> numbers = numbers_of<double>(path);
+  const std::vector<double> numbers = numbers_of(path);
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i + 9 <= numbers.size(); i += 9)
     triangles.push_back({{{numbers[i], numbers[i + 1], numbers[i + 2]},

@@ -1,7 +1,7 @@
-// Draws the triangles of a bare NDC text as zbuf does, without reading or writing, and prints the seconds
-// that drawing took: the counterpart of draw_osmesa.
+// Draws the triangles of a bare NDC text as zbuf --coverage center does, without reading or writing, and
+// prints the seconds that drawing took: the counterpart of draw_plainly.
 //
-// usage: draw_triangles WIDTH HEIGHT TRIANGLES nearest|center THREADS
+// usage: draw_triangles WIDTH HEIGHT TRIANGLES THREADS
 
 #include <fcntl.h>
 
@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,18 +22,17 @@ namespace {
 
 using pipeline::TriangleBatch;
 
-std::vector<TriangleBatch> batches_of(const char* path, bool marks_decimals) {
+std::vector<TriangleBatch> batches_of(const char* path) {
   pipeline::TextReader text(open(path, O_RDONLY | O_CLOEXEC), path);
-  pipeline::StageReader reader(text, marks_decimals);
+  pipeline::StageReader reader(text, /*marks_decimals=*/true);
   std::vector<TriangleBatch> batches;
   for (TriangleBatch batch; reader.read(batch);) batches.push_back(batch);
   return batches;
 }
 
 /// Draws one frame into an empty buffer.
-template <typename Coverage>
 double seconds_for(std::vector<TriangleBatch> batches, const pipeline::Viewport& screen, int thread_count) {
-  using Visible = pipeline::ZBufferAlgorithm<Coverage, pipeline::DepthF64>;
+  using Visible = pipeline::ZBufferAlgorithm<pipeline::CenterCoverage, pipeline::DepthF64>;
   pipeline::TriangleColors colors;
   const auto begin = std::chrono::steady_clock::now();
   Visible visible(screen);
@@ -52,14 +50,11 @@ double seconds_for(std::vector<TriangleBatch> batches, const pipeline::Viewport&
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 6) return 2;
+  if (argc != 5) return 2;
   const pipeline::Viewport screen{std::atoi(argv[1]), std::atoi(argv[2])};
-  const bool is_center = std::string(argv[4]) == "center";
-  const int thread_count = std::atoi(argv[5]);
-  const std::vector<TriangleBatch> batches = batches_of(argv[3], is_center);
-  const auto draw =
-      is_center ? seconds_for<pipeline::CenterCoverage> : seconds_for<pipeline::NearestCoverage>;
+  const int thread_count = std::atoi(argv[4]);
+  const std::vector<TriangleBatch> batches = batches_of(argv[3]);
   double best = 1e300;
-  for (int frame = 0; frame < 3; ++frame) best = std::min(best, draw(batches, screen, thread_count));
+  for (int frame = 0; frame < 3; ++frame) best = std::min(best, seconds_for(batches, screen, thread_count));
   std::printf("%.6f\n", best);
 }

@@ -1,4 +1,6 @@
 """The tables of scripts/measure/extremes, in Markdown."""
+from lib.showing.markdown import filled
+
 MODERATE = 45.0  # degrees: from here the angle of view goes to two extremes
 DIRECTIONS = {  # title of the column: axis, and whether a value belongs to it
     "distance": ("distance", lambda value: True), "far / near": ("depth", lambda value: True),
@@ -95,9 +97,9 @@ def promise(results):
 
 
 def tables(rows):
-    """For docs/extremes.md."""
+    """For docs/extremes.md; the cells are text."""
     results = Results(rows)
-    return f"""The first value at which a pixel shows another triangle than is true, and whether a tool
+    return filled(f"""The first value at which a pixel shows another triangle than is true, and whether a tool
 notes it:
 
 {table(results, lambda *cell: results.first(*cell, "wrong_pixels"))}
@@ -112,4 +114,4 @@ The first value at which a tool notes anything:
 
 {table(results, results.first_note)}
 {promise(results)}
-"""
+""")

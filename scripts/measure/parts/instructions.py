@@ -16,7 +16,6 @@ import subprocess
 import tempfile
 
 from parts.instruction_rows import ROWS, TEXTS
-from parts.measuring import write_csv
 
 TOLERATED_PERCENT = 1.0
 FLAGS = {"scalar": set(), "sse4": {"sse4_2"}, "avx2": {"sse4_2", "bmi1", "bmi2", "avx2",
@@ -157,8 +156,10 @@ class Comparison:
 def write_counts(path, counts, rows):
     """Writes the counts in the order of the rows; a row that could not run here keeps its count."""
     keys = [key for row in rows if (key := (row.name, row.kernel)) in counts]
-    write_csv(path, [{"row": name, "kernel": kernel, **dataclasses.asdict(counts[name, kernel])}
-                     for name, kernel in keys])
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["row", "kernel", "compiler", "instructions"])
+        table.writerows([*key, *dataclasses.astuple(counts[key])] for key in keys)
 
 
 def hold(tools, path, accept=False, rows=ROWS):
