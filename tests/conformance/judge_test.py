@@ -32,6 +32,7 @@ from lib.judging.hand_in import find_files  # noqa: E402
 from lib.judging.judge import judge  # noqa: E402
 from lib.judging.mistakes import sentences  # noqa: E402
 from lib.text.stage_text import parse_stage_text  # noqa: E402
+from sample_files import sample_file  # noqa: E402
 
 NOTHING_IN_VIEW = "nothing is in view"  # of what the stages before have made
 SAMPLES = ("tilted-camera", "nested-transforms", "worked-example")
@@ -56,7 +57,7 @@ class Scene:
         if isinstance(seed, str):
             folder = source / "samples" / seed
             self.scene, self.config = ((folder / name).read_bytes() for name in ("scene.txt", "config.txt"))
-            self.right = {name: (folder / name).read_bytes()
+            self.right = {name: sample_file(bin_dir, folder, name)
                           for name in damages.NAMES} if is_ours else self.made()
             return
         rng = random.Random(seed)

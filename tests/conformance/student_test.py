@@ -15,6 +15,7 @@ import reference
 student, bin_dir, source = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(3))
 from lib.judging.mistakes import sentences  # noqa: E402
 from lib.showing.pictures import read_picture  # noqa: E402
+from sample_files import sample_file  # noqa: E402
 
 PLAIN = ("one-triangle", "two-triangles", "torus", "tilted-camera", "nested-transforms", "worked-example")
 FIVE = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
@@ -232,17 +233,17 @@ class Right(unittest.TestCase):
                 sample = source / "samples" / name
                 files = five(sample / "scene.txt", sample / "config.txt", "all/exact-in-memory")
                 for file in FIVE[:3]:
-                    self.assertEqual(points(files[file]), points((sample / file).read_bytes()), file)
+                    self.assertEqual(points(files[file]), points(sample_file(bin_dir, sample, file)), file)
 
     def test_the_pictures_of_all_samples_without_colors(self):
         for name in (*PLAIN, "wide-clipped"):
             with self.subTest(sample=name):
                 sample = source / "samples" / name
-                stage3 = b"".join(line for line in (sample / "stage3.txt").read_bytes().splitlines(True)
-                                  if not line[:1].isalpha())
+                text = sample_file(bin_dir, sample, "stage3.txt")
+                stage3 = b"".join(line for line in text.splitlines(True) if not line[:1].isalpha())
                 depths, image = drawn(student, "zbuf", sample / "config.txt", stdin=stage3)
                 self.assertTrue(depths == (sample / "z_buffer.txt").read_bytes(), "the depths differ")
-                if b"triangle" not in (sample / "stage3.txt").read_bytes():
+                if b"triangle" not in text:
                     self.assertTrue(image == read_picture(sample / "out.bmp"), "the picture differs")
 
     def test_stages_joined_by_pipes_need_no_scene(self):
@@ -359,7 +360,7 @@ class Habit(unittest.TestCase):
         for name in ("torus", "tilted-camera", "nested-transforms"):
             with self.subTest(sample=name):
                 sample = source / "samples" / name
-                stage3 = (sample / "stage3.txt").read_bytes()
+                stage3 = sample_file(bin_dir, sample, "stage3.txt")
                 theirs = drawn(student, "zbuf", sample / "config.txt", *switches("zbuf/center"),
                                stdin=stage3)[1]
                 ours = drawn(bin_dir / "zbuf", sample / "config.txt", "--coverage", "center", stdin=stage3)[1]

@@ -17,6 +17,7 @@ from lib.explaining.stages import Settings, Stages, vertex_lines, words_of
 from lib.maths.window import PixelOfTriangle, Window
 from lib.running.pipe_tools import Tools
 from lib.text.scene import find_triangle
+from sample_files import sample_file
 from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run, run_script
 
 SAMPLES = sorted(scene.parent for scene in SOURCE.glob("samples/*/scene.txt"))
@@ -38,10 +39,10 @@ def coordinates(report, section):
     return [row[-3:] for row in rows]
 
 
-def triangles_of(path):
-    """{number: the words of its pieces' vertices} of a stage text in samples/."""
+def triangles_of(text):
+    """{number: the words of its pieces' vertices} of a stage text."""
     found, number, passed_over, vertices = {}, 0, 0, []
-    for line in path.read_text().splitlines():
+    for line in text.decode().splitlines():
         words = line.split()
         if passed_over:
             passed_over -= 1
@@ -62,7 +63,8 @@ class Samples(ToolTest):
         self.assertGreaterEqual(len(SAMPLES), 11)
         choice = random.Random(19)
         for sample in SAMPLES:
-            world, view, ndc = (triangles_of(sample / f"stage{n}.txt") for n in (1, 2, 3))
+            world, view, ndc = (triangles_of(sample_file(BIN, sample, f"stage{n}.txt"))
+                                for n in (1, 2, 3))
             for number in {0, len(world) - 1, choice.randrange(len(world))}:
                 with self.subTest(sample=sample.name, triangle=number):
                     done = explain(sample / "scene.txt", sample / "config.txt", "--triangle", number)
@@ -79,7 +81,7 @@ class Samples(ToolTest):
         choice = random.Random(20)
         for sample in SAMPLES:
             window = Window((sample / "config.txt").read_text())
-            stage3 = (sample / "stage3.txt").read_bytes()
+            stage3 = sample_file(BIN, sample, "stage3.txt")
             for coverage in ("nearest", "center"):
                 pixel = f"{choice.randrange(window.width)},{choice.randrange(window.height)}"
                 with self.subTest(sample=sample.name, coverage=coverage, pixel=pixel):
@@ -107,7 +109,8 @@ class Arithmetic(ToolTest):
     def test_rounds_to_the_committed_files(self):
         for sample in SAMPLES:
             scene = (sample / "scene.txt").read_text()
-            world, view, ndc = (triangles_of(sample / f"stage{n}.txt") for n in (1, 2, 3))
+            world, view, ndc = (triangles_of(sample_file(BIN, sample, f"stage{n}.txt"))
+                                for n in (1, 2, 3))
             lossless = pipe(["model", "--digits", "exact"], stdin=scene)
             in_world, in_view = (vertex_lines(data)
                                  for data in (lossless, pipe(["view", "--digits", "exact"], stdin=lossless)))

@@ -3,6 +3,7 @@
 
 usage: makefile_samples_test.py BIN_DIR SOURCE_DIR
 """
+import hashlib
 import os
 import pathlib
 import re
@@ -167,6 +168,18 @@ class MakefileSamples(OnACopy):
         done = self.make("check")
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("9 passed, 1 failed\n", done.stdout)
+
+    def test_a_sum_stands_for_a_file(self):
+        texts = [self.file("wide-clipped", "stage3.txt").read_bytes(), b"0 0 0\n"]
+        self.file("wide-clipped", "stage3.txt").unlink()
+        for text, counts in zip(texts, ("10 passed, 0 failed", "9 passed, 1 failed")):
+            (self.root / "samples/SHA256SUMS").write_text(
+                f"{hashlib.sha256(text).hexdigest()}  wide-clipped/stage3.txt\n")
+            self.assertIn(counts, self.make("check").stdout)
+        self.assertIn("wide-clipped: project is the first stage that has changed "
+                      "(stage3.txt, of which only the sum is kept)\n", self.make_well("diff"))
+        self.make_well("accept")
+        self.assertFalse(self.file("wide-clipped", "stage3.txt").exists())
 
     def test_accept_makes_check_pass(self):
         self.file("wide-clipped", "stage2.txt").write_text("0 0 0\n")

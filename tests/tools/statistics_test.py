@@ -10,7 +10,8 @@ import unittest
 from fractions import Fraction
 
 import reference
-from toolbox import SOURCE, ToolTest, run
+from sample_files import sample_file
+from toolbox import BIN, SOURCE, ToolTest, run
 
 SIDES = ("left", "right", "below", "above", "near", "far")
 PROJECT_KEYS = ["triangles", "behind", *("outside_" + side for side in SIDES), "cut", "culled"]
@@ -328,9 +329,10 @@ class Pixels(ToolTest):
 
     def test_they_change_nothing_else(self):
         for sample in sorted(path.parent for path in SOURCE.glob("samples/*/scene.txt")):
-            plain = run("zbuf", sample / "config.txt", sample / "stage3.txt", "--image", "plain.ppm")
-            done = run("zbuf", sample / "config.txt", sample / "stage3.txt", "--image", "counted.ppm",
-                       "--stats", "stats.txt")
+            ndc = sample_file(BIN, sample, "stage3.txt")
+            plain = run("zbuf", sample / "config.txt", "--image", "plain.ppm", stdin=ndc)
+            done = run("zbuf", sample / "config.txt", "--image", "counted.ppm", "--stats", "stats.txt",
+                       stdin=ndc)
             self.assertEqual((done.stdout, done.stderr), (plain.stdout, plain.stderr))
             self.assertEqual(pathlib.Path("counted.ppm").read_bytes(), pathlib.Path("plain.ppm").read_bytes())
             told = statistics(pathlib.Path("stats.txt").read_text())

@@ -271,9 +271,6 @@ class AnotherView(ToolTest):
 class Samples(ToolTest):
     def test_every_sample_is_known_by_its_place(self):
         for sample in sorted((SOURCE / "samples").glob("*/scene.txt")):
-            is_lit = b"\nlight " in sample.read_bytes()
-            stage3 = (sample.parent / "stage3.txt").read_bytes()
-            self.assertEqual(stage3.startswith(b"projected "), is_lit, sample)
             for tool, text in (("view", sample.read_bytes()), ("project", sample.read_bytes()),
                                ("zbuf", sample.read_bytes())):
                 done = run(tool, *OPERANDS[tool], stdin=text)
