@@ -12,6 +12,7 @@ sys.path[:0] = [str(SOURCE / "tests/reference"), str(SOURCE / "tests/conformance
 import reference  # noqa: E402
 from conform_parts.cases import CONFIG, RULES, STAGES, read_mistakes, without_header  # noqa: E402
 from conform_parts.judge import same_digits, same_picture  # noqa: E402
+from conform_parts.pages import files_of, read_fields, read_page  # noqa: E402
 
 OTHER_FORMULAS = "zbuf/other-formulas"  # a habit with which a program must not fail, either
 # And habits; the pack has the pictures of the center rule, too.
@@ -37,8 +38,8 @@ STUDENT = os.environ.get("STUDENT", SOURCE / "build/release/tests/baselines/stud
 
 @dataclasses.dataclass
 class Case:
-    """What a person says of a case; the rest is calculated. `open_nearest` is of coverage by that rule
-    alone."""
+    """The part of a case that a person writes; the rest is calculated. `open_nearest` is of coverage by that
+    rule alone."""
     stage: str
     name: str
     why: str
@@ -148,3 +149,15 @@ class Case:
 
 def answer(stage, text, words):
     return getattr(reference, stage)(text.encode("latin-1"), reference.read_options(stage, [*words]))
+
+
+def cases_of(page, text):
+    """The cases of a page STAGE/SUBJECT.cases, as far as a person writes them."""
+    stage = page.partition("/")[0]
+    for name, about, sections in read_page(text):
+        fields = read_fields(about, stage)
+        files = {key: data.decode("latin-1") for key, data in files_of(stage, fields, sections).items()}
+        yield Case(stage, name, fields["why"], fields["paragraphs"], files.get("input.txt", ""),
+                   files.get("config.txt", ""), fields.get("options", ""), files.get("scene.txt", ""),
+                   fields["tier"], fields.get("needs", ""), fields.get("open", ""), fields.get("open-nearest", ""),
+                   int(fields.get("refused", 0)))
