@@ -641,11 +641,11 @@ def center(triangle, config):  # Z1, Z5 to Z7: the same for `center`
 def side_of_edge(x, y, p, q): return (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])  # Z5
 def is_left_or_top(p, q): return q[1] < p[1] or q[1] == p[1] and q[0] > p[0]  # Z5, Z5a
 
-def draw(triangles, config, coverage):  # Z8, Z9: for each pixel the depth, and the triangle that it shows or None; lists of rows
+def draw(triangles, config, coverage, epsilon=0):  # Z8, Z9: for each pixel the depth, and the triangle that it shows or None; lists of rows
     depths, seen = ([[value] * config.width for _ in range(config.height)] for value in (config.rear, None))
     for triangle in triangles:
         for row, column, z in (center if coverage == "center" else nearest)(triangle, config):
-            if config.front <= z < depths[row][column]:
+            if config.front <= z < depths[row][column] - (epsilon if seen[row][column] else 0):
                 depths[row][column], seen[row][column] = z, triangle
     return depths, seen
 
@@ -749,9 +749,10 @@ def zbuf(data, options):  # Z1 to Z13, L1 to L7, T15, T23, T24: the z-buffer tex
         raise Refused(stage.end_of_header, "a text that is not framed")
     model_name = shading_model(stage, options.get("--shading"))
     triangles, count = list(stage.triangles()), int(options["--samples"])
-    depths, seen = draw(triangles, config, options["--coverage"])
+    rules = options["--coverage"], Fraction(float(options["--depth-epsilon"]))
+    depths, seen = draw(triangles, config, *rules)
     samples = config._replace(width=config.width * count, height=config.height * count)
-    seen = seen if count == 1 else draw(triangles, samples, options["--coverage"])[1]
+    seen = seen if count == 1 else draw(triangles, samples, *rules)[1]
     with decimal.localcontext(SHADING):
         image = [[rounded(color) for color in row] for row in shade(seen, stage.header, samples, model_name)]
         image = image if count == 1 else mean_of_samples(image, count)
@@ -767,10 +768,11 @@ OPTIONS = {  # words that follow, or their count
     "project": {"--digits": DIGITS, "--scene": 1, "--aspect": ["angle", "ratio"], "--cull": ["back", "front"], "--clip-inset": 1,
                 "--clip": ["auto", "near", "frustum", "reject", "none"], **{"--" + name: len(ARGUMENTS[name]) for name in PROJECTIONS}},
     "zbuf": {"--expect-framed": 0, "--image": 1, "--coverage": ["nearest", "center"], "--algorithm": ["zbuffer", "scanline"],
-             "--samples": [*map(str, range(1, 17))], "--rows": 1, "--shading": ["none", "flat", "gouraud", "phong"]}}
+             "--samples": [*map(str, range(1, 17))], "--rows": 1, "--depth-epsilon": 1, "--shading": ["none", "flat", "gouraud", "phong"]}}
 
 def read_options(stage, words):  # O1 to O3, V1, P1: the options by name, with their defaults
-    options = {"--digits": "7", "--clip": "auto", "--clip-inset": "0", "--image": "out.bmp", "--coverage": "nearest", "--samples": "1"}
+    options = {"--digits": "7", "--clip": "auto", "--clip-inset": "0", "--image": "out.bmp", "--coverage": "nearest", "--samples": "1",
+               "--depth-epsilon": "0"}
     if stage == "zbuf" and words:
         options["CONFIG"] = words.pop(0)
     while words or stage not in OPTIONS or stage == "zbuf" and "CONFIG" not in options:
