@@ -124,9 +124,23 @@ class Prefix(ToolTest):
                 shown += piece
         return shown.decode().replace("\r", "")
 
-    def test_help_about_a_format_is_a_man_page(self):
+    def test_help_about_a_format_is_its_page_or_its_document(self):
         message = f"expected the man page pipeline-scene(5) in {self.prefix}/share/man, and the program man"
         self.refuses(["help", "scene"], message.replace("\n", "?"))
+        source = pathlib.Path("source").resolve()
+        (source / "scripts").mkdir(parents=True)
+        (self.commands / "stages").symlink_to(source / "scripts/stages")
+        for top in (source, self.prefix / "share/doc/pipeline"):
+            (top / "docs").mkdir(parents=True)
+            (top / "docs/scene.md").write_text(f"# {top}\n")
+            self.assertEqual(run(self.pipeline, "help", "scene"), (0, f"# {top}\n", ""))
+        page = self.prefix / "share/man/man5/pipeline-scene.5"
+        page.parent.mkdir(parents=True)
+        page.touch()
+        pathlib.Path("man").write_text(ECHO)
+        pathlib.Path("man").chmod(0o755)
+        self.assertEqual(run(self.pipeline, "help", "scene", env={"PATH": f"{os.getcwd()}:/usr/bin:/bin"}),
+                         (0, f"man <-M> <{self.prefix}/share/man> <5> <pipeline-scene>\n", ""))
 
     def test_version_is_that_of_the_tools(self):
         self.add("model", '#!/bin/sh\necho "model (pipeline) 1.2.3"\n')
