@@ -1,6 +1,7 @@
 #include "libpipeline/vertex/model_stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -8,6 +9,29 @@
 #include "libpipeline/stream/triangle_reader.h"
 
 namespace pipeline {
+
+namespace {
+
+/// The vector from a to b, scaled by a power of two to a largest coordinate in [1, 2).
+Vec3 scaled_edge(const Vec3& a, const Vec3& b) {
+  Vec3 edge = difference(b, a);
+  if (!std::isfinite(largest_in(edge))) edge = difference(scaled(b, 0.5), scaled(a, 0.5));
+  if (largest_in(edge) == 0) return edge;
+  const int exponent = std::ilogb(largest_in(edge));
+  return {std::scalbn(edge.x, -exponent), std::scalbn(edge.y, -exponent), std::scalbn(edge.z, -exponent)};
+}
+
+/// The unit normal on the side from where the triangle is counterclockwise, 0 if it has no area. Edges may
+/// have any length.
+Vec3 unit_face_normal(const Triangle& p) {
+  constexpr double kLeast = 0x1p-600, kMost = 0x1p1000;  // of products that are used as they are
+  const Vec3 normal = face_normal(p);
+  if (const double largest = largest_in(normal); largest > kLeast && largest < kMost)
+    return unit_vector(normal);
+  return unit_vector(cross(scaled_edge(p[0], p[1]), scaled_edge(p[0], p[2])));
+}
+
+}  // namespace
 
 ModelStage::ModelStage(SceneReader& scene, std::uint64_t first_number, const SphereForm& spheres)
     : scene_(scene), refuses_spheres_(spheres.is_refused), next_number_(first_number) {
@@ -49,7 +73,9 @@ AttributeSet ModelStage::columns() const {
 }
 
 bool ModelStage::read(TriangleBatch& batch) {
-  return deferred_error_.read(batch, [&] { fill(batch); });
+  const bool has_objects = deferred_error_.read(batch, [&] { fill(batch); });
+  if (facets_) add_face_normals(batch);  // also of a batch that an error has ended
+  return has_objects;
 }
 
 void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) {
@@ -89,7 +115,6 @@ void ModelStage::fill(TriangleBatch& batch) {
     else if (!add_object(command, batch))
       carry_out(command);
   }
-  if (facets_) add_face_normals(batch);
 }
 
 /// Adds a triangle or a sphere; false for another command.
@@ -174,7 +199,7 @@ void ModelStage::add_facets(TriangleBatch& batch) {
 /// Gives triangles without normals their face normal.
 void ModelStage::add_face_normals(TriangleBatch& batch) const {
   for (std::size_t i = batch.attributes.normals.size(); i < batch.size(); ++i) {
-    const Vec3 normal = unit_vector(face_normal(batch.triangles[i]));
+    const Vec3 normal = unit_face_normal(batch.triangles[i]);
     batch.attributes.normals.push_back({normal, normal, normal});
   }
 }

@@ -168,6 +168,27 @@ class Refusals(ToolTest):
 
 
 class Facets(ToolTest):
+    def test_triangles_before_an_error_have_normals(self):
+        cut = "triangle\n0 0 0\n1 0 0\n0 1 0\n" * 2 + "triangle\n0 0 0\n"
+        done = run("model", "--facets", "2", stdin=scene(cut))
+        message = "<stdin>:15:1: expected the x of vertex 2 of 3, found 'end'\n"
+        corners = "".join(f"{x} 0.0000000 0.0000000 0.0000000 1.0000000\n" for x in (
+            "0.0000000 0.0000000", "1.0000000 0.0000000", "0.0000000 1.0000000")) + "\n"
+        self.assertEqual((done.returncode, done.stderr.decode()), (1, f"model: {message}"))
+        self.assertTrue(done.stdout.decode().endswith(2 * corners + f"error model: {message}"), done.stdout)
+
+    def test_normals_of_edges_of_any_length(self):
+        for corners, normal in (
+            ("0 0 0\n1e155 0 0\n0 1e155 0", "0 0 1"),
+            ("0 0 0\n0 1e-200 0\n0 0 1e-200", "1 0 0"),
+            ("0 0 0\n1e-200 0 0\n0 0 1e200", "0 -1 0"),
+            ("-1.5e308 0 0\n1.5e308 0 0\n-1.5e308 3e307 4e307", "0 -0.8 0.6"),
+            ("1e200 0 0\n1e200 0 0\n0 1e200 0", "0 0 0"),
+        ):
+            text = pipe(["model", "--facets", "2"], stdin=scene(f"triangle\n{corners}\n")).decode()
+            normals = [line.split()[3:] for line in text.splitlines()[-4:-1]]
+            self.assertEqual(normals, 3 * [[f"{float(x):.7f}" for x in normal.split()]], corners)
+
     def test_come_in_batches_and_with_normals_for_all(self):
         text = pipe(["model", "--facets", "64"], stdin=scene("rotate 10 1 0 0\n", SPHERE, TRIANGLE,
                                                              "scale 1 -1 2\n", SPHERE, TRIANGLE))
