@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Runs a program on the inputs of a corpus.
 
-usage: corpus.py CORPUS COMMAND...    runs COMMAND with one more argument: a folder with the inputs, a file each
+usage: corpus.py CORPUS COMMAND...    runs COMMAND with one more argument: a folder that holds the inputs
        corpus.py --entry FILE...      prints files as entries of a corpus, to be added to one
 
-A corpus is a text. '== NAME' begins an input; the lines after it are its bytes, with '\\xNN' for a byte that is no
-printable ASCII, '\\\\' for a backslash, and '\\' at the end of a line where the input has no newline.
+A corpus is a text. '== NAME' begins an input; the lines after it are its bytes, with '\\xNN' for a byte that
+is no printable ASCII, '\\\\' for a backslash, and '\\' at the end of a line where the input has no newline.
 """
 import os
 import re

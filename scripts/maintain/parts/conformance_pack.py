@@ -159,5 +159,5 @@ def cases_of(page, text):
         files = {key: data.decode("latin-1") for key, data in files_of(stage, fields, sections).items()}
         yield Case(stage, name, fields["why"], fields["paragraphs"], files.get("input.txt", ""),
                    files.get("config.txt", ""), fields.get("options", ""), files.get("scene.txt", ""),
-                   fields["tier"], fields.get("needs", ""), fields.get("open", ""), fields.get("open-nearest", ""),
-                   int(fields.get("refused", 0)))
+                   fields["tier"], fields.get("needs", ""), fields.get("open", ""),
+                   fields.get("open-nearest", ""), int(fields.get("refused", 0)))
