@@ -46,40 +46,6 @@ class ClipInset(ToolTest):
             depths = [z for piece in self.cut(slope, "0.25", clip) for *_, z in piece]
             self.assertEqual((min(depths), max(depths)), (low, high))
 
-    def test_what_lies_between_the_planes_is_dropped(self):
-        for clip in ("frustum", "reject"):
-            aside = ORTHO + "0.8 0 -2\n0.9 0 -2\n0.9 0.1 -2\n\n"
-            self.assertEqual(len(self.cut(aside, "0.125", clip)), 1)
-            self.assertEqual(self.cut(aside, "0.25", clip), [])
-
-    def test_what_is_inside_stays_as_it_is(self):
-        text = PERSPECTIVE + "0.1 0.2 -1.4\n0.3 0 -1.6\n0 0.3 -1.5\n\n"
-        self.assertEqual(self.cut(text, "0.1"), triangles(pipe(["project"], stdin=text)))
-
-    def test_colors_are_cut_where_the_planes_stand(self):
-        text = "attributes color\n" + ORTHO + "-1 0 -2 0 0 0\n1 0 -2 200 0 0\n1 1 -2 200 0 0\n\n"
-        lines = pipe(["project", "--clip", "frustum", "--clip-inset", "0.5"],
-                     stdin=text).decode().splitlines()
-        vertices = [list(map(float, line.split())) for line in lines if line and not line[0].isalpha()]
-        self.assertEqual(min(x for x, *_ in vertices), -0.5)
-        for x, y, z, w, red, *_ in vertices:
-            self.assertEqual((w, round(red, 6)), (1, round(100 * (x + 1), 6)))
-
-    def test_a_lit_triangle_keeps_its_corners_in_clip_space(self):
-        corners = [(-9, -9, -1.0625), (9, -9, -1.0625), (0, 9, -2.5)]
-        # cot 45 degrees is 1; z = ((far + near) distance - 2 far near) / (far - near), and w is the distance.
-        expected = [[x, y, ((3 + 1) * -z - 2 * 3 * 1) / (3 - 1), -z] for x, y, z in corners]
-        text = "light 0 0 0 1 1 1\n" + PERSPECTIVE + "".join(f"{x} {y} {z}\n" for x, y, z in corners) + "\n"
-        for inset in ("0", "0.25", "0.5"):
-            for clip in ("near", "frustum"):
-                lines = pipe(["project", "--clip", clip, "--clip-inset", inset],
-                             stdin=text).decode().splitlines()
-                if "clipped" not in lines:
-                    self.assertEqual((clip, inset), ("near", "0"))  # the near plane cuts nothing there
-                    continue
-                at = lines.index("clipped")
-                self.assertEqual([list(map(float, line.split())) for line in lines[at + 1:at + 4]], expected)
-
     def test_it_needs_planes_to_move(self):
         for words in ([], ["--clip", "none"], ["--clip", "auto"]):
             done = run("project", "--clip-inset", "0.1", *words, stdin=ORTHO)
