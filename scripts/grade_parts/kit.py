@@ -44,8 +44,7 @@ def files_of_judge():
         for path in sorted((HERE.parents[2] / room).rglob("*.py")):
             yield f"scripts/{path.relative_to(HERE.parents[2])}", path.read_bytes()
     conformance = place("tests/conformance", "share/pipeline/conformance")
-    for path in (*sorted(conformance.glob("conform_parts/*.py")), conformance / "fixes.txt",
-                 conformance / "mistakes.txt"):
+    for path in (*sorted(conformance.glob("conform_parts/*.py")), conformance / "mistakes.txt"):
         yield f"tests/conformance/{path.relative_to(conformance)}", path.read_bytes()
 
 

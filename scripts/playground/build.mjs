@@ -49,7 +49,7 @@ const single = pageOf(`script-src ${hashOf(inner)} ${frame} 'wasm-unsafe-eval'; 
 const folder = pageOf(`script-src 'self' ${frame} 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'`, style, '<script type="module" src="main.js"></script>');
 
 // The commands that run in Python, at their places.
-const COMMANDS = ["compare", "explain"], THEIR_FOLDERS = ["lib", "compare_parts"], THEIR_FILES = ["tests/conformance/mistakes.txt", "tests/conformance/fixes.txt"];
+const COMMANDS = ["compare", "explain"], THEIR_FOLDERS = ["lib", "compare_parts"], THEIR_FILES = ["tests/conformance/mistakes.txt"];
 const modules = THEIR_FOLDERS.flatMap(folder => fs.readdirSync(path.join(root, "scripts", folder), {recursive: true}).filter(name => name.endsWith(".py")).map(name => `scripts/${folder}/${name}`));
 const sources = Object.fromEntries([...COMMANDS.map(name => `scripts/${name}`), ...modules, ...THEIR_FILES].map(name => [`/pipeline/${name}`, read(root, name)]));
 const PYODIDE = ["pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json"];

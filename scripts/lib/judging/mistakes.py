@@ -5,16 +5,20 @@ import re
 
 from lib.rim.places import place
 
-ENTRY = re.compile(r"(?:judge )?(model|view|project|zbuf|all)/([a-z0-9-]+): (.+)")
+ENTRY = re.compile(r"^(?:judge )?((?:model|view|project|zbuf|all)/[a-z0-9-]+): (.+)(?:\n  (.+))?", re.M)
+
+
+@functools.cache
+def entries(name):
+    """{STAGE/NAME: (sentence, fix)} in the order of a list; the fix is empty where it has none."""
+    path = place(f"tests/conformance/{name}", f"share/pipeline/conformance/{name}")
+    return {entry[1]: (entry[2], entry[3] or "") for entry in ENTRY.finditer(path.read_text("utf-8"))}
 
 
 @functools.cache
 def sentences(name="mistakes.txt"):
     """{STAGE/NAME: sentence}, in the order of the list."""
-    path = place(f"tests/conformance/{name}", f"share/pipeline/conformance/{name}")
-    lines = path.read_text(encoding="utf-8").splitlines()
-    entries = [ENTRY.fullmatch(line) for line in lines if line.strip() and not line.startswith("#")]
-    return {f"{entry[1]}/{entry[2]}": entry[3] for entry in entries if entry}
+    return {key: sentence for key, (sentence, _) in entries(name).items()}
 
 
 def sentence(name):
@@ -22,7 +26,12 @@ def sentence(name):
 
 
 def fix(name):
-    """What to do about a mistake, or about several with `and` between, as sentences; empty for one that is
-    not in the list."""
-    fixes = sentences("fixes.txt")
-    return " ".join(filter(None, (fixes.get(part, "") for part in name.split(" and "))))
+    """The remedy for a mistake, or for several with `and` between, as sentences; empty for one that is not in
+    the list."""
+    known = entries("mistakes.txt")
+    return " ".join(known[part][1] for part in name.split(" and ") if part in known)
+
+
+def names_of(stage):
+    """The names of the mistakes of a stage, without the stage."""
+    return [name.partition("/")[2] for name in sentences() if name.startswith(stage + "/")]

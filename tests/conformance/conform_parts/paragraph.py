@@ -66,7 +66,7 @@ def mistakes_of(label):
     for line in (ROOT / "mistakes.txt").read_text("utf-8").splitlines():
         if line.startswith("# "):
             below = re.findall(rf"(?<!\S){LABEL}(?!\S)", line)
-        elif label in below and ": " in line:
+        elif label in below and line[:1].isalpha():
             found.append(line.removeprefix("judge "))
     return found
 
