@@ -5,7 +5,8 @@ import math
 from compare_parts.differences import exceeds
 from lib.judging.points import read_points
 from lib.judging.reference import Reference
-from lib.judging.stage_judge import Reading, StageJudge, exact_images
+from lib.judging.stage_judge import StageJudge
+from lib.judging.stage_ways import Reading, exact_images
 from lib.running.pipe_tools import Tools
 
 UNIT = 1e-7   # in the last of 7 decimals

@@ -1,14 +1,20 @@
-"""Whether a pixel that differs lies within a pixel of an edge, or of the line where two triangles meet; and
-whether all pixels are shifted."""
+"""Another rule at the borders: whether each pixel that differs lies within a pixel of an edge, or of the line
+where two triangles meet, and the pixels are not all shifted."""
 import collections
 import math
 
-from lib.judging.raster import kept, spend
+from lib.judging.raster import Rule, kept, spend
 
 REACH = 1.0        # pixels
 DEEP = 1.5         # pixels
 SHIFT = 0.4        # pixels, on average
 LEAST_ENDS = 3     # before their average says anything
+# All that differs should lie within a pixel of an edge. Honest programs have a few pixels astray, for example
+# where a row passes just by a vertex, and depths that depend on the ends of their row: no more is let through
+# than they need.
+MOST_STRAYS = 1 / 32   # of the pixels that are drawn, or not, otherwise
+MOST_OTHERS = 1 / 64   # of the pixels with a triangle, that may show one which is none within a pixel
+MOST_DEPTHS = 1 / 5    # of them, that may have a depth which the triangle has nowhere within a pixel
 
 
 class Borders:
@@ -148,3 +154,75 @@ def is_shifted(drawing, drawn):
         return False
     left, right = sum(left) / len(left), sum(right) / len(right)
     return min(left, right) > SHIFT or max(left, right) < -SHIFT
+
+
+class BorderRule:
+    """Whether the nearest of our two rules, with its Mismatch, explains all but borders. `context` is a
+    pixel_comparing.Context of a picture."""
+
+    def __init__(self, context, mismatch):
+        self.context, self.mismatch, self.pixels = context, mismatch, context.shown.pixels()
+        self.tolerance = context.shown.depths.tolerance if context.shown.depths else None
+        self.drawing = context.drawing(mismatch.reading, mismatch.rule)
+        self.borders = Borders(self.drawing.triangles, context.limits, context.work)
+
+    def beyond(self):
+        """A Counter of the pixels that differ beyond a pixel from the edges; None if they are too many, or
+        all are shifted."""
+        mismatch, shapes = self.mismatch, len(self.mismatch.of_shape)
+        plain = self.context.drawing(self.context.first, Rule())
+        if not self.pixels.drawn or is_shifted(plain, self.pixels.drawn) or any(
+                column >= self.context.window.width for _, column in mismatch.pixels):
+            return None
+        if shapes > mismatch.drawn:
+            return None  # more than all: not the borders of what there is to draw
+        of_drawn = mismatch.drawn if shapes else 0  # where no border differs, no other rule holds there
+        most = {
+            "stray": MOST_STRAYS * shapes, "other": MOST_OTHERS * of_drawn, "depth": MOST_DEPTHS * of_drawn}
+        if not self.shows_each_triangle():
+            return None
+        found = collections.Counter()
+        for what in filter(None, map(self.place_beyond, mismatch.pixels)):
+            found[what] += 1
+            if found[what] > most[what]:
+                return None
+        return found
+
+    def shows_each_triangle(self):
+        return shows_each(self.drawing, self.borders, self.is_other)
+
+    def is_other(self, row, column, t):
+        """Whether a pixel shows something else than triangle t. A triangle whose pixels have the color and
+        the depths of another is not shown."""
+        mismatch, kind = self.mismatch, self.mismatch.pixels.get((row, column))
+        if kind != "depth" or not self.pixels.colors:
+            return kind is not None
+        if not self.pixels.depths[row]:  # it is open whose depth differs
+            return False
+        color, z = self.pixels.colors[row][column], self.pixels.depths[row][column]
+        if mismatch.colors.get(t) == color and t not in mismatch.unplaced:
+            return False
+        tolerance, same = self.tolerance(z), mismatch.of_color(color)
+        return not self.borders.has(t, row, column, z, tolerance) and any(
+            self.borders.has(other, row, column, z, tolerance)
+            for other in self.borders.near(row, column) if other in same and other != t)
+
+    def place_beyond(self, place):
+        """`stray` if a pixel is drawn, or not, farther than a pixel from the edges, or has a depth beyond the
+        limits; `other` if it shows a triangle that is not within a pixel, `depth` a depth that its triangle
+        does not have there; else empty."""
+        (row, column), kind, borders, pixels = place, self.mismatch.pixels[place], self.borders, self.pixels
+        is_drawn = pixels.drawn[row][column]
+        z = pixels.depths[row][column] if pixels.depths and pixels.depths[row] else None
+        tolerance = self.tolerance(z) if z is not None else 0.0
+        seen = self.mismatch.of_color(pixels.colors[row][column]) if is_drawn else None
+        if borders.could_show(row, column, is_drawn, z, tolerance, seen):
+            return ""
+        front, rear = self.context.limits
+        is_kept = z is None or front - tolerance <= z < rear + tolerance
+        is_shape = kind in ("extra", "missing")
+        if not is_kept or is_shape and not borders.allows(row, column, is_drawn):
+            return "stray"
+        if is_shape:
+            return ""
+        return "depth" if borders.could_show(row, column, is_drawn, None, tolerance, seen) else "other"

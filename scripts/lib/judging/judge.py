@@ -14,7 +14,8 @@ from lib.judging.pixel_stage import PixelStage, pixel_readings
 from lib.judging.points import holds_enough, read_points
 from lib.judging.reference import kinds_of, reference
 from lib.judging.shown import read_colors, read_depths
-from lib.judging.stage_judge import Outcome, Reading, StageJudge, undecided_outcome
+from lib.judging.stage_judge import Outcome, StageJudge, undecided_outcome
+from lib.judging.stage_ways import Reading
 from lib.judging.verdict import GOOD, MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
 from lib.rim.input_file import InputError
 from lib.showing.pictures import PictureError

@@ -3,18 +3,15 @@ import collections
 import dataclasses
 import itertools
 
-from lib.judging.pixels import PixelJudge, counted
+from lib.judging.pixel_comparing import Context
+from lib.judging.pixel_files import Findings, mismatch_to_show
+from lib.judging.pixel_words import difference_in_words, unexplained_in_words
 from lib.judging.shown import Shown
-from lib.judging.stage_judge import Reading, undecided_outcome
+from lib.judging.stage_judge import undecided_outcome
+from lib.judging.stage_ways import Reading
 from lib.judging.verdict import (
     ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
 
-KINDS_IN_WORDS = {
-    "extra": "a pixel that no triangle covers",
-    "missing": "a pixel that triangle {} covers is empty",
-    "depth": "another depth than that of triangle {}",
-    "other": "another triangle than triangle {}",
-}
 PRINTED = "pixels without a triangle are printed"
 
 
@@ -54,14 +51,14 @@ class PixelStage:
         if not self.readings:
             return verdicts | {
                 kind: undecided_outcome("zbuf", self.files[kind].name).verdict for kind in given}
-        shown, window = self.shown(colors, depths), self.ours.window
-        judge = PixelJudge(self.readings, window, shown)
-        finding = judge.judge()
+        shown = self.shown(colors, depths)
+        context = Context(self.readings, self.ours.window, shown)
+        findings = Findings(context)
         for kind in given:
-            best = judge.finding_of(kind, finding) if len(given) == 2 else finding
+            best = findings.of(kind) if len(given) == 2 else findings.of_all
             verdicts[kind] = self.verdict_of_pixels(kind, best, shown)
-            is_of_both = best is finding and kind == "depths"  # whose pixels the picture tells
-            self.tell_first(verdicts[kind], kind, best, judge if is_of_both else judge.alone(kind))
+            needs_both = best is findings.of_all and kind == "depths"  # whose pixels the picture shows
+            self.add_first(verdicts[kind], kind, best, context if needs_both else context.of_one_file(kind))
             is_open = self.thin or verdicts[kind].is_good
             if is_open and shown.is_blank(kind) and not self.ours.draws_nothing:
                 why = f"there is too little in {self.thin}" if self.thin else "nothing is in view"
@@ -141,29 +138,18 @@ class PixelStage:
             verdict.remarks.append("in other colors")
         return verdict
 
-    def tell_first(self, verdict, kind, finding, judge):
-        """Adds the first pixel that shows why, and which ones a mistake that is named does not explain."""
+    def add_first(self, verdict, kind, finding, context):
+        """Adds the first pixel that shows why, and the ones that a named mistake does not explain."""
         if finding.mismatch is None or verdict.verdict == RIGHT:
             return
-        rest, told = verdict.places, judge.told(finding, verdict.verdict == WRONG)
-        if verdict.causes and rest:
-            are = "is" if len(rest) == 1 else "are"
-            verdict.remarks.append(f"{counted(len(rest), 'pixel')} {are} not explained by the cause, the "
-                                   f"first in {self.place_in_words(min(rest))}")
-        verdict.places = sorted({*rest, *told.of(kind)})
-        told = told if told.of(kind) else finding.mismatch
+        unexplained, width = verdict.places, self.ours.window.width
+        mismatch = mismatch_to_show(context, finding, verdict.verdict == WRONG)
+        if verdict.causes and unexplained:
+            verdict.remarks.append(unexplained_in_words(unexplained, width))
+        verdict.places = sorted({*unexplained, *mismatch.of(kind)})
+        mismatch = mismatch if mismatch.of(kind) else finding.mismatch
         if verdict.places:
-            place = min(told.of(kind))
-            words = KINDS_IN_WORDS[told.pixels[place]].format(told.owners.get(place))
-            verdict.first = f"{self.place_in_words(place)}: " + (
-                words if self.is_inside(place) else "another number of depths")
-
-    def is_inside(self, place):
-        """Whether a place is a pixel; a column beyond the picture stands for the whole row."""
-        return place[1] < self.ours.window.width
-
-    def place_in_words(self, place):
-        return f"row {place[0]}" + (f", column {place[1]}" if self.is_inside(place) else "")
+            verdict.first = difference_in_words(mismatch, min(mismatch.of(kind)), width)
 
     def has_other_colors(self, shown):
         """Whether most pixels with a triangle have a color that zbuf gives to none of the scene's. Which

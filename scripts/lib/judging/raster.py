@@ -17,7 +17,6 @@ FAR = 1e9             # in NDC: beyond this, all is the same
 # Ends of a row of pixels, from where the row of pixel centers meets the triangle, in columns.
 ENDS = {
     "rounded": lambda t: math.floor(t + 0.5), "truncated": math.trunc, "down": math.floor, "up": math.ceil}
-ENDS_IN_WORDS = {"rounded": "rounded", "truncated": "truncated", "down": "rounded down", "up": "rounded up"}
 
 
 @dataclasses.dataclass(frozen=True)

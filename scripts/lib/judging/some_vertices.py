@@ -5,7 +5,6 @@ import dataclasses
 from lib.judging.matching import listed
 from lib.judging.verdict import Cause
 
-ALL_VERTICES = (slice(None),)
 VERTICES = [slice(k, None, 3) for k in range(3)]
 NAMES = ("first", "second", "third")
 MOST_TRIANGLES = 0.5  # of all that are wrong, to be called a few

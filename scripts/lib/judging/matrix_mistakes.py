@@ -1,0 +1,88 @@
+"""The matrices that view or project may have by mistake. Each candidate is (Cause, matrix, whether it
+divides); more than one that fits cannot be told apart by the numbers."""
+import contextlib
+import itertools
+
+from lib.judging.matrices import DIVIDES_X_AND_Y, TWICE, VIEW_SPELLINGS, Z_TWICE, negative
+from lib.judging.mistakes import names_of
+from lib.judging.verdict import Cause, cause_of_all
+
+DIVISIONS = {"no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
+             "depth-is-linear": DIVIDES_X_AND_Y, "depth-in-view-space": DIVIDES_X_AND_Y,
+             "depth-divided-twice": Z_TWICE}  # by w; other mistakes of project divide all three
+OF_THE_WHOLE = {"matrix-transposed", "depth-from-0-to-1"}  # made of the right matrix
+UNCHANGED = "The points are those of the stage before, unchanged"
+AXES = "xyzw"
+
+
+def listed(stage, scene):
+    """The mistakes with a name, each in the ways that programs make it."""
+    for name in names_of(stage):
+        for m, is_divided in ways(stage, scene, (name,)):
+            yield cause_of_all(stage, (name,)), m, is_divided
+
+
+def pairs(stage, scene):
+    """Two mistakes of the list at once."""
+    for names in itertools.combinations(names_of(stage), 2):
+        if stage == "view" or OF_THE_WHOLE.isdisjoint(names) and len(DIVISIONS.keys() & names) < 2:
+            for m, is_divided in itertools.islice(ways(stage, scene, names), 1):
+                yield cause_of_all(stage, names), m, is_divided
+
+
+def ways(stage, scene, names):
+    """(matrix, whether it divides) of mistakes made together; none where they cannot be made, for example
+    with a direction of 0 0 0."""
+    words = " ".join(names)
+    if stage == "view":
+        for spelling in range(VIEW_SPELLINGS.get(words, 1)):
+            with contextlib.suppress(ZeroDivisionError):
+                m = scene.of_view(words, spelling)
+                yield m, False
+                if words == "matrix-transposed":  # its w is not 1, and some programs divide by it
+                    yield m, True
+        return
+    with contextlib.suppress(ZeroDivisionError, OverflowError):
+        m = scene.of_project(words)
+        if m is not None:
+            is_divided = next((DIVISIONS[name] for name in names if name in DIVISIONS), True)
+            yield m, is_divided
+            if words == "depth-in-view-space":  # or the distance from the eye
+                yield (*m[:2], negative(m[2]), m[3]), is_divided
+
+
+def other_forms(stage, ours, divides):
+    """The matrix as a whole in another form: its rows in another order, or another range of depths."""
+    for order in itertools.permutations(range(4)):
+        moved = [i for i in range(4) if order[i] != i]
+        if not moved or 3 in moved and (stage != "project" or len(moved) > 2):
+            continue  # w may change places with another row in project alone
+        if len(moved) == 2:
+            i, j = moved
+            text = (f"Rows {i + 1} and {j + 1} of the matrix (counted from 1), those of {AXES[i]} and "
+                    f"{AXES[j]}, stand in each other's place")
+        else:
+            text = f"The rows of the matrix stand in the order {', '.join(AXES[i] for i in order[:3])}"
+        yield Cause("", text), tuple(ours[i] for i in order), divides
+    if stage == "project":
+        reversed_z = tuple((w - z) / 2 for z, w in zip(*ours[2:]))
+        yield Cause("", "The depth goes from 1 at near to 0 at far, in place of -1 to 1"), (
+            *ours[:2], reversed_z, ours[3]), divides
+
+
+def changed_elements(stage, ours, divides):
+    """One row with the opposite sign, or one element that is another number."""
+    def changed(i, row):
+        return tuple(row if k == i else other for k, other in enumerate(ours))
+
+    count = 4 if stage == "project" else 3
+    for i in range(count):
+        text = f"Row {i + 1} of the matrix (counted from 1) has the opposite sign"
+        yield Cause("", text), changed(i, negative(ours[i])), divides
+    numbers = {0.0, 1.0, -1.0, *(sign * abs(x) for row in ours for x in row for sign in (1, -1))}
+    for i, j in itertools.product(range(count), range(4)):
+        right = ours[i][j]
+        for value in sorted((numbers | {2 * right, right / 2}) - {right}):
+            row = tuple(value if n == j else x for n, x in enumerate(ours[i]))
+            place = f"Row {i + 1}, column {j + 1} of the matrix (counted from 1)"
+            yield Cause("", f"{place} is {value:.6g}, not {right:.6g}"), changed(i, row), divides

@@ -1,0 +1,135 @@
+"""How programs carry out the commands of a scene: the right way, and the ways of each mistake of model."""
+import dataclasses
+import itertools
+import math
+
+from lib.judging.matrices import IDENTITY, affine, product, rotation, transposed
+from lib.judging.mistakes import names_of
+from lib.maths.vectors import normalized
+
+ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
+
+
+def turned(degrees, axis, *factors):
+    return rotation(math.radians(degrees), normalized(axis), *factors)
+
+
+def turned_with(pi):
+    return lambda degrees, axis: rotation(degrees * pi / 180, normalized(axis))
+
+
+def with_wrong_element(m, row):
+    """The matrix of a rotation with an element of its second column in its third."""
+    return tuple((*line[:2], line[1], line[3]) if i == row else line for i, line in enumerate(m))
+
+
+@dataclasses.dataclass(frozen=True)
+class Habit:
+    """How a program carries out the commands. The defaults are right."""
+    order: str = "right"            # on which side of the matrix a transform is multiplied
+    stack: str = "nested"           # what push and pop do
+    turn: object = turned           # makes a matrix of an angle in degrees and an axis
+    offset: str = ""                # added, put: what becomes of the matrix's last column at `translate`
+
+    def moved(self, matrix, made, keyword):
+        """The matrix after a command for which one was made."""
+        if keyword == "translate" and self.offset == "put":
+            return affine([row[:3] for row in matrix[:3]], [row[3] for row in made[:3]])
+        is_left = self.order == "left" or keyword == "translate" and self.offset
+        return product(made, matrix) if is_left else product(matrix, made)
+
+
+RIGHT = Habit()
+
+# How each mistake of model is made: the usual way first, then others that programs were seen to have.
+MODEL_MISTAKES = {
+    "multiplied-on-the-left": [Habit(order="left")],
+    "push-and-pop-ignored": [Habit(stack="ignored")],
+    "pop-ignored": [Habit(stack="no pop")],
+    "push-of-the-identity": [Habit(stack="push identity")],
+    "pop-to-the-identity": [Habit(stack="pop identity")],
+    "second-push-lost": [
+        Habit(stack=f"{lost}, {empty}")
+        for lost in ("adjacent lost", "every other lost", "all but first lost", "nested lost")
+        for empty in ("stay", "identity")] + [Habit(stack="one count")],
+    "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")],
+    "axis-not-normalized": [Habit(turn=lambda degrees, axis: rotation(math.radians(degrees), axis))],
+    "angle-in-radians": [Habit(turn=lambda degrees, axis: rotation(degrees, normalized(axis)))],
+    "rotation-transposed": [Habit(turn=lambda degrees, axis: transposed(turned(degrees, axis)))],
+    "rotation-element-from-the-wrong-column": [
+        Habit(turn=lambda degrees, axis, row=row: with_wrong_element(turned(degrees, axis), row))
+        for row in range(3)],
+    "angle-negated": [Habit(turn=lambda degrees, axis: turned(-degrees, axis))],
+    "translation-added": [Habit(offset="added"), Habit(offset="put")],
+    "rotation-without-a-term": [
+        Habit(turn=lambda degrees, axis, factors=factors: turned(degrees, axis, factors))
+        for factors in (lambda c, s: (c, 1, s), lambda c, s: (c, 0, s), lambda c, s: (c, 1 - c, 0),
+                        lambda c, s: (0, 1 - c, s))],
+}
+
+
+class Stack:
+    """The current matrix and the saved ones, under a habit."""
+
+    def __init__(self, habit):
+        self.matrix, self.saved = IDENTITY, []
+        # commands: any, and the last push or pop; whether that was lost
+        self.last, self.last_of_stack, self.was_lost = "", "", False
+        self.kind, _, self.empty = habit.partition(", ")
+        self.count = 0  # of the transforms since the last push, for the habit that counts them
+
+    def is_lost(self):
+        """Whether a push that comes now saves nothing."""
+        was_push = self.last_of_stack == "push"
+        return {
+            "adjacent lost": self.last == "push", "every other lost": was_push and not self.was_lost,
+            "all but first lost": was_push, "nested lost": bool(self.saved)}.get(self.kind, False)
+
+    def moved_to(self, matrix):
+        self.matrix = matrix
+        if self.kind == "one count":
+            self.saved.append(matrix)
+            self.count += 1
+
+    def count_back(self, keyword):
+        """push and pop of a program that keeps all matrices and counts those since the last push: that push
+        forgets the count of the push before it."""
+        if keyword == "push":
+            self.count = 0
+        elif keyword == "pop" and self.count:
+            del self.saved[-self.count:]
+            self.matrix = self.saved[-1] if self.saved else IDENTITY
+
+    def command(self, keyword):
+        if self.kind == "one count":
+            return self.count_back(keyword)
+        is_lost = keyword == "push" and self.is_lost()
+        if keyword == "push" and self.kind != "ignored" and not is_lost:
+            if self.kind.startswith("slot"):
+                self.saved.clear()
+            self.saved.append(self.matrix)
+            if self.kind == "push identity":
+                self.matrix = IDENTITY
+        elif keyword == "pop" and self.kind not in ("ignored", "no pop"):
+            if self.saved:
+                popped = self.saved[-1] if self.kind == "slot kept" else self.saved.pop()
+                self.matrix = IDENTITY if self.kind == "pop identity" else popped
+            elif self.empty == "identity":
+                self.matrix = IDENTITY
+        if keyword in ("push", "pop"):
+            self.last_of_stack, self.was_lost = keyword, is_lost
+        self.last = keyword
+        return None
+
+
+def model_mistakes():
+    """(name, habits) for each mistake of model in the list."""
+    return [(name, MODEL_MISTAKES[name]) for name in names_of("model") if name in MODEL_MISTAKES]
+
+
+def model_pairs():
+    """((name, name), Habit) for each two mistakes of model that change different things."""
+    for (a, (one, *_)), (b, (other, *_)) in itertools.combinations(model_mistakes(), 2):
+        changes = {key: value for key, value in vars(other).items() if value != getattr(RIGHT, key)}
+        if all(getattr(one, key) == getattr(RIGHT, key) for key in changes):
+            yield (a, b), dataclasses.replace(one, **changes)

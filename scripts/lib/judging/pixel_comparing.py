@@ -1,0 +1,223 @@
+"""What a hand-in shows in stage 4, compared with what its triangles give under a rule."""
+import collections
+import dataclasses
+import functools
+import itertools
+import math
+
+from lib.judging import pixel_rules
+from lib.judging.raster import Drawing, Grid, Rule, Triangles
+from lib.judging.shown import DEPTH_BASE
+
+PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else they could show
+MOST_WORK = 40_000_000     # pixels of triangles and spans looked at, in all that is tried
+
+
+@dataclasses.dataclass
+class Mismatch:
+    """The pixels that a rule does not explain: {(row, column): kind}, where kind is extra, missing, other or
+    depth."""
+    rule: Rule
+    reading: str
+    pixels: dict = dataclasses.field(default_factory=dict)
+    drawn: int = 0       # pixels with a triangle, by the rule
+    offsets: dict = dataclasses.field(default_factory=dict)  # of depths, at these pixels
+    colors: dict = dataclasses.field(default_factory=dict)  # of each triangle, by the majority of its pixels
+    visible: collections.Counter = dataclasses.field(default_factory=collections.Counter)
+    owners: dict = dataclasses.field(default_factory=dict)  # by the rule, of these pixels
+    triangle_count: int = 0
+
+    @property
+    def of_shape(self):
+        return [place for place, kind in self.pixels.items() if kind in ("extra", "missing")]
+
+    @functools.cached_property
+    def by_color(self):
+        """{color: the triangles that have it}, once all colors are known."""
+        found = collections.defaultdict(set)
+        for t, color in self.colors.items():
+            found[color].add(t)
+        return found
+
+    @functools.cached_property
+    def unplaced(self):
+        """The triangles that share their color with a larger one, or show no pixel."""
+        largest = {max(group, key=lambda t: self.visible[t]) for group in self.by_color.values()}
+        return set(range(self.triangle_count)) - largest
+
+    def of_color(self, color):
+        """The triangles that a color may stand for: those whose color it is, else those that have none to
+        themselves."""
+        return self.by_color.get(color) or self.unplaced
+
+    def shows_another(self, place, pixels):
+        """Whether a pixel with a triangle has the color of another one than by the rule."""
+        row, column = place
+        return pixels.drawn[row][column] and self.owners.get(place, -1) not in self.of_color(
+            pixels.colors[row][column])
+
+    def of(self, kind):
+        """The pixels that differ in the depths or in the picture."""
+        own = "other" if kind == "picture" else "depth"
+        return [place for place, found in self.pixels.items() if found in ("extra", "missing", own)]
+
+
+class Context:
+    """All that rules are compared by: `readings` are {name: (points, units)}, the numbers of the file, those
+    in memory, and the right ones; `window` has the size and the limits, `shown` the hand-in's files."""
+
+    def __init__(self, readings, window, shown, is_one_of_two=False, triangles=None):
+        self.readings, self.window, self.shown, self.is_one_of_two = readings, window, shown, is_one_of_two
+        self.first = next(iter(readings))
+        self.limits = float(window.front), float(window.rear)
+        self.triangles, self.work = {} if triangles is None else triangles, [MOST_WORK]
+
+    def of_one_file(self, kind):
+        """The Context of the depths, or of the picture, alone."""
+        return Context(self.readings, self.window, self.shown.only(kind), True, self.triangles)
+
+    @functools.cached_property
+    def open_rules(self):
+        return pixel_rules.open_rules(self.window, self.readings, bool(self.shown.depths))
+
+    @functools.cached_property
+    def plain(self):
+        """The Mismatch of our own rule."""
+        return self.compare(self.first, Rule())
+
+    def drawing(self, reading, rule):
+        kind = rule.half_x, rule.half_y, rule.is_one_less
+        key = reading, rule.is_window_one, kind, rule.corners
+        if key not in self.triangles:
+            window = self.window
+            corner = (-1, -1) if rule.is_window_one else (window.left, window.bottom)
+            grid = Grid(window.width, window.height, *map(float, corner), *kind)
+            self.triangles[key] = Triangles(*self.readings[reading], grid, rule.corners)
+        limits = (-1.0, 1.0) if rule.is_depth_one else self.limits
+        return Drawing(self.triangles[key], rule, limits, self.work)
+
+    def explains(self, reading, rule, rows):
+        """Whether the rule explains all that these rows show, colors aside."""
+        attempt = Attempt(self, reading, rule)
+        return not any(True for row in rows for _ in attempt.differences(row))
+
+    def compare(self, reading, rule, limit=math.inf):
+        """The Mismatch of a rule; None if more than `limit` pixels are not explained."""
+        return Attempt(self, reading, rule).mismatch(limit)
+
+
+class Attempt:
+    """A rule, tried on one of the readings."""
+
+    def __init__(self, context, reading, rule):
+        self.reading, self.rule, self.width = reading, rule, context.window.width
+        self.height, self.rear, self.depths = context.window.height, context.limits[1], context.shown.depths
+        self.drawing = context.drawing(reading, rule)
+        self.pixels = context.shown.pixels(rule.picture_flip, rule.text_flip)
+        self.budget = PIXELS_LOOKED_AT
+
+    @property
+    def has_torn_rows(self):
+        """Whether the text, flipped back, has another number of depths in a row than the picture."""
+        pixels = self.pixels
+        return bool(self.rule.text_flip and pixels.listed) and (
+            not any(pixels.listed) or bool(pixels.drawn) and None in pixels.depths)
+
+    def could_show(self, row, column, is_drawn, z, triangles=None):
+        slack = self.depths.tolerance(z) if z is not None else 0.0
+        return any(
+            (t >= 0) == is_drawn and (z is None or low <= z <= high) and (triangles is None or t in triangles)
+            for t, low, high in self.drawing.could_show(row, column, slack))
+
+    def could_show_after_all(self, *pixel):
+        """could_show, for as many pixels as the budget has."""
+        self.budget -= 1
+        return self.budget > 0 and self.could_show(*pixel)
+
+    def differences(self, row, drawn_row=None):
+        """(column, kind) of what a row shows that the rule does not explain, colors aside. `drawn_row` is
+        the one of the drawing."""
+        owner, depth = drawn_row or self.drawing.row(row)
+        depths = self.pixels.depths[row] if self.pixels.depths else None
+        if self.pixels.depths and depths is None:
+            yield from self.differences_of_list(row, (owner, depth), self.pixels.listed[row])
+        drawn = self.pixels.drawn[row] if self.pixels.drawn else [z is not None for z in depths or ()]
+        tolerance = self.depths.tolerance if depths else None
+        for column, (t, is_drawn) in enumerate(zip(owner, drawn)):
+            z = depths[column] if depths and is_drawn else None
+            if (t >= 0) == is_drawn and (z is None or abs(z - depth[column]) <= DEPTH_BASE
+                                         or abs(z - depth[column]) <= tolerance(z)):
+                continue
+            if not self.could_show_after_all(row, column, is_drawn, z):
+                yield column, "extra" if t < 0 else "missing" if not is_drawn else "depth"
+
+    def differences_of_list(self, row, drawn_row, listed):
+        """The same without a pixel for each depth: the depths of a row in their order, all or only the ones
+        before the rear limit. A column beyond the picture stands for the whole row."""
+        expected = [(column, z) for column, (t, z) in enumerate(zip(*drawn_row)) if t >= 0]
+        if len(expected) > len(listed):
+            expected = [(column, z) for column, z in expected if z < self.rear]
+        if len(expected) != len(listed):
+            yield self.width, "depth"
+            return
+        for (column, z), given in zip(expected, listed):
+            if abs(z - given) > self.depths.tolerance(z) and not self.could_show(row, column, True, given):
+                yield column, "depth"
+
+    def count(self, rows, most):
+        """How many pixels of some rows are not explained, up to most + 1; another number of depths explains
+        none of its row."""
+        unexplained = (most + 1 if column == self.width else 1
+                       for row in rows for column, _ in self.differences(row))
+        return sum(itertools.islice(unexplained, most + 1))
+
+    def mismatch(self, limit=math.inf):
+        """The Mismatch; None if more than `limit` pixels are not explained."""
+        drawing, pixels = self.drawing, self.pixels
+        result = Mismatch(self.rule, self.reading, triangle_count=len(drawing.triangles.corners))
+        pairs = collections.Counter()
+        for row in range(self.height):
+            owner, depth = drawing.row(row)
+            result.drawn += sum(t >= 0 for t in owner)
+            for column, kind in self.differences(row, (owner, depth)):
+                self.add(result, row, column, kind, (owner, depth))
+            if len(result.pixels) > limit:
+                return None
+            if pixels.colors:
+                pairs.update((t, color)
+                             for t, color, is_drawn in zip(owner, pixels.colors[row], pixels.drawn[row])
+                             if t >= 0 and is_drawn)
+        if pixels.colors:
+            self.add_colors(result, pairs)
+        return result if len(result.pixels) <= limit else None
+
+    def add(self, result, row, column, kind, drawn_row):
+        result.pixels[row, column] = kind
+        if column == self.width:
+            return
+        owner, depth = drawn_row
+        if owner[column] >= 0:
+            result.owners[row, column] = owner[column]
+        if kind == "depth":
+            z = self.pixels.depths[row][column] if self.pixels.depths[row] else None
+            result.offsets[row, column] = abs(z - depth[column]) if z is not None else 0.0
+
+    def add_colors(self, result, pairs):
+        """Gives every triangle the color that most of its pixels have, and adds the pixels that show another
+        triangle. `pairs` counts (triangle, color)."""
+        for (t, color), _ in reversed(pairs.most_common()):
+            result.colors[t] = color
+        for (t, _), count in pairs.items():
+            result.visible[t] += count
+        if all(result.colors[t] == color for t, color in pairs):
+            return
+        for row in range(self.height):
+            owner, _ = self.drawing.row(row)
+            depths = self.pixels.depths[row] if self.pixels.depths else None
+            shown = zip(owner, self.pixels.colors[row], self.pixels.drawn[row])
+            for column, (t, color, is_drawn) in enumerate(shown):
+                if t < 0 or not is_drawn or result.colors[t] == color or (row, column) in result.pixels:
+                    continue
+                z = depths[column] if depths else None
+                if not self.could_show_after_all(row, column, True, z, result.of_color(color)):
+                    result.pixels[row, column], result.owners[row, column] = "other", t

@@ -1,0 +1,207 @@
+"""The search for the rule, or the mistake, under which the pixels of a hand-in are exactly what its triangles
+give."""
+import dataclasses
+import itertools
+
+from lib.judging.borders import BorderRule
+from lib.judging.pixel_comparing import Attempt, Mismatch
+from lib.judging.pixel_rules import BLANK, CENTER, MISTAKES, MOST_PAIRS, OPEN_ENDS, can_matter, pairs
+from lib.judging.pixel_words import border_rule_in_words, nothing_drawn_in_words, rule_in_words
+from lib.judging.raster import Rule, TooMuch
+from lib.judging.verdict import cause_of, cause_of_all
+
+SAMPLE_ROWS = 8
+# A mistake leaves at most one pixel in NEARLY of the ones, in SAMPLE_ROWS, that the best open rule leaves;
+# these are at least LEAST_NEARLY.
+NEARLY, LEAST_NEARLY = 8, 8
+LEAST_HOLES = 5  # on common edges, before they are no accident of rounding
+LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
+
+
+@dataclasses.dataclass
+class Finding:
+    """The result for stage 4, or for one of its files."""
+    verdict: str                # exact, borders, mistake, unknown
+    mismatch: Mismatch = None
+    rule: str = ""              # in words, if it is another one
+    causes: list = dataclasses.field(default_factory=list)
+    touches: tuple = ("depths", "picture")  # the files that the mistake spoils
+    remarks: list = dataclasses.field(default_factory=list)
+
+
+def finding_of(context):
+    """The Finding of a pixel_comparing.Context."""
+    plain = None
+    try:
+        plain = context.plain
+        return exact(plain) or of_wrong_pixels(context, plain)
+    except TooMuch:
+        finding = unknown(plain) if plain else Finding("unknown")
+        finding.remarks.append("too many pixels of triangles to look for a cause")
+        return finding
+
+
+def of_wrong_pixels(context, plain):
+    if plain.drawn and any(context.shown.are_blank):  # where one is, no mistake is common to both
+        return exact(context.compare(context.first, Rule(**CENTER), limit=0)) or of_blank(context, plain)
+    rows = sample_rows(context, plain)
+    finding = by_open_rule(context, rows) or by_mistake(context, rows)
+    if finding:
+        return finding
+    center = context.compare(context.first, Rule(**CENTER))
+    best = min((plain, center), key=lambda mismatch: (len(mismatch.of_shape), len(mismatch.pixels)))
+    return by_most_pixels(context, rows, best) or at_borders(context, best) or by_two_mistakes(
+        context, rows) or unknown(best)
+
+
+def unknown(mismatch):
+    return Finding("unknown", mismatch,
+                   touches=tuple(kind for kind in ("depths", "picture") if mismatch.of(kind)))
+
+
+def exact(mismatch):
+    """A Finding if the rule explains everything: the rule, or that all triangles have one color."""
+    if mismatch is None or mismatch.pixels:
+        return None
+    finding = Finding("exact", mismatch, rule_in_words(mismatch.rule))
+    if mismatch.reading == "memory":
+        finding.remarks.append("by the exact numbers, kept in memory")
+    if mismatch.reading.startswith("right"):
+        finding.remarks.append("by the right numbers, which are not those of stage3.txt")
+    counts = [count for _, count in mismatch.visible.most_common()]
+    if len(set(mismatch.colors.values())) == 1 and sum(counts[1:]) >= LEAST_PIXELS_OF_OTHERS:
+        finding.verdict, finding.touches = "mistake", ("picture",)
+        finding.causes = [cause_of("zbuf/one-color")]
+    return finding
+
+
+def spread(values, count):
+    """At most `count` of the values, evenly spread."""
+    return values if len(values) <= count else [
+        values[i * (len(values) - 1) // (count - 1)] for i in range(count)]
+
+
+def sample_rows(context, mismatch):
+    """A few rows that tell rules apart: some with differences, some others."""
+    wrong = sorted({row for row, _ in mismatch.pixels})
+    pixels = context.shown.pixels()
+    filled = [row for row in range(context.window.height)
+              if (any(pixels.drawn[row]) if pixels.drawn else pixels.listed[row])]
+    return [*spread(wrong, SAMPLE_ROWS), *spread(filled, SAMPLE_ROWS // 2)]
+
+
+def by_open_rule(context, rows):
+    for _, changes in context.open_rules:
+        for reading in context.readings:
+            if context.explains(reading, Rule(**changes), rows):
+                finding = exact(context.compare(reading, Rule(**changes), limit=0))
+                if finding:
+                    return finding
+    return None
+
+
+def by_mistake(context, rows):
+    """The mistakes that explain everything by the usual rules; only if there is none, by others."""
+    found, rank_of_found = {}, None
+    for rank, open_changes in context.open_rules:
+        if found and rank > rank_of_found:
+            break
+        for names, changes in MISTAKES:
+            if names in found or not can_matter(changes, context.window, context.shown):
+                continue
+            rule = Rule(**{**open_changes, **changes})
+            mismatches = (everything_explained(context, reading, rule, rows) for reading in context.readings)
+            if mismatch := next(filter(None, mismatches), None):
+                found[names], rank_of_found = mismatch, rank
+    return mistake(context, found) if found else None
+
+
+def everything_explained(context, reading, rule, rows):
+    """The Mismatch, without a pixel, of a mistake that explains everything and draws something; else None.
+    `rows` are looked at first."""
+    if not context.explains(reading, rule, rows):
+        return None
+    mismatch = context.compare(reading, rule, limit=0)
+    return mismatch if mismatch and mismatch.drawn and has_enough_holes(context, reading, rule) else None
+
+
+def has_enough_holes(context, reading, rule):
+    """Whether there are enough holes on edges to tell, if the rule leaves any."""
+    return not rule.is_strict or len(
+        context.compare(reading, dataclasses.replace(rule, is_strict=False)).pixels) >= LEAST_HOLES
+
+
+def by_two_mistakes(context, rows):
+    """Two mistakes at once that explain everything, by our two rules; nothing if more than MOST_PAIRS would
+    do. They are asked of both files together."""
+    found = {}
+    for (names, changes), ends in itertools.product(() if context.is_one_of_two else pairs(), ({}, CENTER)):
+        if names not in found and can_matter(changes, context.window, context.shown):
+            mismatch = everything_explained(context, context.first, Rule(**{**ends, **changes}), rows)
+            found |= {names: mismatch} if mismatch else {}
+    return mistake(context, found) if 0 < len(found) <= MOST_PAIRS else None
+
+
+def by_most_pixels(context, rows, best):
+    """The mistakes, by our two rules, that explain all but one in NEARLY of the pixels that no open rule
+    explains, and of all that differ."""
+    least, found = 10**9, {}
+    for ends in OPEN_ENDS:
+        least = min(least, Attempt(context, context.first, Rule(**ends)).count(rows, least))
+    for names, changes in MISTAKES if least >= LEAST_NEARLY else ():
+        if not can_matter(changes, context.window, context.shown):
+            continue
+        for ends in ({}, CENTER):
+            attempt, most = Attempt(context, context.first, Rule(**{**ends, **changes})), least // NEARLY
+            if attempt.has_torn_rows or attempt.count(rows, most) > most:
+                continue
+            mismatch = context.compare(context.first, attempt.rule)
+            if mismatch.drawn and NEARLY * len(mismatch.pixels) <= len(best.pixels) and not any(
+                    column == context.window.width for _, column in mismatch.pixels):
+                found.setdefault(names, mismatch)
+    return mistake(context, found) if found else None
+
+
+def mistake(context, found):
+    """The Finding of {names: Mismatch}."""
+    if any(len(names) == 1 for names in found):  # several at once only if no single one will do
+        found = {names: mismatch for names, mismatch in found.items() if len(names) == 1}
+    mismatch = next(iter(found.values()))
+    return Finding("mistake", mismatch, rule_in_words(mismatch.rule),
+                   [cause_of_all("zbuf", names) for names in found], files_spoiled(context, mismatch))
+
+
+def files_spoiled(context, mismatch):
+    """The files that a mistake spoils: one of them if it only turns its rows."""
+    rule = mismatch.rule
+    turned_back = dataclasses.replace(rule, picture_flip="", text_flip="")
+    is_turn = turned_back in [Rule(**changes) for _, changes in context.open_rules]
+    if is_turn and not mismatch.pixels and not (rule.picture_flip and rule.text_flip):
+        if rule.picture_flip and context.shown.depths:
+            return ("picture",)
+        if rule.text_flip:
+            return ("depths",)
+    return "depths", "picture"
+
+
+def at_borders(context, best):
+    """A Finding if all differences from the nearest of our two rules lie within a pixel of an edge."""
+    beyond = BorderRule(context, best).beyond()
+    if beyond is None:
+        return None
+    return Finding("borders", best, border_rule_in_words(best, context.shown.pixels(),
+                                                         beyond["other"] + beyond["depth"]))
+
+
+def of_blank(context, plain):
+    """The Finding where nothing is drawn, which has too many causes to name one; of one of two files, none
+    that both would have."""
+    def draws_nothing(changes):
+        drawing = context.drawing(context.first, Rule(**changes))
+        return not any(t >= 0 for row in range(context.window.height) for t in drawing.row(row)[0])
+
+    finding = unknown(plain)
+    names = [name for (name, *_), changes in (() if context.is_one_of_two else MISTAKES)
+             if name in BLANK and draws_nothing(changes)]
+    finding.remarks.append(nothing_drawn_in_words(names))
+    return finding

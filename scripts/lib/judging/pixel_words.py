@@ -1,0 +1,79 @@
+"""The words for rules of stage 4, for pixels that differ and for their places."""
+import collections
+
+from lib.judging.mistakes import sentence
+
+DIFFERENCES = {
+    "extra": "a pixel that no triangle covers",
+    "missing": "a pixel that triangle {} covers is empty",
+    "depth": "another depth than that of triangle {}",
+    "other": "another triangle than triangle {}",
+}
+ENDS = {"rounded": "rounded", "truncated": "truncated", "down": "rounded down", "up": "rounded up"}
+
+
+def counted(count, noun):
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
+
+
+def rule_in_words(rule):
+    """The open rules in which a rule differs from ours."""
+    words = []
+    if (rule.left, rule.right) == ("up", "down"):
+        words.append("the center rule")
+    elif rule.left == rule.right != "rounded":
+        words.append(f"ends of rows {ENDS[rule.left]}")
+    elif rule.left != rule.right:
+        words.append(f"left ends of rows {ENDS[rule.left]}, right ends {ENDS[rule.right]}")
+    if rule.depth == "between ends":
+        words.append("depths between the rounded ends of a row")
+    elif rule.depth == "from left":
+        words.append("depths counted on from the left end of a row")
+    return ", ".join(words)
+
+
+def border_rule_in_words(mismatch, pixels, inside):
+    """The pixels in which another rule at the borders differs; `inside` of them lie farther in."""
+    kinds = collections.Counter(mismatch.pixels.values())
+    shapes = kinds["extra"] + kinds["missing"]
+    others = {place for place, kind in mismatch.pixels.items()
+              if kind in ("depth", "other") and mismatch.shows_another(place, pixels)}
+    offsets = [offset for place, offset in mismatch.offsets.items() if place not in others]
+    parts = [f"{kinds[kind]:,} {words}" for kind, words in (("extra", "more"), ("missing", "fewer"))
+             if kinds[kind]]
+    words = []
+    if shapes:
+        words.append(f"another rule at the borders: {counted(shapes, 'pixel')} of {mismatch.drawn:,} "
+                     f"({', '.join(parts)})")
+    if others:
+        words.append(f"{len(others):,} of {mismatch.drawn:,} show another triangle where triangles meet")
+    if offsets:
+        least = "" if inside else "less than one pixel makes, "
+        differ = "depth differs" if len(offsets) == 1 else "depths differ"
+        words.append(f"{len(offsets):,} {differ} by {least}up to {max(offsets):.2g}")
+    return "; ".join(words)
+
+
+def nothing_drawn_in_words(names):
+    """`names` are mistakes that would do that."""
+    words = "; or: ".join(sentence(f"zbuf/{name}").rstrip(".") for name in names)
+    return "nothing is drawn" + (f", as if: {words}" if words else "")
+
+
+def place_in_words(place, width):
+    """A pixel's place; a column beyond the picture's width stands for the whole row."""
+    row, column = place
+    return f"row {row}" + (f", column {column}" if column < width else "")
+
+
+def difference_in_words(mismatch, place, width):
+    """A pixel that differs, with its place."""
+    words = DIFFERENCES[mismatch.pixels[place]].format(mismatch.owners.get(place))
+    return f"{place_in_words(place, width)}: {words if place[1] < width else 'another number of depths'}"
+
+
+def unexplained_in_words(places, width):
+    """The pixels that a cause leaves."""
+    are = "is" if len(places) == 1 else "are"
+    return (f"{counted(len(places), 'pixel')} {are} not explained by the cause, the first in "
+            f"{place_in_words(min(places), width)}")

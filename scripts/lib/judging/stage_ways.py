@@ -1,0 +1,163 @@
+"""The ways in which a text of stage 1, 2 or 3 may have come about: right, or with mistakes."""
+import dataclasses
+import itertools
+import math
+
+from lib.judging import fit
+from lib.judging.matrices import IDENTITY, ROUNDING, image, slack
+from lib.judging.matrix_mistakes import UNCHANGED, changed_elements, listed, other_forms, pairs
+from lib.judging.model_habits import RIGHT, ROUGH_PIS, Habit, model_mistakes, model_pairs, turned_with
+from lib.judging.pixel_rules import MOST_PAIRS
+from lib.judging.scene import NO_UNITS
+from lib.judging.verdict import Cause, cause_of, cause_of_all
+from lib.maths.vectors import cross
+
+ALL = slice(None)
+UNTOUCHED = "The points are those of the scene: no transformation is carried out"
+PI = "pi is taken as {:.8g}"
+
+
+@dataclasses.dataclass
+class Reading:
+    """What a stage may have read: points, and how far each coordinate may be off."""
+    points: list
+    units: list
+
+    @classmethod
+    def exact(cls, points):
+        return cls(points, [NO_UNITS] * len(points))
+
+
+@dataclasses.dataclass
+class Way:
+    """`cause` is the mistake, or the rule of a way that is right; `images` makes for a slice of the points
+    lists of (point, slacks of its coordinates), one for each reading; `memory` makes the exact points
+    afterwards, None if they are not known."""
+    cause: Cause
+    images: object
+    memory: object
+
+
+def exact_images(m, is_divided, points):
+    """The images of points; None if one is not defined."""
+    done = [image(m, p, is_divided) for p in points]
+    return done if all(math.isfinite(p[0]) for p in done) else None
+
+
+class ModelWays:
+    """The ways of model. `exact_world` are the right points."""
+    stage = "model"
+
+    def __init__(self, scene, exact_world):
+        self.scene = scene
+        self.scene_lines = scene.triangle_lines
+        right = self.way(Cause("", ""), RIGHT)
+        with_exact_points = Way(
+            right.cause, lambda part: [[(p, slacks) for p, (_, slacks) in zip(exact_world, images)][part]
+                                       for images in right.images(ALL)], lambda: exact_world)
+        self.right = [with_exact_points, *(
+            self.way(Cause("", PI.format(pi)), Habit(turn=turned_with(pi))) for pi in ROUGH_PIS)]
+
+    def way(self, cause, habit):
+        def images(part):
+            points = self.scene.world(habit)
+            return [points if part == ALL else list(points)[part]]
+        return Way(cause, images, lambda: [p for p, _ in self.scene.world(habit)])
+
+    def has_count(self, count):
+        return count == 3 * len(self.scene_lines)
+
+    def single(self):
+        """Lists of Ways, of which the later ones count only where none of the earlier ones will do: mistakes
+        in their usual form, then in others."""
+        for chosen in (slice(1), slice(1, None)):
+            yield (self.way(cause_of("model/" + name), habit)
+                   for name, habits in model_mistakes() for habit in habits[chosen])
+        untouched = self.scene.untouched()
+        yield [Way(Cause("", UNTOUCHED), lambda part: [((p, NO_UNITS) for p in untouched[part])],
+                   lambda: untouched)]
+
+    def several(self):
+        """(Ways, how many of them may fit before none counts)."""
+        yield (self.way(cause_of_all("model", pair), habit) for pair, habit in model_pairs()), MOST_PAIRS
+
+    def with_details(self, causes, result):
+        return [*causes[:-1], *(dataclasses.replace(cause, detail=self.place(result) if cause.name else "")
+                                for cause in causes[-1:])]
+
+    def place(self, result):
+        """Where the first wrong triangle stands in the scene."""
+        triangle = result.first_triangle
+        line, before = self.scene.triangle_lines[triangle], self.scene.command_before(triangle)
+        after = f", after {before.keyword} in line {before.line}" if before else ""
+        return f"the first wrong triangle is number {triangle}, in line {line} of the scene{after}"
+
+    def remarks(self, result):
+        return [self.place(result)]
+
+    def add_matrix(self, verdict, theirs):
+        """There is none."""
+
+
+class MatrixWays:
+    """The ways of view or project, which are one matrix for all points. `right` are (rule in words, matrix,
+    whether it divides)."""
+    scene_lines = ()
+
+    def __init__(self, stage, scene, readings, right):
+        self.stage, self.scene, self.readings = stage, scene, readings
+        _, self.ours, self.divides = right[0]
+        # what cancels in the matrix
+        self.reach = ROUNDING * math.hypot(*scene.eye) if stage == "view" else 0.0
+        self.right = [self.way(Cause("", rule), m, is_divided) for rule, m, is_divided in right]
+
+    def way(self, cause, m, is_divided):
+        def images(part):
+            return [self.images(m, is_divided, reading, part) for reading in self.readings]
+        return Way(cause, images, lambda: exact_images(m, is_divided, self.readings[-1].points))
+
+    def images(self, m, is_divided, reading, part):
+        places = range(len(reading.points))[part]
+        for p, unit in ((reading.points[i], reading.units[i]) for i in places):
+            slacks = slack(m, p, unit, is_divided)
+            yield image(m, p, is_divided), [x + self.reach for x in slacks]
+
+    def has_count(self, count):
+        """Whether a reading has as many points as the text; others are then no longer asked."""
+        comparable = [reading for reading in self.readings if len(reading.points) == count]
+        self.readings = comparable or self.readings
+        return bool(comparable)
+
+    def made(self, candidates):
+        return itertools.starmap(self.way, candidates)
+
+    def single(self):
+        """As of ModelWays."""
+        yield self.made(listed(self.stage, self.scene))
+        yield self.made([(Cause("", UNCHANGED), IDENTITY, False)])
+        yield self.made(other_forms(self.stage, self.ours, self.divides))
+
+    def several(self):
+        """As of ModelWays: one element, or two mistakes."""
+        yield self.made(changed_elements(self.stage, self.ours, self.divides)), 1
+        yield self.made(pairs(self.stage, self.scene)), MOST_PAIRS
+
+    def with_details(self, causes, _):
+        return [dataclasses.replace(cause, detail=self.detail(cause.name)) for cause in causes]
+
+    def detail(self, name):
+        """A number that shows the mistake."""
+        l = tuple(b - a for a, b in zip(self.scene.eye, self.scene.look))
+        if name == "view/r-not-unit":
+            return f"its length is {math.hypot(*cross(l, self.scene.up)) / math.hypot(*l):.4f}"
+        return f"its length is {math.hypot(*l):.4f}" if name == "view/l-not-unit" else ""
+
+    def remarks(self, _):
+        return []
+
+    def add_matrix(self, verdict, theirs):
+        """Adds the matrix that the points show, and the cause that lies in one of its elements."""
+        verdict.matrices = fit.compare(self.readings[0].points, theirs.points, theirs.units, self.ours,
+                                       self.divides)
+        verdict.causes = verdict.causes or fit.cause_of_one_element(verdict.matrices)
+        verdict.remarks += fit.known_rows(verdict, self.scene.directions() if self.stage == "view" else ())
