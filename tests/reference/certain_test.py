@@ -52,8 +52,8 @@ def layers(rng):
 
 
 def two_planes(ratio):
-    """A scene of two oblique planes 1e-5 apart, where far / near is `ratio`. The rear one comes first, so that
-    it also wins where both depths are equal."""
+    """A scene of two oblique planes 1e-5 apart, where far / near is `ratio`. The rear one comes first, so
+    that it also wins where both depths are equal."""
     lines = ["0 0 3", "0 0 0", "0 1 0", f"45 1 {10 / ratio:.17g} 10"]
     for cells, lift in ((2, 0), (9, 1e-5 / math.hypot(0.6, 0.3, 1))):
         def corner(i, k):
