@@ -239,7 +239,8 @@ class FramedText(ToolTest):
 
     def test_every_prefix_is_refused_by_every_stage(self):
         for tool, text in self.texts.items():
-            for length in range(1, len(text)):
+            # The reader is the same: at all bytes in one stage, at some in the others.
+            for length in range(1, len(text), 1 if tool == "zbuf" else 7):
                 done = run(tool, *self.options(tool), stdin=text[:length])
                 self.assertEqual(done.returncode, 1, f"{tool} takes {text[:length]}")
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
