@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makefile.samples and scripts/stages, on a copy of the samples.
+"""Makefile.samples, on a copy of the samples.
 
 usage: makefile_samples_test.py BIN_DIR SOURCE_DIR
 """
@@ -16,7 +16,6 @@ import unittest
 source = pathlib.Path(sys.argv.pop()).resolve()
 bin_dir = pathlib.Path(sys.argv.pop()).resolve()
 TOOLS = ("model", "view", "project", "zbuf")
-COURSE_FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
 NEWER = 10  # seconds: more than any clock's resolution
 
 FAILING_TOOL = """#!/bin/sh
@@ -26,7 +25,7 @@ exit 1
 """
 
 
-class OnACopy(unittest.TestCase):
+class MakefileSamples(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -48,8 +47,6 @@ class OnACopy(unittest.TestCase):
         (self.bin / tool).write_text(text)
         (self.bin / tool).chmod(0o755)
 
-
-class MakefileSamples(OnACopy):
     def make(self, *words):
         return self.call_make("-f", "Makefile.samples", "BIN=bin", "OUT=out", *words)
 
@@ -293,54 +290,6 @@ class MakefileSamples(OnACopy):
         done = self.make()
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("bin/view is not there: build the tools", done.stdout)
-
-
-class Stages(OnACopy):
-    def stages(self, *words):
-        return subprocess.run([source / "scripts/stages", *words], cwd=self.root, env=dict(
-            os.environ, BIN="bin"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-
-    def sample_to(self, folder, sample="wide-clipped"):
-        return self.stages(self.file(sample, "scene.txt"), self.file(sample, "config.txt"), folder)
-
-    def assert_holds_the_sample(self, folder):
-        self.assertEqual(sorted(os.listdir(self.root / folder)), sorted(COURSE_FILES))
-        for name in COURSE_FILES:
-            expected = self.file("wide-clipped", name).read_bytes()
-            self.assertTrue((self.root / folder / name).read_bytes() == expected, name)
-
-    def test_leaves_the_five_files_of_the_course(self):
-        done = self.sample_to("new folder/results")
-        # The sample shows 80 degrees by 40 in a window of 2 to 1.
-        self.assertEqual((done.returncode, done.stdout, done.stderr), (
-            0, "",
-            "stages: note: a square is drawn 0.868 times as wide as high: end the scene's fourth line "
-            "in ratio\n"
-        ))
-        self.assert_holds_the_sample("new folder/results")
-
-    def test_a_failing_stage_stops_it_and_older_results_stay(self):
-        self.sample_to("results")
-        for tool in TOOLS:
-            with self.subTest(tool=tool):
-                kept = (self.bin / tool).read_bytes()
-                self.replace(tool, FAILING_TOOL)
-                done = self.sample_to("results", "nested-transforms")
-                self.assertEqual((done.returncode, done.stderr), (1, "stages: a failure\n"))
-                self.assert_holds_the_sample("results")
-                (self.bin / tool).write_bytes(kept)
-
-    def test_a_bad_scene_is_reported_by_model(self):
-        scene = self.root / "bad.txt"
-        scene.write_text("0 0 0\n0 0 -1\n0 1 0\n60 1 1 10\ntriangel\nend\n")
-        done = self.stages("bad.txt", self.file("wide-clipped", "config.txt"), "results")
-        self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"\Astages: model: bad\.txt:5:1: .*\n\Z")
-        self.assertFalse((self.root / "results").exists())
-
-    def test_wrong_usage_is_status_2(self):
-        self.assertEqual(self.stages("scene.txt").returncode, 2)
-        self.assertEqual(self.stages("--help").returncode, 0)
 
 
 if __name__ == "__main__":
