@@ -10,6 +10,7 @@
 #include <numbers>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/stream/thread_pool.h"
@@ -21,31 +22,32 @@ Vec3 position_of(const aiVector3D& v) {
   return {v.x, v.y, v.z};
 }
 
-/// Numbers the positions of vertices from 0 on, equal ones alike, by a hash table with linear probing.
-class PositionNumbers {
+/// The corners of triangles, 3 t to 3 t + 2 for triangle t, by their positions: in the slots of a hash table
+/// with linear probing, one for each position.
+class CornersByPosition {
  public:
-  explicit PositionNumbers(const aiMesh& mesh) : of_vertex_(mesh.mNumVertices) {
-    std::vector<std::uint32_t> table(std::bit_ceil(std::size_t{2} * mesh.mNumVertices + 1), kEmpty);
-    std::vector<std::uint32_t> first_vertices;
-    for (std::uint32_t i = 0; i < mesh.mNumVertices; ++i) {
-      const aiVector3D& p = mesh.mVertices[i];
-      std::size_t place = hash(p) & (table.size() - 1);
-      while (table[place] != kEmpty && mesh.mVertices[first_vertices[table[place]]] != p)
-        place = (place + 1) & (table.size() - 1);
-      if (table[place] == kEmpty) {
-        table[place] = static_cast<std::uint32_t>(first_vertices.size());
-        first_vertices.push_back(i);
-      }
-      of_vertex_[i] = table[place];
+  explicit CornersByPosition(const aiMesh& mesh)
+      : mesh_(mesh),
+        first_(std::bit_ceil(std::size_t{2} * mesh.mNumVertices + 1), kNone),
+        next_(std::size_t{3} * mesh.mNumFaces) {
+    for (std::size_t corner = next_.size(); corner-- > 0;) {
+      const aiVector3D& p = position(corner);
+      std::size_t slot = hash(p) & (first_.size() - 1);
+      while (first_[slot] != kNone && position(first_[slot]) != p) slot = (slot + 1) & (first_.size() - 1);
+      next_[corner] = std::exchange(first_[slot], corner);
     }
-    count_ = first_vertices.size();
   }
 
-  [[nodiscard]] std::size_t count() const { return count_; }
-  [[nodiscard]] std::uint32_t operator[](std::size_t vertex) const { return of_vertex_[vertex]; }
+  [[nodiscard]] std::size_t slot_count() const { return first_.size(); }
+  /// Fills `corners` with those at the position of a slot, in their order.
+  void list(std::size_t slot, std::vector<std::size_t>& corners) const {
+    corners.clear();
+    for (std::size_t corner = first_[slot]; corner != kNone; corner = next_[corner])
+      corners.push_back(corner);
+  }
 
  private:
-  static constexpr std::uint32_t kEmpty = 0xffffffff;
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   static std::size_t hash(const aiVector3D& p) {
     // Adding 0 takes the sign from a zero, which equals the other one.
@@ -54,38 +56,13 @@ class PositionNumbers {
     mixed = (mixed ^ mixed >> 32 ^ bits(p.z)) * 0xbf58476d1ce4e5b9;
     return static_cast<std::size_t>(mixed ^ mixed >> 29);
   }
-
-  std::vector<std::uint32_t> of_vertex_;
-  std::size_t count_ = 0;
-};
-
-/// The corners of triangles, 3 t to 3 t + 2 for triangle t, in the order of their positions.
-class CornersByPosition {
- public:
-  explicit CornersByPosition(const aiMesh& mesh) {
-    const PositionNumbers numbers(mesh);
-    begins_.resize(numbers.count() + 1);
-    const auto number_of = [&](std::size_t corner) {
-      return numbers[mesh.mFaces[corner / 3].mIndices[corner % 3]];
-    };
-    const std::size_t corner_count = std::size_t{3} * mesh.mNumFaces;
-    for (std::size_t corner = 0; corner < corner_count; ++corner) ++begins_[number_of(corner) + 1];
-    for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
-    std::vector<std::size_t> ends(begins_.begin(), begins_.end() - 1);
-    corners_.resize(corner_count);
-    for (std::size_t corner = 0; corner < corner_count; ++corner)
-      corners_[ends[number_of(corner)]++] = corner;
+  [[nodiscard]] const aiVector3D& position(std::size_t corner) const {
+    return mesh_.mVertices[mesh_.mFaces[corner / 3].mIndices[corner % 3]];
   }
 
-  [[nodiscard]] std::size_t count() const { return begins_.size() - 1; }
-  /// Those at one position.
-  [[nodiscard]] std::span<const std::size_t> operator[](std::size_t i) const {
-    return {corners_.data() + begins_[i], begins_[i + 1] - begins_[i]};
-  }
-
- private:
-  std::vector<std::size_t> begins_;
-  std::vector<std::size_t> corners_;
+  const aiMesh& mesh_;
+  std::vector<std::size_t> first_;  // of each slot; then the next one at the same position, for each corner
+  std::vector<std::size_t> next_;
 };
 
 /// A triangle's contribution to the normal at one of its corners.
@@ -129,12 +106,11 @@ class Smoothing {
     };
     const bool are_all_near = std::all_of(shares_.begin(), shares_.end(), is_near_mean);
     const auto normal_of_all = unit_normal(all);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const bool is_few = corners.size() <= kMany;
+    const bool is_few = corners.size() <= kMany;
+    for (std::size_t i = 0; i < corners.size(); ++i)
       normals_[corners[i]] = are_all_near || (!is_few && is_near_mean(shares_[i]))
                                  ? normal_of_all
                                  : unit_normal(is_few ? mean_beside(shares_[i]) : shares_[i].direction);
-    }
   }
 
  private:
@@ -164,18 +140,20 @@ class Smoothing {
 }  // namespace
 
 CornerNormals smooth_normals(const aiMesh& mesh, double crease_degrees) {
-  const CornersByPosition corners(mesh);
+  const CornersByPosition by_position(mesh);
   CornerNormals normals(std::size_t{3} * mesh.mNumFaces);
-  constexpr std::size_t kAtOnce = 4096, kMostTasks = 64;
-  const std::size_t task_count = std::min(corners.count() / kAtOnce + 1, kMostTasks);
+  constexpr std::size_t kSlotsAtOnce = 1 << 14;
+  const std::size_t task_count = by_position.slot_count() / kSlotsAtOnce + 1;
   ThreadPool pool(task_count < 4 ? 1
                                  : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)));
   pool.start(static_cast<int>(task_count), [&](int task, int) {
     Smoothing smoothing(mesh, crease_degrees, normals);
-    const auto begin_of = [&](int number) {
-      return corners.count() * static_cast<std::size_t>(number) / task_count;
-    };
-    for (std::size_t i = begin_of(task); i < begin_of(task + 1); ++i) smoothing.smooth(corners[i]);
+    std::vector<std::size_t> corners;
+    const std::size_t begin = static_cast<std::size_t>(task) * kSlotsAtOnce;
+    for (std::size_t i = begin; i < std::min(begin + kSlotsAtOnce, by_position.slot_count()); ++i) {
+      by_position.list(i, corners);
+      if (!corners.empty()) smoothing.smooth(corners);
+    }
   });
   pool.finish();
   return normals;
