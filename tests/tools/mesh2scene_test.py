@@ -857,90 +857,26 @@ class Endings(ToolTest):
             )
 
 
-class Digits(ToolTest):
-    """A note where a coordinate is not the one that was written."""
+class Coarse(ToolTest):
+    """A note where the steps of floats show: from 2^23 on they are 1, from 2^21 on a quarter."""
 
-    def note_of(self, name, data):
-        pathlib.Path(name).write_text(data)
-        done = run("mesh2scene", "--up-axis", "y", name)
-        self.assertEqual(done.returncode, 0)
-        return done.stderr.decode()
+    CASES = (
+        ("8388608 0 0", "8388618 0 0", "steps of 1, are coarse for an extent of 10"),
+        ("2097152 -5000000 0", "2097153 -5000100 0", "steps of 0.5, are coarse for an extent of 100"),
+        ("8388608 0 0", "8408608 0 0", ""),
+        ("0 0 0", "1e30 0 0", ""),
+        ("1.00001 1 1", "1.00002 1 1", "steps of 1.19e-07, are coarse for an extent of 1e-05"),
+        ("5 5 5", "5 5 6", ""),
+    )
 
-    def test_that_are_lost_are_noted_once(self):
-        for word, held in (
-            ("2000000.3", "2000000.2"),
-            ("-2000000.3", "-2000000.2"),
-            ("2.0000003e6", "2000000.2"),
-            ("16777217", "16777216"),
-            ("123.4567891234", "123.45679"),
-            ("500000.123", "500000.12"),
-        ):
-            note = f"'{word}' becomes {held}, as floats have seven digits: move the model to the origin\n"
-            vertices = f"{word} 0 0", f"{word} 1 0", "0 0 1"
-            self.assertEqual(
-                self.note_of("a.obj", "# 2000000.3\nv " + "\nv ".join(vertices) + "\nf 1 2 3\n"),
-                f"mesh2scene: note: a.obj:2:3: {note}",
-            )
-            self.assertEqual(
-                self.note_of(
-                    "a.stl",
-                    "solid a\nfacet normal 0 0 1\nouter loop\n  vertex "
-                    + "\n  vertex ".join(vertices)
-                    + "\nendloop\nendfacet\nendsolid\n",
-                ),
-                f"mesh2scene: note: a.stl:4:10: {note}",
-            )
-            self.assertEqual(
-                self.note_of(
-                    "a.ply",
-                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
-                    "property double z\nelement face 1\n"
-                    "property list uchar int vertex_indices\nend_header\n"
-                    + "\n".join(vertices)
-                    + "\n3 0 1 2\n",
-                ),
-                f"mesh2scene: note: a.ply:10:1: {note}",
-            )
-
-    def test_after_tabs_are_lost_too(self):
-        note = "'2000000.3' becomes 2000000.2, as floats have seven digits: move the model to the origin\n"
-        self.assertEqual(
-            self.note_of("a.obj", "v\t2000000.3\t0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"),
-            f"mesh2scene: note: a.obj:1:3: {note}",
-        )
-        facet = "facet normal 0 0 1\nouter loop\nvertex\t2000000.3 0 0\nvertex 0 1 0\nvertex 0 0 1\n"
-        self.assertEqual(
-            self.note_of("a.stl", f"solid a\n{facet}endloop\nendfacet\nendsolid\n"),
-            f"mesh2scene: note: a.stl:4:8: {note}",
-        )
-
-    def test_of_other_numbers_in_a_ply_do_not_count(self):
-        """A time, the index of a vertex, a face's own number."""
-        head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty double time\n"
-        head += "property float y\nproperty float z\nelement face 1\n"
-        head += "property list uchar int vertex_indices\nproperty int id\nend_header\n100 134217728.123 0 0\n"
-        rows = "0 1  1 {}\n{}\t0 0 1\n3 0 1 2 16777217\n"
-        self.assertEqual(self.note_of("a.ply", head + rows.format(0, 0)), "")
-        note = "'2000000.3' becomes 2000000.2, as floats have seven digits: move the model to the origin\n"
-        for numbers, place in (((2000000.3, 0), "13:8"), ((0, 2000000.3), "14:1")):
-            self.assertEqual(
-                self.note_of("a.ply", head + rows.format(*numbers)),
-                f"mesh2scene: note: a.ply:{place}: {note}",
-            )
-
-    def test_of_floats_and_of_six_decimals_are_kept(self):
-        """However a program prints its floats; and what a float of a few units has."""
-        generator = random.Random(7)
-        for form in ("%.6f", "%.1f", "%.9g", "%.17g", "%e", "%.3f", "%.7g"):
-            values = [float32(generator.uniform(-1, 1) * 10 ** generator.randint(0, 7)) for _ in range(300)]
-            text = "".join(
-                "v " + " ".join(form % value for value in values[i : i + 3]) + "\n" for i in range(0, 300, 3)
-            )
-            self.assertEqual(self.note_of("a.obj", text + "f 1 2 3\n"), "", form)
-        doubles = "".join(
-            f"v {generator.uniform(-9, 9)!r} {generator.uniform(-9, 9):.6f} 16.000000\n" for _ in range(100)
-        )
-        self.assertEqual(self.note_of("a.obj", doubles + "f 1 2 3\n"), "")
+    def test_steps_that_show_are_noted(self):
+        for first, second, note in self.CASES:
+            pathlib.Path("a.obj").write_text(f"v {first}\nv {second}\nv {first}\nf 1 2 3\n")
+            done = run("mesh2scene", "--up-axis", "y", "a.obj")
+            if note:
+                note = ("mesh2scene: note: a.obj: its coordinates, floats with "
+                        f"{note}: move the model to the origin\n")
+            self.assertEqual((done.returncode, done.stderr.decode()), (0, note))
 
 
 class Notes(ToolTest):

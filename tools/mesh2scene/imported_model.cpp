@@ -5,17 +5,20 @@
 #include <assimp/version.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
+#include "libpipeline/numbers/bounding_box.h"
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/error.h"
-#include "tools/mesh2scene/lost_digits.h"
 
 namespace pipeline {
 namespace {
@@ -102,16 +105,13 @@ ImportedModel::ImportedModel(const std::string& path, std::unique_ptr<ModelFiles
         (refusal.empty() ? "assimp cannot read this model: " + std::string(importer_->GetErrorString())
                          : refusal));
   if (!refusal.empty()) notes_.push_back(name() + ": " + refusal + ": left out");
-  // Six decimals of a smaller number are always those of its float.
-  if (has_coordinate_from(16))
-    if (const std::string lost = lost_digits(opened->model()); !lost.empty())
-      notes_.push_back(name() + ":" + lost);
   importer_->SetIOHandler(nullptr);  // which does not delete the former one
   delete opened;
   is_gltf_ = in_lower_case(path).ends_with(".gltf") || in_lower_case(path).ends_with(".glb");
   place(*scene_->mRootNode, {});
   if (meshes_.empty()) throw std::runtime_error(name() + ": expected a model with triangles, found none");
   check_vertices();
+  note_coarse_coordinates();
   make_normals(crease_degrees);
   read_camera();
   read_lights();
@@ -137,13 +137,25 @@ void ImportedModel::place(const aiNode& node, const NodeMatrix& model_from_paren
   for (unsigned i = 0; i < node.mNumChildren; ++i) place(*node.mChildren[i], model_from_node);
 }
 
-bool ImportedModel::has_coordinate_from(float least) const {
-  const auto is_far = [&](const aiVector3D& v) {
-    return std::abs(v.x) >= least || std::abs(v.y) >= least || std::abs(v.z) >= least;
-  };
-  return std::any_of(scene_->mMeshes, scene_->mMeshes + scene_->mNumMeshes, [&](const aiMesh* mesh) {
-    return std::any_of(mesh->mVertices, mesh->mVertices + mesh->mNumVertices, is_far);
-  });
+/// Far from the origin, the steps of floats, which assimp's coordinates are, show in a model's surface.
+void ImportedModel::note_coarse_coordinates() {
+  constexpr double kFineEnough =
+      1e-4;  // of the model's extent: a tenth of a pixel in a picture of a thousand
+  BoundingBox box;
+  for (const aiMesh* mesh : std::span(scene_->mMeshes, scene_->mNumMeshes))
+    for (const aiVector3D& v : std::span(mesh->mVertices, mesh->mNumVertices))
+      box.add(Triangle{vec(v), vec(v), vec(v)});
+  const double extent = largest_in(difference(box.high, box.low));
+  const auto largest = static_cast<float>(std::max(largest_in(box.low), largest_in(box.high)));
+  const double step = double{largest} - std::nextafter(largest, 0.0F);
+  if (!(step > kFineEnough * extent) || extent == 0) return;
+  std::array<char, 160> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      ": its coordinates, floats with steps of %.3g, are coarse for an extent of %.3g: move the model to "
+      "the origin",
+      step, extent);
+  notes_.push_back(name() + text.data());
 }
 
 void ImportedModel::check_vertices() const {

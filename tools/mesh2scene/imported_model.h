@@ -101,7 +101,7 @@ class ImportedModel {
   [[nodiscard]] const std::vector<ModelLight>& lights() const { return lights_; }
   [[nodiscard]] Vec3 ambient() const { return ambient_; }
   [[nodiscard]] bool has_vertex_colors() const;
-  /// Remarks for the user: files that were not opened, digits that are lost.
+  /// Remarks for the user: files that were not opened, coordinates that are too coarse.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   /// Parts of the file that no scene can hold: "textures", "bones".
   [[nodiscard]] const std::vector<std::string>& ignored() const { return ignored_; }
@@ -114,7 +114,7 @@ class ImportedModel {
 
  private:
   void place(const aiNode& node, const NodeMatrix& model_from_parent);
-  [[nodiscard]] bool has_coordinate_from(float least) const;
+  void note_coarse_coordinates();
   void check_vertices() const;
   void make_normals(double crease_degrees);
   void read_camera();
