@@ -4,7 +4,6 @@ are killed in mid-run.
 
 usage: slurm_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
-import os
 import pathlib
 import shutil
 import subprocess

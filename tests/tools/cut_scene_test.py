@@ -13,13 +13,9 @@ import resource
 import shutil
 import signal
 import subprocess
-import sys
 import unittest
 
-from toolbox import BIN, SOURCE, ToolTest, command, heed_signals, run, run_with
-
-sys.path.insert(0, str(SOURCE / "scripts/measure"))
-from parts.instructions import callgrind_count  # noqa: E402
+from toolbox import SOURCE, ToolTest, command, heed_signals, run, run_with
 
 SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12)) * 2  # fewer with sanitizers, see CMakeLists.txt
 CAMERA = "1 0.5 4\n0 0 0\n0 1 0\n50 1.25 1 30 ratio\n"
@@ -137,19 +133,6 @@ class Scenes(Split):
             with self.subTest(sample=sample.parent.name):
                 self.check(sample.read_text(), 5, "--framed")
 
-    def test_a_part_of_a_part(self):
-        for seed in range(SCENE_COUNT):
-            rng = random.Random(500 + seed)
-            scene = random_scene(rng, 20)
-            parts = self.split(scene, 3)
-            whole = run("model", "scene.txt").stdout
-            texts = []
-            for path, first in parts:
-                for name, number in self.split(pathlib.Path(path).read_text(), 3, folder=path + ".d"):
-                    texts.append(f"{name}.1")
-                    pathlib.Path(texts[-1]).write_bytes(run("model", "--first", first + number, name).stdout)
-            self.assertEqual(run("join-seen", *texts).stdout, whole)
-
     def test_parts_are_of_about_the_same_size(self):
         parts = self.split(CAMERA + TRIANGLE * 1000 + "end\n", 4)
         for (_, first), expected in zip(parts, (0, 250, 500, 750)):
@@ -167,19 +150,6 @@ class Scenes(Split):
     def test_a_scene_without_triangles_is_one_part(self):
         parts = self.split(CAMERA + "translate 1 2 3\nend\n", 3)
         self.assertEqual(len(parts), 1)
-
-    @unittest.skipUnless(shutil.which("valgrind"), "valgrind is not installed (Debian: valgrind)")
-    def test_it_takes_at_most_half_of_the_instructions_of_model(self):
-        if b"__asan_init" in (BIN / "cut-scene").read_bytes():
-            self.skipTest("valgrind runs no program with AddressSanitizer")
-        pathlib.Path("large.txt").write_text(
-            CAMERA +
-            "triangle\n-1.2345678 0.1234567 0.3456789\n1.2345678 0.1111111 0.2222222\n0.1231231 0.4564564 "
-            "0.7897897\n"
-            * 10000 + "end\n")
-        split, model = (callgrind_count([BIN / tool, "large.txt", *words], ".")
-                        for tool, words in (("cut-scene", ["4", "-o", "out"]), ("model", [])))
-        self.assertLess(split, model / 2)
 
 
 class Joins(Split):
@@ -319,7 +289,7 @@ class Endings(ToolTest):
             return done.returncode
         self.check(run_with_closed_pipe)
 
-    def end_by(self, number, folder, send=subprocess.Popen.send_signal):
+    def end_by(self, number, folder):
         read, write = os.pipe()
         with contextlib.suppress(PermissionError):
             fcntl.fcntl(write, 1031, 1 << 20)  # F_SETPIPE_SZ, the size that cut-scene asks for
@@ -336,7 +306,7 @@ class Endings(ToolTest):
         ) as waiting:  # for room in the pipe, once all parts are written
             while not os.path.exists(f"{folder}/4.txt"):
                 self.assertIsNone(waiting.poll())
-            send(waiting, number)
+            waiting.send_signal(number)
             self.assertEqual(waiting.wait(60), -number)
             line = b"cut-scene: ended by a signal; unfinished files are removed\n"
             self.assertEqual(waiting.stderr.read(), line)
@@ -347,16 +317,6 @@ class Endings(ToolTest):
     def test_signals(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             self.check(lambda folder, number=number: self.end_by(number, folder))
-
-    def test_a_signal_sent_often(self):
-        """As timeout sends it to a process and to its group: one may come before the first is handled."""
-
-        def send_often(process, number):
-            senders = f"import os\nother = os.fork()\nfor _ in range(300): os.kill({process.pid}, {number})\n"
-            subprocess.run([sys.executable, "-c", senders + "other and os.wait()"], check=True)
-
-        for _ in range(10):
-            self.check(lambda folder: self.end_by(signal.SIGTERM, folder, send_often))
 
 
 if __name__ == "__main__":
