@@ -149,69 +149,58 @@ class Owners(Seen):
 
 
 class Text(Seen):
+    CLIPPED = "clipped\n0 0 0 1\n1 0 0 1\n0 1 0 1\n\n"
+    OTHER = CLIPPED.replace("1\n", "2\n")
+    WALL, FAR = WALL.format(0.5), WALL.format(0.9)
+    LEFT, RIGHT = "-9 -9 0\n-0.1 -9 0\n-0.1 9 0\n\n", "0.1 -9 0\n9 -9 0\n0.1 9 0\n\n"
+    LIT = "attributes w\nlight 0 0 9 1 1 1\nprojected frustum -1 1 -1 1 1 9\n"
+    SEEN, UNSEEN = (f"{x} 0 0.5 1\n{x}.9 0 0.5 1\n{x} 9 0.5 1\n\n" for x in (0, 20))
+    # A claim, a text and what is seen of it; None: all of it.
+    CASES = (
+        ("numbers stay as they came",
+         "-9.0 -9 +0.50\n9e0 -9.00000000000000000001 0.5\n00 .9e1 5e-1\n\n", None),
+        ("so do header lines and columns",
+         "attributes w color\nbackground 1.50 2 3e0\n"
+         "-9 -9 0.5 1.0 255 0.0 7\n9 -9 0.5 1 1 1 1\n0 9 0.5 2e0 3 3 3.25\n\n", None),
+        ("comments and blanks around lines go",
+         "# a wall\nbackground 1 2 3 # dark\n\n -9 -9\t0.5 \r\n# here\n9  -9 0.5\t# corner\n0 9 0.5\r\n",
+         "background 1 2 3\n-9 -9\t0.5\n9  -9 0.5\n0 9 0.5\n\n"),
+        ("a number stands where counting breaks", FAR + FAR + WALL, "triangle 2\n" + WALL),
+        ("also after a gap", f"triangle 5\n{LEFT}{RIGHT}triangle 20000000000\n{FAR}",
+         f"triangle 5\n{LEFT}{RIGHT}"),
+        ("also where one between is hidden", f"triangle 20000000000\n{LEFT}{FAR}{RIGHT}",
+         f"triangle 20000000000\n{LEFT}triangle 20000000002\n{RIGHT}"),
+        ("and nowhere else", LEFT + RIGHT, None),
+        ("pieces stay together with the uncut triangle",
+         f"{LIT}triangle 3\n{CLIPPED}{UNSEEN}triangle 3\n{SEEN}{UNSEEN}triangle 9\n{CLIPPED}{UNSEEN}",
+         f"{LIT}triangle 3\n{CLIPPED}{UNSEEN}triangle 3\n{SEEN}"),
+        ("an uncut triangle without pieces goes", f"{CLIPPED}triangle 7\n{WALL}", "triangle 7\n" + WALL),
+        ("one of two as well", CLIPPED + OTHER + WALL, OTHER + WALL),
+        ("the last one, too", WALL + CLIPPED, WALL),
+        ("a frame is passed on", f"framed\n{WALL}end\n", None),
+        ("around nothing, too", "framed\nend\n", None),
+        ("nothing is nothing", "", None),
+    )
+
     def setUp(self):
         super().setUp()
         pathlib.Path("config.txt").write_text("4 4\n")
 
-    def check_text(self, text, expected, *options):
-        self.assertEqual(self.seen(text, *options).decode(), expected)
-
-    def test_numbers_stay_as_they_came(self):
-        wall = "-9.0 -9 +0.50\n9e0 -9.00000000000000000001 0.5\n00 .9e1 5e-1\n\n"
-        self.check_text(wall, wall)
-
-    def test_so_do_header_lines_and_columns(self):
-        text = ("attributes w color\nbackground 1.50 2 3e0\n" +
-                "-9 -9 0.5 1.0 255 0.0 7\n9 -9 0.5 1 1 1 1\n0 9 0.5 2e0 3 3 3.25\n\n")
-        self.check_text(text, text)
-
-    def test_comments_and_blanks_around_lines_go(self):
-        text = "# a wall\nbackground 1 2 3 # dark\n\n -9 -9\t0.5 \r\n# here\n9  -9 0.5\t# corner\n0 9 0.5\r\n"
-        self.check_text(text, "background 1 2 3\n-9 -9\t0.5\n9  -9 0.5\n0 9 0.5\n\n")
+    def test_what_is_written(self):
+        for claim, text, expected in self.CASES:
+            with self.subTest(claim):
+                self.assertEqual(self.seen(text).decode(), text if expected is None else expected)
 
     def test_the_sizes_in_which_text_arrives_change_nothing(self):
         text = " -9 -9 0.5\t\r\n9  -9 0.5\n0 9 0.5 \n\n" + WALL.format(
             "0.2500000") + "-9 -9 0.1\r\n9 -9 0.1\r\n0\t9 0.1\r\n"
         expected = "triangle 2\n-9 -9 0.1\n9 -9 0.1\n0\t9 0.1\n\n"
-        self.check_text(text, expected)
+        self.assertEqual(self.seen(text).decode(), expected)
         with LiveTool("zbuf", "config.txt", "--seen", "-") as live:
             for letter in text:
                 live.send(letter)
             self.assertEqual(live.finish(), 0)
             self.assertEqual(live.received.decode(), expected)
-
-    def test_a_number_stands_where_counting_breaks(self):
-        walls = [WALL.format(z) for z in (0.9, 0.8, 0.7)]
-        self.check_text("".join(walls), "triangle 2\n" + walls[2])
-        left, right = "-9 -9 0\n-0.1 -9 0\n-0.1 9 0\n\n", "0.1 -9 0\n9 -9 0\n0.1 9 0\n\n"
-        self.check_text("triangle 5\n" + left + right + "triangle 20000000000\n" + walls[0],
-                        "triangle 5\n" + left + right)
-        self.check_text("triangle 20000000000\n" + left + walls[0] + right,
-                        "triangle 20000000000\n" + left + "triangle 20000000002\n" + right)
-        self.check_text(left + right, left + right)
-
-    def test_pieces_stay_together_with_the_uncut_triangle(self):
-        header = "attributes w\nlight 0 0 9 1 1 1\nprojection\n".replace("projection",
-                                                                         "projected frustum -1 1 -1 1 1 9")
-        piece = lambda x: f"{x} 0 0.5 1\n{x}.9 0 0.5 1\n{x} 9 0.5 1\n\n"
-        clipped = "clipped\n0 0 0 1\n1 0 0 1.50\n0 1 0 -1\n\n"
-        seen, unseen = piece("0"), piece("20")
-        text = (header + "triangle 3\n" + clipped + unseen + "triangle 3\n" + seen + unseen + "triangle 9\n" +
-                clipped + unseen)
-        self.check_text(text, header + "triangle 3\n" + clipped + unseen + "triangle 3\n" + seen)
-
-    def test_an_uncut_triangle_without_pieces_goes(self):
-        clipped = "clipped\n0 0 0 1\n1 0 0 1\n0 1 0 1\n\n"
-        wall = WALL.format(0.5)
-        self.check_text(clipped + "triangle 7\n" + wall, "triangle 7\n" + wall)
-        self.check_text(clipped + clipped.replace("1\n", "2\n") + wall, clipped.replace("1\n", "2\n") + wall)
-        self.check_text(wall + clipped, wall)
-
-    def test_a_frame_is_passed_on(self):
-        wall = WALL.format(0.5)
-        self.check_text("framed\n" + wall + "end\n", "framed\n" + wall + "end\n")
-        self.check_text("framed\nend\n", "framed\nend\n")
-        self.check_text("", "")
 
     def test_a_failure_ends_the_text_with_an_error_line(self):
         done = run("zbuf", "config.txt", "--seen", "-", stdin="1 2 three\n")
@@ -233,23 +222,20 @@ class Outputs(Seen):
                   stdin=WALL.format(0.5))
         self.assertEqual(self.files(), ["a.png", "config.txt", "d.pgm", "scene.txt", "seen.txt", "z.txt"])
 
-    def test_depths_and_triangles_cannot_both_be_standard_output(self):
-        self.assert_fails(
-            run("zbuf", "config.txt", "--seen", "-", "--z-buffer", "-"), 2,
-            "zbuf: --z-buffer: expected a file or none, as --seen is standard output, found '-' (try "
-            "zbuf --help)"
-        )
+    REFUSED = (
+        ("--seen - --z-buffer -",
+         "--z-buffer: expected a file or none, as --seen is standard output, found '-'"),
+        ("--seen - -o -", "--image: expected a file, as --seen is standard output, found '-'"),
+        ("--seen a -o a.ppm --wireframe all",
+         "--seen: expected no --wireframe all, which shows hidden triangles, too, found 'a'"),
+    )
 
-    def test_hidden_edges_are_no_part_of_them(self):
-        self.assert_fails(
-            run("zbuf", "config.txt", "--seen", "a", "-o", "a.ppm", "--wireframe", "all"), 2,
-            "zbuf: --seen: expected no --wireframe all, which shows hidden triangles, too, found 'a' (try "
-            "zbuf --help)")
+    def test_some_cannot_be_had_together(self):
+        for words, message in self.REFUSED:
+            self.assert_fails(
+                run("zbuf", "config.txt", *words.split()), 2, f"zbuf: {message} (try zbuf --help)")
 
-    def test_nor_can_the_image(self):
-        self.assert_fails(
-            run("zbuf", "config.txt", "--seen", "-", "-o", "-"), 2,
-            "zbuf: --image: expected a file, as --seen is standard output, found '-' (try zbuf --help)")
+    def test_the_image_may_be_standard_output(self):
         wall = WALL.format(0.5)
         self.zbuf("-o", "a.ppm", stdin=wall)
         self.assertEqual(self.zbuf("--seen", "seen.txt", "-o", "-", stdin=wall),
