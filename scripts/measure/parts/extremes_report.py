@@ -60,9 +60,6 @@ class Results:
         return ", ".join([*map(" ".join, counts.items()),
                           *(f"{short(row['value'])} refused" for row in rows if row not in known)])
 
-    def first_note(self, direction, setting):
-        return next((short(row["value"]) for row in self.towards(direction, setting) if row["note"]), "")
-
 
 def code(setting):
     return setting if setting == "default" else f"`{setting}`"
@@ -110,8 +107,5 @@ first at which some are wrong (how many of the uncertain ones). {certainty(resul
 The same against the lossless run, `--digits exact`:
 
 {table(results, lambda *cell: results.first(*cell, "pixels_unlike_lossless"))}
-The first value at which a tool notes anything:
-
-{table(results, results.first_note)}
 {promise(results)}
 """)
