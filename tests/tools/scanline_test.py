@@ -9,7 +9,7 @@ import random
 import subprocess
 import unittest
 
-from toolbox import SOURCE, BIN, ToolTest, command
+from toolbox import SOURCE, ToolTest, command
 
 RULES = [[coverage, depth] for coverage in ("nearest", "center") for depth in ("f64", "f32", "u24")]
 
