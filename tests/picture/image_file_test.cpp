@@ -6,6 +6,7 @@
 
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "libpipeline/picture/png_file.h"
@@ -87,6 +88,11 @@ TEST(ImageFile, PpmHasATextHeaderAndRowsFromTheTop) {
 TEST(ImageFile, APixelAloneIsAnImage) {
   EXPECT_EQ(bytes_in_file(".ppm", Raster<Color>(1, 1, {7, 8, 9})), "P6\n1 1\n255\n\7\10\11");
   EXPECT_EQ(bytes_in_file(".bmp", Raster<Color>(1, 1, {7, 8, 9})).substr(54), "\11\10\7\0"s);
+}
+
+TEST(ImageFile, BmpRowsEndAtTheNextMultipleOfFourBytes) {
+  for (const auto& [columns, size] : {std::pair(1, 4u), {2, 8u}, {3, 12u}, {4, 12u}, {5, 16u}, {8, 24u}})
+    EXPECT_EQ(bytes_in_file(".bmp", Raster<Color>(1, columns, Color())).size(), 54 + size) << columns;
 }
 
 TEST(ImageFile, EveryPixelOfALargeBmpIsInItsPlace) {

@@ -185,34 +185,11 @@ class DepthEpsilon(Pictures):
     def depths_seen(self, stage3, *options):
         return set(self.zbuf(stage3, *options).decode().split())
 
-    def test_what_is_not_nearer_by_more_is_not_drawn(self):
-        stage3 = wall(0.5) + wall(0.25) + wall(0.125)
-        for epsilon, seen in (("0", "0.125000"), ("0.1", "0.125000"), ("0.125", "0.250000"),
-                              ("0.2", "0.250000"), ("0.25", "0.125000"), ("0.375", "0.500000"), ("1e9",
-                                                                                                 "0.500000")):
-            self.assertEqual(self.depths_seen(stage3, "--depth-epsilon", epsilon), {seen}, epsilon)
-
-    def test_an_empty_pixel_takes_the_first(self):
-        self.assertEqual(self.depths_seen(wall(0.999), "--depth-epsilon", "0.5"), {"0.999000"})
-
-    def test_what_lies_before_the_front_is_still_not_seen(self):
-        self.assertEqual(self.depths_seen(wall(0.5) + wall(-1.5), "--depth-epsilon", "0.5"), {"0.500000"})
-
     def test_every_depth_format_takes_it(self):
         for depth in ("f64", "f32", "u24"):
             self.assertEqual(
                 self.depths_seen(wall(0.5) + wall(0.25), "--depth", depth, "--depth-epsilon", "0.3"),
                 {"0.500000"})
-
-    def test_threads_keep_the_order_of_the_stream(self):
-        stage3 = random_triangles(7, 3000)
-        expected = self.zbuf(stage3, "--depth-epsilon", "0.05", "--image", "one.ppm")
-        for count in (2, 3, 8):
-            self.assertEqual(self.zbuf(stage3, "--depth-epsilon", "0.05", "--threads", count), expected)
-
-    def test_zero_is_the_default(self):
-        stage3 = random_triangles(8, 300)
-        self.assertEqual(self.zbuf(stage3, "--depth-epsilon", "0"), self.zbuf(stage3))
 
     def test_the_scanline_algorithm_has_none(self):
         done = run("zbuf", "config.txt", "--depth-epsilon", "0.1", "--algorithm", "scanline")

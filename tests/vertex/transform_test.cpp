@@ -419,5 +419,14 @@ TEST(ClipFromView, RatioTakesAnyAspect) {
   EXPECT_NO_THROW(clip_from_view({Perspective{90, 2, 1, 2, AspectRule::ratio}, {}}));
 }
 
+TEST(ViewFromClip, TakesBackAProjectionBesideTheAxis) {
+  // Scales and offsets are 1/2: the point (1, -1, -2) is at (1/2 - 1, -1/2 - 1) in clip space, with w 2.
+  const ViewFromClip frustum(clip_from_view({Frustum{-1, 3, -1, 3, 1, 9}, {}}));
+  EXPECT_EQ(frustum({-0.5, -1.5, 0}, 2), (Vec3{1, -1, -2}));
+  // Scales are 1/2, offsets -1/2; z goes from -1 at 1 to 1 at 9.
+  const ViewFromClip ortho(clip_from_view({Orthographic{-1, 3, -1, 3, 1, 9}, {}}));
+  EXPECT_EQ(ortho({0, -1, 0.5}, 1), (Vec3{1, -1, -7}));
+}
+
 }  // namespace
 }  // namespace pipeline

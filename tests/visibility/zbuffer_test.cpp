@@ -98,6 +98,22 @@ TEST(ZBuffer, AtEqualDepthTheEarlierTriangleStays) {
   EXPECT_EQ(tags_of(buffer, 0), std::vector<PixelTag>(6, kRed));
 }
 
+TEST(ZBuffer, UnderAnEpsilonATriangleMustBeNearerByMore) {
+  ZBuffer<> buffer(kSixByTwo);
+  buffer.set_depth_epsilon(0.25);
+  buffer.draw(span_at(0, 0, 4, 0.5), kRed);
+  buffer.draw(span_at(0, 0, 5, 0.375, -0.0625), kGreen);  // nearer by 0.125, 0.1875, 0.25, 0.3125, 0.375
+  EXPECT_EQ(tags_of(buffer, 0), (std::vector<PixelTag>{kRed, kRed, kRed, kGreen, kGreen, kGreen}));
+}
+
+TEST(ZBuffer, UnderAnEpsilonTheFirstTriangleTakesAnEmptyPixel) {
+  ZBuffer<> buffer(kSixByTwo);
+  buffer.set_depth_epsilon(0.5);
+  buffer.draw(span_at(0, 0, 5, 1.75), kRed);    // the rear is at 2
+  buffer.draw(span_at(0, 0, 5, -0.5), kGreen);  // before the front
+  EXPECT_EQ(tags_of(buffer, 0), std::vector<PixelTag>(6, kRed));
+}
+
 TEST(ZBuffer, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
   ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 5, -0.5, 0.5), kRed);  // -0.5, 0, 0.5, 1, 1.5, 2
