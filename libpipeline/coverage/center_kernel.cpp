@@ -21,13 +21,13 @@ TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> 
 
 /// The plane of one triangle.
 Planes plane_of(const ExactGrid& grid, const ExactTriangle& triangle) {
-  std::array<Points, 3> corners;
+  std::array<Vectors, 3> corners;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3& p = triangle.p_ndc[i];
     corners[i] = {all(p.x), all(p.y), all(p.z)};
   }
   return {PixelAxis(grid.columns), PixelAxis(grid.rows), corners, [&](unsigned mark) {
-            return (triangle.decimal_marks >> mark & 1u) != 0 ? is_equal(all(0), all(0)) : all(0);
+            return hn::Eq(all((triangle.decimal_marks >> mark & 1u) != 0 ? 0 : 1), all(0));
           }};
 }
 
@@ -42,7 +42,7 @@ static_assert(kMaxExactDouble <= DepthInDoubles::kMaxWeight);
 /// that.
 HWY_INLINE Doubles quotient_rounded_up(Doubles dividend, Doubles divisor, Doubles inverse, Doubles most) {
   const Doubles near = hn::Round(dividend * inverse);
-  const Doubles quotient = near + hn::And(is_less(near * divisor, dividend), all(1));
+  const Doubles quotient = near + hn::IfThenElseZero(hn::Lt(near * divisor, dividend), all(1));
   return hn::Min(most, hn::Max(all(0), quotient));
 }
 
@@ -61,8 +61,8 @@ struct AxisLanes {
     return hn::Round(coordinate * all(kGridUnitsPerOne)) * factor;
   }
   /// Whether the calculated distances from pixel 0, of which these are the extremes, are exact.
-  HWY_INLINE Doubles fit(Doubles least, Doubles most) const {
-    return is_at_most(hn::Max(hn::Abs(most), hn::Abs(least)), largest);
+  HWY_INLINE Mask fit(Doubles least, Doubles most) const {
+    return hn::Le(hn::Max(hn::Abs(most), hn::Abs(least)), largest);
   }
   /// The first pixel at or after that.
   HWY_INLINE Doubles pixel(Doubles distance) const {
@@ -84,8 +84,8 @@ struct GridPoints {
   Doubles z;
 };
 
-HWY_INLINE GridPoints pick_points(Doubles mask, const GridPoints& yes, const GridPoints& no) {
-  return {pick(mask, yes.u, no.u), pick(mask, yes.v, no.v), pick(mask, yes.z, no.z)};
+HWY_INLINE GridPoints choose(Mask mask, const GridPoints& yes, const GridPoints& no) {
+  return {choose(mask, yes.u, no.u), choose(mask, yes.v, no.v), choose(mask, yes.z, no.z)};
 }
 
 struct Edges {
@@ -94,6 +94,11 @@ struct Edges {
   Doubles column_step;
   Doubles inverse;
 };
+
+HWY_INLINE Edges choose(Mask mask, const Edges& yes, const Edges& no) {
+  return {choose(mask, yes.crossing, no.crossing), choose(mask, yes.row_step, no.row_step),
+          choose(mask, yes.column_step, no.column_step), choose(mask, yes.inverse, no.inverse)};
+}
 
 /// The numbers from which the rows of some triangles are calculated (see ExactRows), or those of one, in all
 /// lanes.
@@ -104,9 +109,9 @@ struct RowSources {
   Doubles first_column;
   Doubles column_count;
   // The corners a, b, c are sorted from the top.
-  Doubles longest_is_left;  // a mask
-  Doubles twice_total;      // of the weights
-  Doubles is_flat;          // a mask: all of one depth
+  Mask longest_is_left;
+  Doubles twice_total;  // of the weights
+  Mask is_flat;         // all of one depth
   Doubles a_z;
   Doubles b_z;
   Doubles c_z;
@@ -126,7 +131,7 @@ struct TriangleLanes {
 
     const Doubles u_left = hn::Min(r.u, hn::Min(q.u, p.u)), u_right = hn::Max(r.u, hn::Max(q.u, p.u));
     const Doubles v_top = hn::Min(r.v, hn::Min(q.v, p.v)), v_bottom = hn::Max(r.v, hn::Max(q.v, p.v));
-    const Doubles fits = hn::And(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
+    const Mask fits = hn::And(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
     // A column at or before the first that may be covered.
     const Doubles left = hn::Max(all(0), hn::Round(u_left * columns.inverse) - all(1));
     // The bound of largest_product, from that column. Triangles without a row may have larger products, which
@@ -134,9 +139,9 @@ struct TriangleLanes {
     const Doubles first = left * columns.step;
     const Doubles x = hn::Max(hn::Abs(u_right - first), hn::Abs(u_left - first)) + all(2) * columns.step;
     const Doubles y = v_bottom - v_top + rows.step;
-    ordinary.bits = bits_of(hn::And(fits, is_at_most(all(4) * x * y, all(kMaxExactDouble))));
+    ordinary.bits = bits_of(hn::And(fits, hn::Le(all(4) * x * y, all(kMaxExactDouble))));
 
-    const Doubles is_beside = hn::Or(is_less(u_right, all(0)), is_at_most(columns.count, left));
+    const Mask is_beside = hn::Or(hn::Lt(u_right, all(0)), hn::Le(columns.count, left));
     sources.first_column = left;
     sources.column_count = columns.count - left;
     // Sorted from the top by the first row at or below a vertex, then by the vertex number.
@@ -144,13 +149,12 @@ struct TriangleLanes {
     const Doubles high_row = hn::Min(q_row, p_row), low_row = hn::Max(q_row, p_row);
     sources.first_row = hn::Min(r_row, high_row);
     sources.middle_row = hn::Max(hn::Min(r_row, low_row), high_row);
-    const Doubles q_first = is_less(q_row, p_row);
-    const Doubles r_before_high = is_less(r_row, high_row), r_before_low = is_less(r_row, low_row);
-    const GridPoints high = pick_points(q_first, q, p), low = pick_points(q_first, p, q);
-    set_corners(columns, rows, left, pick_points(r_before_high, r, high),
-                pick_points(r_before_high, high, pick_points(r_before_low, r, low)),
-                pick_points(r_before_low, low, r), hn::Min(all(range.end), hn::Max(r_row, low_row)),
-                is_beside);
+    const Mask q_first = hn::Lt(q_row, p_row);
+    const Mask r_before_high = hn::Lt(r_row, high_row), r_before_low = hn::Lt(r_row, low_row);
+    const GridPoints high = choose(q_first, q, p), low = choose(q_first, p, q);
+    set_corners(columns, rows, left, choose(r_before_high, r, high),
+                choose(r_before_high, high, choose(r_before_low, r, low)), choose(r_before_low, low, r),
+                hn::Min(all(range.end), hn::Max(r_row, low_row)), is_beside);
     begin_row = hn::Max(all(range.first), sources.first_row);
   }
 
@@ -162,19 +166,19 @@ struct TriangleLanes {
   Numbers half_slope;
 
  private:
-  HWY_INLINE static GridPoints on_grid(const AxisLanes& columns, const AxisLanes& rows, const Points& p) {
+  HWY_INLINE static GridPoints on_grid(const AxisLanes& columns, const AxisLanes& rows, const Vectors& p) {
     return {columns.origin + columns.scaled(p.x), rows.origin - rows.scaled(p.y), p.z};
   }
   HWY_INLINE void set_corners(const AxisLanes& columns, const AxisLanes& rows, Doubles left,
                               const GridPoints& a, const GridPoints& b, const GridPoints& c, Doubles end_row,
-                              Doubles is_beside) {
+                              Mask is_beside) {
     const Doubles weight = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-    sources.longest_is_left = is_less(all(0), weight);
+    sources.longest_is_left = hn::Lt(all(0), weight);
     // All weights and their sum have the same sign, whichever it is.
     set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.v - a.v), columns.step * (a.v - b.v));
 
-    const Doubles is_empty = hn::Or(is_equal(weight, all(0)), is_beside);
-    sources.end_row = pick(is_empty, sources.first_row, end_row);
+    const Mask is_empty = hn::Or(hn::Eq(weight, all(0)), is_beside);
+    sources.end_row = choose(is_empty, sources.first_row, end_row);
 
     const Doubles first_u = left * columns.step, first_v = sources.first_row * rows.step;
     const auto edge = [&](const GridPoints& from, const GridPoints& to) HWY_ATTR {
@@ -189,17 +193,17 @@ struct TriangleLanes {
   /// See DepthInDoubles.
   HWY_INLINE void set_depth(Doubles a, Doubles b, Doubles c, Doubles twice_weights, Doubles b_step,
                             Doubles c_step) {
-    const Doubles flat = hn::And(is_equal(a, b), is_equal(a, c));
+    const Mask flat = hn::And(hn::Eq(a, b), hn::Eq(a, c));
     const Doubles size = hn::Max(hn::Abs(c), hn::Max(hn::Abs(b), hn::Abs(a)));
-    const Doubles is_in_range = hn::And(is_at_most(all(DepthInDoubles::kMinDepth), size),
-                                        is_at_most(size, all(DepthInDoubles::kMaxDepth)));
+    const Mask is_in_range =
+        hn::And(hn::Le(all(DepthInDoubles::kMinDepth), size), hn::Le(size, all(DepthInDoubles::kMaxDepth)));
     ordinary.bits &= bits_of(hn::Or(flat, is_in_range));
 
     const Pairs of_two = two_sum(b_step * b, c_step * c);
     const Pairs of_three = two_sum(of_two.hi, (all(0) - b_step - c_step) * a);
     const Doubles slope =
         (of_three.hi + (of_two.lo + of_three.lo)) / twice_weights + all(DepthInDoubles::kNoMinus);
-    half_slope = numbers_of(hn::AndNot(flat, slope));
+    half_slope = numbers_of(hn::IfThenZeroElse(flat, slope));
     sources.is_flat = flat;
     sources.twice_total = twice_weights;
     sources.a_z = a;
@@ -213,20 +217,20 @@ struct RowLanes {
   RowLanes() = default;
   /// Which pixels are covered.
   HWY_INLINE RowLanes(const RowSources& of, Doubles rows) {
-    const Doubles is_upper = is_less(rows, of.middle_row);
+    const Mask is_upper = hn::Lt(rows, of.middle_row);
     const Doubles row_count = rows - of.first_row;
-    const Edges shorter = pick_edges(is_upper, of.upper, of.lower);
+    const Edges shorter = choose(is_upper, of.upper, of.lower);
     const Doubles longest_crossing = of.longest.crossing + row_count * of.longest.row_step;
     const Doubles shorter_crossing = shorter.crossing + row_count * shorter.row_step;
     const Doubles longest_pixel =
         quotient_rounded_up(longest_crossing, of.longest.column_step, of.longest.inverse, of.column_count);
     const Doubles shorter_pixel =
         quotient_rounded_up(shorter_crossing, shorter.column_step, shorter.inverse, of.column_count);
-    const Doubles first = pick(of.longest_is_left, longest_pixel, shorter_pixel);
-    const Doubles end = pick(of.longest_is_left, shorter_pixel, longest_pixel);
-    const Doubles is_there = is_less(rows, of.end_row);
-    spans.set_columns(rows, hn::And(is_there, of.first_column + first),
-                      hn::And(is_there, of.first_column + end) - all(1));
+    const Doubles first = choose(of.longest_is_left, longest_pixel, shorter_pixel);
+    const Doubles end = choose(of.longest_is_left, shorter_pixel, longest_pixel);
+    const Mask is_there = hn::Lt(rows, of.end_row);
+    spans.set_columns(rows, hn::IfThenElseZero(is_there, of.first_column + first),
+                      hn::IfThenElseZero(is_there, of.first_column + end) - all(1));
 
     // The weights of the vertices opposite to the edges, at the first and at the last pixel added up.
     const Doubles sum = longest_pixel + shorter_pixel - all(1);
@@ -238,30 +242,25 @@ struct RowLanes {
   /// Sets their depths.
   HWY_INLINE void set_depths(const RowSources& of) {
     const Doubles rest = of.twice_total - opposite_longest_ - opposite_shorter_;
-    const Doubles twice_c = pick(is_upper_, opposite_shorter_, rest);
-    const Doubles twice_a = pick(is_upper_, rest, opposite_shorter_);
+    const Doubles twice_c = choose(is_upper_, opposite_shorter_, rest);
+    const Doubles twice_a = choose(is_upper_, rest, opposite_shorter_);
     const Doubles mean =
         ((opposite_longest_ * of.b_z + twice_c * of.c_z) + twice_a * of.a_z) / of.twice_total +
         all(DepthInDoubles::kNoMinus);
-    spans.set_points(columns_added_up_, pick(of.is_flat, of.a_z, mean));
+    spans.set_points(columns_added_up_, choose(of.is_flat, of.a_z, mean));
   }
 
   LaneSpans spans;
 
  private:
   Doubles columns_added_up_;  // the first and the last
-  Doubles is_upper_;          // a mask
+  Mask is_upper_;
   // Weights of vertices.
   Doubles opposite_longest_;
   Doubles opposite_shorter_;
-
-  HWY_INLINE static Edges pick_edges(Doubles mask, const Edges& yes, const Edges& no) {
-    return {pick(mask, yes.crossing, no.crossing), pick(mask, yes.row_step, no.row_step),
-            pick(mask, yes.column_step, no.column_step), pick(mask, yes.inverse, no.inverse)};
-  }
 };
 
-/// The rule `center` for lanes.h, by what an axis, some triangles and a row of each become.
+/// The rule `center` for triangle_lanes.h, by what an axis, some triangles and a row of each become.
 template <typename Axes, typename Triangles, typename Rows>
 struct RuleOf {
   using RowLanes = Rows;

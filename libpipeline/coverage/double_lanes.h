@@ -2,65 +2,12 @@
 
 #include "libpipeline/coverage/depth_in_doubles.h"
 #include "libpipeline/coverage/exact_grid.h"
-#include "libpipeline/coverage/lanes.h"
+#include "libpipeline/coverage/triangle_lanes.h"
 
 PIPELINE_BEGIN_KERNELS();
 
 // Triangles of any doubles, mixed with decimals: their positions in pixels, their planes, and which pixels
 // they cover, where that is certain.
-
-/// A DoubleDouble in each lane. Every kernel calculates the same: the error of a product is exact, with or
-/// without fused operations.
-struct Pairs {
-  Doubles hi;
-  Doubles lo;
-};
-
-HWY_INLINE Pairs all(const DoubleDouble& value) {
-  return {all(value.hi), all(value.lo)};
-}
-/// a + b exactly.
-HWY_INLINE Pairs two_sum(Doubles a, Doubles b) {
-  const Doubles sum = a + b, b_part = sum - a;
-  return {sum, (a - (sum - b_part)) + (b - b_part)};
-}
-HWY_INLINE Pairs fast_two_sum(Doubles a, Doubles b) {
-  const Doubles sum = a + b;
-  return {sum, b - (sum - a)};
-}
-/// a * b exactly.
-HWY_INLINE Pairs two_product(Doubles a, Doubles b) {
-  const Doubles product = a * b;
-#if HWY_NATIVE_FMA
-  return {product, hn::MulSub(a, b, product)};
-#else  // Dekker's, as in vertex/vertex_loops.h
-  const Doubles splitter = all(0x1p27 + 1), wide_a = splitter * a, wide_b = splitter * b;
-  const Doubles a_high = wide_a - (wide_a - a), b_high = wide_b - (wide_b - b);
-  const Doubles a_low = a - a_high, b_low = b - b_high;
-  return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
-#endif
-}
-
-// Within 2^-103 of |a| + |b|, and of a product or quotient within 2^-101.
-HWY_INLINE Pairs operator+(const Pairs& a, const Pairs& b) {
-  const Pairs high = two_sum(a.hi, b.hi);
-  return fast_two_sum(high.hi, high.lo + (a.lo + b.lo));
-}
-HWY_INLINE Pairs operator-(const Pairs& a, const Pairs& b) {
-  return a + Pairs{hn::Neg(b.hi), hn::Neg(b.lo)};
-}
-HWY_INLINE Pairs operator*(const Pairs& a, const Pairs& b) {
-  const Pairs high = two_product(a.hi, b.hi);
-  return fast_two_sum(high.hi, high.lo + (a.hi * b.lo + a.lo * b.hi));
-}
-HWY_INLINE Pairs operator*(const Pairs& a, Doubles b) {
-  const Pairs high = two_product(a.hi, b);
-  return fast_two_sum(high.hi, high.lo + a.lo * b);
-}
-HWY_INLINE Pairs operator/(const Pairs& a, const Pairs& b) {
-  const Doubles quotient = a.hi / b.hi;
-  return fast_two_sum(quotient, (a - b * quotient).hi / b.hi);
-}
 
 /// Numbers beyond that are left to CenterRows.
 constexpr double kMaxPixel = 0x1p50;
@@ -71,9 +18,10 @@ struct PixelAxis {
       : per_unit(all(axis.pixels_per_unit)), middle(all(0.5 * (axis.count - 1))), count(all(axis.count)) {}
 
   /// Positions in units of the seventh decimal: of decimals, which `is_decimal` masks, whole.
-  HWY_INLINE static Pairs units(Doubles coordinate, Doubles is_decimal) {
+  HWY_INLINE static Pairs units(Doubles coordinate, Mask is_decimal) {
     const Pairs product = two_product(coordinate, all(kGridUnitsPerOne));
-    return {pick(is_decimal, hn::Round(product.hi), product.hi), hn::AndNot(is_decimal, product.lo)};
+    return {choose(is_decimal, hn::Round(product.hi), product.hi),
+            hn::IfThenZeroElse(is_decimal, product.lo)};
   }
 
   Pairs per_unit;
@@ -92,7 +40,7 @@ struct PixelPoints {
 struct Planes {
   /// `decimal(k)` masks the coordinates with mark k (ExactTriangle).
   template <typename Decimal>
-  HWY_INLINE Planes(const PixelAxis& columns, const PixelAxis& rows, const std::array<Points, 3>& p_ndc,
+  HWY_INLINE Planes(const PixelAxis& columns, const PixelAxis& rows, const std::array<Vectors, 3>& p_ndc,
                     const Decimal& decimal) {
     Doubles fits = all(0);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -119,11 +67,11 @@ struct Planes {
     const Doubles width = hn::Abs(q_u.hi) + hn::Abs(r_u.hi), height = hn::Abs(q_v.hi) + hn::Abs(r_v.hi);
     const Doubles most = all(0x1p36) * area.hi * area.hi;
     const Doubles depth = hn::Max(hn::Abs(p.z), hn::Max(hn::Abs(q.z), hn::Abs(r.z)));
-    const Doubles is_flat = hn::And(is_equal(p.z, q.z), is_equal(p.z, r.z));
-    are_certain = hn::And(
-        hn::And(is_at_most(fits, all(kMaxExactDouble)), is_at_most(size_u + size_v, all(kMaxPixel))),
-        hn::And(is_less(width * height * (size_u * height + size_v * width), most),
-                hn::Or(is_flat, hn::And(is_at_most(all(0x1p-400), depth), is_at_most(depth, all(0x1p400))))));
+    const Mask is_flat = hn::And(hn::Eq(p.z, q.z), hn::Eq(p.z, r.z));
+    are_certain =
+        hn::And(hn::And(hn::Le(fits, all(kMaxExactDouble)), hn::Le(size_u + size_v, all(kMaxPixel))),
+                hn::And(hn::Lt(width * height * (size_u * height + size_v * width), most),
+                        hn::Or(is_flat, hn::And(hn::Le(all(0x1p-400), depth), hn::Le(depth, all(0x1p400))))));
   }
 
   std::array<PixelPoints, 3> corners;
@@ -131,7 +79,7 @@ struct Planes {
   Pairs area;                // twice, with a sign
   Doubles size_u, size_v;    // no number in pixels is larger
   Pairs corner, per_column, per_row;
-  Doubles are_certain;  // a mask
+  Mask are_certain;
 };
 
 /// The depth halfway between two columns, which `columns_added_up` are.

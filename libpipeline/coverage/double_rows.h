@@ -12,21 +12,21 @@ PIPELINE_BEGIN_KERNELS();
 /// No pair in pixels is off by more than that, relative to the largest.
 constexpr double kPairDoubt = 0x1p-95;
 
-/// A pixel, and a mask where it is certain.
-struct CertainPixels {
+/// A pixel, and where it is certain.
+struct FirstPixels {
   Doubles pixel;
-  Doubles are_certain;
+  Mask are_certain;
 };
 
 /// The first pixel at or after whole + rest, in [0, most]; `whole` is the nearest whole number.
-HWY_INLINE CertainPixels first_pixel(Doubles whole, Doubles rest, Doubles doubt, Doubles most) {
-  const Doubles pixel = whole + hn::And(is_less(all(0), rest), all(1));
-  return {hn::Min(most, hn::Max(all(0), pixel)), is_less(doubt, hn::Abs(rest))};
+HWY_INLINE FirstPixels first_pixel(Doubles whole, Doubles rest, Doubles doubt, Doubles most) {
+  const Doubles pixel = whole + hn::IfThenElseZero(hn::Lt(all(0), rest), all(1));
+  return {hn::Min(most, hn::Max(all(0), pixel)), hn::Lt(doubt, hn::Abs(rest))};
 }
 
 struct DoubleEdges {
   /// The first pixel at or after the edge on its row.
-  HWY_INLINE CertainPixels cross(Doubles rows, Doubles column_count) const {
+  HWY_INLINE FirstPixels cross(Doubles rows, Doubles column_count) const {
     // u is off by u 2^-53 at most, and the product by seven times that of itself.
     const Doubles shift = ((rows - v.hi) - v.lo) * slope, crossing = u + shift;
     const Doubles whole = hn::Round(crossing);
@@ -40,11 +40,9 @@ struct DoubleEdges {
   Doubles doubt;
 };
 
-HWY_INLINE DoubleEdges pick_edges(Doubles mask, const DoubleEdges& yes, const DoubleEdges& no) {
-  return {pick(mask, yes.u, no.u),
-          {pick(mask, yes.v.hi, no.v.hi), pick(mask, yes.v.lo, no.v.lo)},
-          pick(mask, yes.slope, no.slope),
-          pick(mask, yes.doubt, no.doubt)};
+HWY_INLINE DoubleEdges choose(Mask mask, const DoubleEdges& yes, const DoubleEdges& no) {
+  return {choose(mask, yes.u, no.u), choose(mask, yes.v, no.v), choose(mask, yes.slope, no.slope),
+          choose(mask, yes.doubt, no.doubt)};
 }
 
 /// As RowSources.
@@ -52,7 +50,7 @@ struct DoubleRowSources {
   Doubles middle_row;
   Doubles end_row;
   Doubles column_count;
-  Doubles longest_is_left;  // a mask
+  Mask longest_is_left;
   DoubleEdges longest;
   DoubleEdges upper;
   DoubleEdges lower;
@@ -71,7 +69,7 @@ struct DoubleTriangleLanes {
     const auto all_marks = hn::LoadU(kMarks, marks.data());
     const Planes planes(columns, rows, vertices_of(triangles), [&](unsigned mark) HWY_ATTR {
       const auto bit = hn::Set(kMarks, std::uint64_t{1} << mark);
-      return hn::BitCast(kDoubles, hn::VecFromMask(kMarks, hn::Eq(hn::And(all_marks, bit), bit)));
+      return hn::RebindMask(kDoubles, hn::Eq(hn::And(all_marks, bit), bit));
     });
     sources.column_count = columns.count;
     sources.corner = planes.corner, sources.per_column = planes.per_column, sources.per_row = planes.per_row;
@@ -79,7 +77,7 @@ struct DoubleTriangleLanes {
 
     const Doubles slopes[3] = {(planes.r_u - planes.q_u).hi / (planes.r_v - planes.q_v).hi,
                                planes.r_u.hi / planes.r_v.hi, planes.q_u.hi / planes.q_v.hi};
-    Doubles are_certain = planes.are_certain;
+    Mask are_certain = planes.are_certain;
     std::array<Corner, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& [u, v, z] = planes.corners[i];
@@ -89,16 +87,16 @@ struct DoubleTriangleLanes {
       corners[i] = {row.pixel, u.hi, v, slopes[i]};
     }
     ordinary.bits = bits_of(are_certain);
-    const Doubles is_turned = sort(corners);
-    sources.longest_is_left = hn::Xor(is_turned, is_less(all(0), planes.area.hi));
+    const Mask is_turned = sort(corners);
+    sources.longest_is_left = hn::Xor(is_turned, hn::Lt(all(0), planes.area.hi));
     set_edges(corners, planes, all(0x1p-50) * planes.size_u);
 
     const auto& [p, q, r] = planes.corners;
-    const Doubles is_beside = hn::Or(is_less(hn::Max(p.u.hi, hn::Max(q.u.hi, r.u.hi)), all(-0.5)),
-                                     is_less(columns.count, hn::Min(p.u.hi, hn::Min(q.u.hi, r.u.hi))));
+    const Mask is_beside = hn::Or(hn::Lt(hn::Max(p.u.hi, hn::Max(q.u.hi, r.u.hi)), all(-0.5)),
+                                  hn::Lt(columns.count, hn::Min(p.u.hi, hn::Min(q.u.hi, r.u.hi))));
     begin_row = hn::Max(all(range.first), corners[0].row);
     sources.middle_row = corners[1].row;
-    sources.end_row = pick(is_beside, begin_row, hn::Min(all(range.end), corners[2].row));
+    sources.end_row = choose(is_beside, begin_row, hn::Min(all(range.end), corners[2].row));
   }
 
   HWY_INLINE Doubles end_row() const { return sources.end_row; }
@@ -115,26 +113,23 @@ struct DoubleTriangleLanes {
     Pairs v;
     Doubles slope;  // of the opposite edge
   };
-  HWY_INLINE static void swap_where(Doubles mask, Corner& a, Corner& b) {
-    const auto swap = [&](Doubles& x, Doubles& y) HWY_ATTR {
-      const Doubles kept = x;
-      x = pick(mask, y, x);
-      y = pick(mask, kept, y);
+  HWY_INLINE static void swap_where(Mask mask, Corner& a, Corner& b) {
+    const Corner kept = a;
+    const auto chosen = [&](const Corner& yes, const Corner& no) HWY_ATTR {
+      return Corner{choose(mask, yes.row, no.row), choose(mask, yes.u, no.u), choose(mask, yes.v, no.v),
+                    choose(mask, yes.slope, no.slope)};
     };
-    swap(a.row, b.row);
-    swap(a.u, b.u);
-    swap(a.v.hi, b.v.hi);
-    swap(a.v.lo, b.v.lo);
-    swap(a.slope, b.slope);
+    a = chosen(b, a);
+    b = chosen(kept, b);
   }
   /// Sorts from the top; masks those whose winding that turns.
-  HWY_INLINE static Doubles sort(std::array<Corner, 3>& corners) {
+  HWY_INLINE static Mask sort(std::array<Corner, 3>& corners) {
     auto& [a, b, c] = corners;
-    const Doubles first = is_less(b.row, a.row);
+    const Mask first = hn::Lt(b.row, a.row);
     swap_where(first, a, b);
-    const Doubles second = is_less(c.row, b.row);
+    const Mask second = hn::Lt(c.row, b.row);
     swap_where(second, b, c);
-    const Doubles third = is_less(b.row, a.row);
+    const Mask third = hn::Lt(b.row, a.row);
     swap_where(third, a, b);
     return hn::Xor(first, hn::Xor(second, third));
   }
@@ -154,13 +149,13 @@ struct DoubleTriangleLanes {
 struct DoubleRowLanes {
   DoubleRowLanes() = default;
   HWY_INLINE DoubleRowLanes(const DoubleRowSources& of, Doubles rows) : rows_(rows) {
-    const auto shorter_edges = pick_edges(is_less(rows, of.middle_row), of.upper, of.lower);
-    const CertainPixels longest = of.longest.cross(rows, of.column_count);
-    const CertainPixels shorter = shorter_edges.cross(rows, of.column_count);
-    const Doubles first = pick(of.longest_is_left, longest.pixel, shorter.pixel);
-    const Doubles end = pick(of.longest_is_left, shorter.pixel, longest.pixel);
-    const Doubles is_there = is_less(rows, of.end_row);
-    spans.set_columns(rows, hn::And(is_there, first), hn::And(is_there, end) - all(1));
+    const auto shorter_edges = choose(hn::Lt(rows, of.middle_row), of.upper, of.lower);
+    const FirstPixels longest = of.longest.cross(rows, of.column_count);
+    const FirstPixels shorter = shorter_edges.cross(rows, of.column_count);
+    const Doubles first = choose(of.longest_is_left, longest.pixel, shorter.pixel);
+    const Doubles end = choose(of.longest_is_left, shorter.pixel, longest.pixel);
+    const Mask is_there = hn::Lt(rows, of.end_row);
+    spans.set_columns(rows, hn::IfThenElseZero(is_there, first), hn::IfThenElseZero(is_there, end) - all(1));
     columns_added_up_ = first + end - all(1);
     uncertain_ = hn::AndNot(hn::And(longest.are_certain, shorter.are_certain), is_there);
   }
@@ -175,7 +170,7 @@ struct DoubleRowLanes {
  private:
   Doubles rows_;
   Doubles columns_added_up_;  // the first and the last
-  Doubles uncertain_;         // a mask
+  Mask uncertain_;
 };
 
 #endif

@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/coverage/nearest_kernel.cpp"
-#include "libpipeline/coverage/lanes.h"
+#include "libpipeline/coverage/triangle_lanes.h"
 
 PIPELINE_BEGIN_KERNELS();
 
@@ -22,26 +22,23 @@ TaggedSpan* nearest_spans(const PixelGrid& grid, std::span<const TaggedTriangle>
 // The same operations as in NearestRows, as long as neither a triangle nor a row is out of the ordinary: no
 // product near the ends of a double's range, no corner on the line of pixel centers.
 
-HWY_INLINE Points pick_points(Doubles mask, const Points& yes, const Points& no) {
-  return {pick(mask, yes.x, no.x), pick(mask, yes.y, no.y), pick(mask, yes.z, no.z)};
-}
-HWY_INLINE Points operator-(const Points& a, const Points& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
+HWY_INLINE Doubles clamped(Doubles value, double low, double high) {
+  return hn::Min(all(high), hn::Max(all(low), value));
 }
 
 /// By y, then x, then z.
-HWY_INLINE Doubles is_lower(const Points& a, const Points& b) {
-  const Doubles by_x = hn::Or(is_less(a.x, b.x), hn::And(is_equal(a.x, b.x), is_less(a.z, b.z)));
-  return hn::Or(is_less(a.y, b.y), hn::And(is_equal(a.y, b.y), by_x));
+HWY_INLINE Mask is_lower(const Vectors& a, const Vectors& b) {
+  const Mask by_x = hn::Or(hn::Lt(a.x, b.x), hn::And(hn::Eq(a.x, b.x), hn::Lt(a.z, b.z)));
+  return hn::Or(hn::Lt(a.y, b.y), hn::And(hn::Eq(a.y, b.y), by_x));
 }
 
 /// The numbers from which the rows of some triangles are calculated, or those of one, in all lanes.
 struct RowSources {
-  Points lowest;
-  Points middle;
-  Points highest;
+  Vectors lowest;
+  Vectors middle;
+  Vectors highest;
   Doubles slope;
-  Doubles is_edge_on;  // a mask
+  Mask is_edge_on;
   Doubles last_row;
 };
 
@@ -49,13 +46,11 @@ struct RowSources {
 struct TriangleLanes {
   HWY_INLINE TriangleLanes(const PixelGrid& grid, const TaggedTriangle* triangles, const RowRange& rows) {
     const auto [a, b, c] = vertices_of(triangles);
-    const Doubles b_first = is_lower(b, a), c_before_a = is_lower(c, a), c_before_b = is_lower(c, b);
-    const Points low = pick_points(b_first, b, a), high = pick_points(b_first, a, b);
-    const Doubles c_before_low = pick(b_first, c_before_b, c_before_a);
-    const Doubles c_before_high = pick(b_first, c_before_a, c_before_b);
-    set_corners(grid, pick_points(c_before_low, c, low),
-                pick_points(c_before_low, low, pick_points(c_before_high, c, high)),
-                pick_points(c_before_high, high, c));
+    const Mask b_first = is_lower(b, a), c_before_a = is_lower(c, a), c_before_b = is_lower(c, b);
+    const Mask c_first = hn::And(c_before_a, c_before_b), c_not_last = hn::Or(c_before_a, c_before_b);
+    const Vectors low = choose(b_first, b, a), high = choose(b_first, a, b);
+    set_corners(grid, choose(c_first, c, low), choose(c_first, low, choose(c_not_last, c, high)),
+                choose(c_not_last, high, c));
     begin_row = hn::Max(all(rows.first), begin_row);
     sources.last_row = hn::Min(all(rows.end) - all(1), sources.last_row);
   }
@@ -67,7 +62,7 @@ struct TriangleLanes {
   LaneSet ordinary;   // triangles whose numbers all stay in the range of this arithmetic
 
  private:
-  HWY_INLINE void set_corners(const PixelGrid& grid, const Points& p, const Points& q, const Points& r) {
+  HWY_INLINE void set_corners(const PixelGrid& grid, const Vectors& p, const Vectors& q, const Vectors& r) {
     sources.lowest = p;
     sources.middle = q;
     sources.highest = r;
@@ -78,12 +73,12 @@ struct TriangleLanes {
     set_slope(grid, q - p, r - p, hn::Abs(p.z) + hn::Abs(q.z) + hn::Abs(r.z));
   }
   /// From the edges that leave the lowest corner.
-  HWY_INLINE void set_slope(const PixelGrid& grid, const Points& b, const Points& c, Doubles size) {
+  HWY_INLINE void set_slope(const PixelGrid& grid, const Vectors& b, const Vectors& c, Doubles size) {
     const Doubles forward = b.x * c.y, backward = c.x * b.y;
     const Doubles rise = b.z * c.y - c.z * b.y;
     const Doubles area = forward - backward, terms = hn::Abs(forward) + hn::Abs(backward);
-    const Doubles has_no_slope = is_at_most(hn::Abs(area), all(NearestRows::kAreaError) * terms);
-    const Doubles slopes = hn::AndNot(has_no_slope, rise / area);
+    const Mask has_no_slope = hn::Le(hn::Abs(area), all(NearestRows::kAreaError) * terms);
+    const Doubles slopes = hn::IfThenZeroElse(has_no_slope, rise / area);
     sources.slope = slopes;
     sources.is_edge_on = has_no_slope;
     const Doubles reach = hn::Abs(b.x) + hn::Abs(c.x);
@@ -94,10 +89,10 @@ struct TriangleLanes {
                              all(NearestRows::kNarrowestRow * grid.dx) * c.y;
     const Doubles huge = all(NearestRows::kHuge);
     const Doubles limit = hn::Min(huge, all(NearestRows::kSteepest) * size * net_area);
-    const Doubles is_good = is_at_most(change, pick(has_no_slope, huge, limit));
-    const Doubles is_in_range = hn::And(is_less(all(0x1p-900), terms), is_less(terms, all(0x1p900)));
+    const Mask is_good = hn::Le(change, choose(has_no_slope, huge, limit));
+    const Mask is_in_range = hn::And(hn::Lt(all(0x1p-900), terms), hn::Lt(terms, all(0x1p900)));
     const Doubles largest = hn::Max(hn::Abs(slopes), reach + (hn::Abs(b.z) + hn::Abs(c.z)));
-    const Doubles is_finite = is_less(largest, huge);
+    const Mask is_finite = hn::Lt(largest, huge);
     ordinary.bits = bits_of(hn::And(hn::And(is_good, is_in_range), is_finite));
   }
 };
@@ -108,24 +103,24 @@ struct RowLanes {
   HWY_INLINE RowLanes(const PixelGrid& grid, const RowSources& of, Doubles rows) {
     const Doubles y = all(grid.top_y) - rows * all(grid.dy);
     // The longest edge and, below or above the middle corner, one of the others.
-    const Doubles is_upper = is_less(of.middle.y, y);
-    const Points first = intersection(pick_points(is_upper, of.middle, of.lowest),
-                                      pick_points(is_upper, of.highest, of.middle), y);
-    const Points second = intersection(of.lowest, of.highest, y);
-    const Doubles is_lower_z = hn::And(is_equal(second.x, first.x), is_less(second.z, first.z));
-    const Points left = pick_points(hn::Or(is_less(second.x, first.x), is_lower_z), second, first);
-    const Points right = pick_points(hn::Or(is_less(first.x, second.x), is_lower_z), second, first);
+    const Mask is_upper = hn::Lt(of.middle.y, y);
+    const Vectors first =
+        intersection(choose(is_upper, of.middle, of.lowest), choose(is_upper, of.highest, of.middle), y);
+    const Vectors second = intersection(of.lowest, of.highest, y);
+    const Mask is_lower_z = hn::And(hn::Eq(second.x, first.x), hn::Lt(second.z, first.z));
+    const Vectors left = choose(hn::Or(hn::Lt(second.x, first.x), is_lower_z), second, first);
+    const Vectors right = choose(hn::Or(hn::Lt(first.x, second.x), is_lower_z), second, first);
     const Doubles left_column = (left.x - all(grid.left_x)) / all(grid.dx) + all(0.5);
     const Doubles right_column = (right.x - all(grid.left_x)) / all(grid.dx) + all(0.5);
-    const Doubles is_there = is_at_most(rows, of.last_row);
-    spans.set_columns(rows, hn::And(is_there, hn::Floor(clamped(left_column, 0, grid.columns))),
-                      pick(is_there, hn::Floor(clamped(right_column, -1, grid.columns - 1)), all(-1)));
+    const Mask is_there = hn::Le(rows, of.last_row);
+    spans.set_columns(rows, hn::IfThenElseZero(is_there, hn::Floor(clamped(left_column, 0, grid.columns))),
+                      choose(is_there, hn::Floor(clamped(right_column, -1, grid.columns - 1)), all(-1)));
 
-    const Doubles is_slanted = hn::AndNot(of.is_edge_on, is_less(left.x, right.x));
-    spans.set_points(left.x, pick(is_slanted, left.z, pick(is_less(right.z, left.z), right.z, left.z)));
-    slope = numbers_of(hn::And(is_slanted, of.slope));
-    const Doubles is_between = hn::And(is_less(of.lowest.y, y), is_less(y, of.highest.y));
-    const Doubles is_at_corner = hn::AndNot(hn::AndNot(is_equal(y, of.middle.y), is_between), is_there);
+    const Mask is_slanted = hn::AndNot(of.is_edge_on, hn::Lt(left.x, right.x));
+    spans.set_points(left.x, choose(is_slanted, left.z, choose(hn::Lt(right.z, left.z), right.z, left.z)));
+    slope = numbers_of(hn::IfThenElseZero(is_slanted, of.slope));
+    const Mask is_between = hn::And(hn::Lt(of.lowest.y, y), hn::Lt(y, of.highest.y));
+    const Mask is_at_corner = hn::AndNot(hn::AndNot(hn::Eq(y, of.middle.y), is_between), is_there);
     ordinary_.bits = LaneSet::kAll & ~bits_of(is_at_corner);
   }
   /// Depths are set with the columns.
@@ -140,14 +135,14 @@ struct RowLanes {
  private:
   LaneSet ordinary_;
 
-  HWY_INLINE static Points intersection(const Points& lower, const Points& upper, Doubles y) {
-    const Points edge = upper - lower;
+  HWY_INLINE static Vectors intersection(const Vectors& lower, const Vectors& upper, Doubles y) {
+    const Vectors edge = upper - lower;
     const Doubles t = (y - lower.y) / edge.y;
     return {lower.x + t * edge.x, y, lower.z + t * edge.z};
   }
 };
 
-/// The rule `nearest` for lanes.h.
+/// The rule `nearest` for triangle_lanes.h.
 struct Rule {
   using RowLanes = HWY_NAMESPACE::RowLanes;
   [[nodiscard]] NearestRows rows(const TaggedTriangle& triangle) const {

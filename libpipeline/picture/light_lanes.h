@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "libpipeline/numbers/vector_lanes.h"
+#include "libpipeline/numbers/lanes.h"
 #include "libpipeline/picture/shading.h"
 
 PIPELINE_BEGIN_KERNELS();

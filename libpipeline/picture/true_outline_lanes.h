@@ -9,7 +9,7 @@
 #include <limits>
 #include <span>
 
-#include "libpipeline/numbers/vector_lanes.h"
+#include "libpipeline/numbers/lanes.h"
 #include "libpipeline/picture/true_outline.h"
 #include "libpipeline/stream/triangle_batch.h"
 

@@ -7,7 +7,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/vertex/vertex_kernel.cpp"
-#include "libpipeline/numbers/vector_lanes.h"
+#include "libpipeline/numbers/lanes.h"
 
 PIPELINE_BEGIN_KERNELS();
 

@@ -1,32 +1,23 @@
 #include "libpipeline/visibility/span_fill.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/visibility/span_fill.cpp"
-#include "libpipeline/numbers/vector_targets.h"
+#include "libpipeline/numbers/lanes.h"
 
 PIPELINE_BEGIN_KERNELS();
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-// As many pixels at a time as a vector has doubles.
-using Doubles = hn::ScalableTag<double>;
-using Tags = hn::Rebind<PixelTag, Doubles>;
+constexpr hn::Rebind<PixelTag, decltype(kDoubles)> kTags;
 template <typename Depth>
-using StoredDepths = hn::Rebind<typename Depth::Stored, Doubles>;
+using StoredDepths = hn::Rebind<typename Depth::Stored, decltype(kDoubles)>;
 
-constexpr Doubles kDoubles;
-constexpr Tags kTags;
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(kDoubles));
-static_assert(kBlockColumns % kLanes == 0 &&
-              kLanes <= static_cast<int>(HierarchicalDepth<DepthF64>::kPadding) + 1);
-
-using DoubleVector = hn::Vec<Doubles>;
+constexpr int kStep = static_cast<int>(kLanes);
+static_assert(kBlockColumns % kStep == 0 &&
+              kStep <= static_cast<int>(HierarchicalDepth<DepthF64>::kPadding) + 1);
 
 // The functions `store` of the depth formats; scalar code has no use for them.
 
@@ -40,15 +31,14 @@ HWY_INLINE auto store(const DepthF32&, Vector z) {
 }
 template <typename Vector>
 HWY_INLINE auto store(const DepthU24& format, Vector z) {
-  const auto steps = (z - hn::Set(kDoubles, format.front)) * hn::Set(kDoubles, format.steps_per_depth) +
-                     hn::Set(kDoubles, 0.5);
-  const auto in_range = hn::Min(hn::Max(steps, hn::Zero(kDoubles)), hn::Set(kDoubles, DepthU24::kSteps));
+  const auto steps = (z - all(format.front)) * all(format.steps_per_depth) + all(0.5);
+  const auto in_range = hn::Min(hn::Max(steps, hn::Zero(kDoubles)), all(DepthU24::kSteps));
   return hn::DemoteTo(StoredDepths<DepthU24>(), in_range);
 }
 
 /// The mask of some depths as one of their tags.
-template <typename StoredTag, typename Mask>
-HWY_INLINE hn::Mask<Tags> mask_of_tags(StoredTag depths, Mask mask) {
+template <typename StoredTag, typename StoredMask>
+HWY_INLINE hn::Mask<decltype(kTags)> mask_of_tags(StoredTag depths, StoredMask mask) {
   if constexpr (sizeof(hn::TFromD<StoredTag>) == sizeof(PixelTag)) {
     return hn::RebindMask(kTags, mask);
   } else {
@@ -74,9 +64,9 @@ class SpanLanes {
     auto columns = hn::Iota(kDoubles, first);
     const auto tag = hn::Set(kTags, pixels_.tag);
     bool is_any_seen = false;
-    for (; end - first >= kLanes; first += kLanes, depths += kLanes, tags += kLanes) {
+    for (; end - first >= kStep; first += kStep, depths += kStep, tags += kStep) {
       const auto stored = stored_at(columns), there = hn::LoadU(kStored, depths);
-      columns = columns + hn::Set(kDoubles, kLanes);
+      columns = columns + all(kStep);
       const auto is_seen = hn::Lt(stored, there);
       if (hn::AllFalse(kStored, is_seen)) continue;
       hn::StoreU(hn::IfThenElse(is_seen, stored, there), kStored, depths);
@@ -99,16 +89,16 @@ class SpanLanes {
   /// Draws the span without its hidden blocks.
   HWY_INLINE void fill_blocks() const {
     const SpanBlocks blocks(pixels_);
-    const auto first_column = hn::Set(kDoubles, pixels_.span.first_column);
-    const auto last_column = hn::Set(kDoubles, pixels_.span.last_column);
-    for (int block = blocks.first; block <= blocks.last; block += kLanes) {
+    const auto first_column = all(pixels_.span.first_column);
+    const auto last_column = all(pixels_.span.last_column);
+    for (int block = blocks.first; block <= blocks.last; block += kStep) {
       // The columns where the span is nearest in each of some blocks.
-      const auto columns = hn::Iota(kDoubles, block) * hn::Set(kDoubles, kBlockColumns) +
-                           hn::Set(kDoubles, is_rising_ ? 0 : kBlockColumns - 1);
+      const auto columns =
+          hn::Iota(kDoubles, block) * all(kBlockColumns) + all(is_rising_ ? 0 : kBlockColumns - 1);
       const auto nearest = stored_at(hn::Min(hn::Max(columns, first_column), last_column));
       const auto is_near = hn::Lt(nearest, hn::LoadU(kStored, pixels_.farthest + block));
-      const int count = std::min(blocks.last - block + 1, kLanes);
-      unsigned open = bits_of(is_near) & ((1u << count) - 1);
+      const int count = std::min(blocks.last - block + 1, kStep);
+      unsigned open = bits_of(kStored, is_near) & ((1u << count) - 1);
       while (open != 0) {
         const int begin = std::countr_zero(open), end = begin + std::countr_one(open >> begin);
         fill_run(blocks, block + begin, block + end);
@@ -122,12 +112,11 @@ class SpanLanes {
   static constexpr StoredDepths<Depth> kStored{};
 
   /// The depths at some columns, as stored: SpanDepth's roundings in the same order.
-  HWY_INLINE auto stored_at(DoubleVector columns) const {
-    const auto x = (hn::Set(kDoubles, depth_.left_x) + columns * hn::Set(kDoubles, depth_.dx)) -
-                   hn::Set(kDoubles, depth_.x0);
-    const auto z = hn::Set(kDoubles, depth_.z0) + x * hn::Set(kDoubles, depth_.slope);
+  HWY_INLINE auto stored_at(Doubles columns) const {
+    const auto x = (all(depth_.left_x) + columns * all(depth_.dx)) - all(depth_.x0);
+    const auto z = all(depth_.z0) + x * all(depth_.slope);
     // Highway's scalar conversion has no infinite floats.
-    if constexpr (kLanes == 1)
+    if constexpr (kStep == 1)
       return hn::Set(kStored, format_.store(hn::GetLane(z)));
     else
       return store(format_, z);
@@ -139,14 +128,6 @@ class SpanLanes {
     *depth = stored;
     *tag = pixels_.tag;
     return true;
-  }
-
-  /// A bit for each lane.
-  template <typename Mask>
-  HWY_INLINE static unsigned bits_of(Mask mask) {
-    std::array<std::uint8_t, 8> bytes{};
-    hn::StoreMaskBits(kStored, mask, bytes.data());
-    return bytes[0];
   }
 
   /// Draws into the blocks from `begin` to before `end`.
@@ -170,7 +151,7 @@ class SpanLanes {
     const Stored* const depths = pixels_.depths + begin;
     if (count < kBlockColumns) return *std::max_element(depths, depths + count);
     auto farthest = hn::LoadU(kStored, depths);
-    for (int i = kLanes; i < kBlockColumns; i += kLanes)
+    for (int i = kStep; i < kBlockColumns; i += kStep)
       farthest = hn::Max(farthest, hn::LoadU(kStored, depths + i));
     return hn::GetLane(hn::MaxOfLanes(kStored, farthest));
   }

@@ -6,86 +6,11 @@
 #include <cstring>
 
 #include "libpipeline/coverage/kernel.h"
-// Masks are vectors here. With AVX-512 they would be converted all the time, which takes up to a tenth
-// longer.
+// With AVX-512, masks would be converted to vectors and back all the time, which takes up to a tenth longer.
 #define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4 | HWY_AVX2)
-#include "libpipeline/numbers/vector_targets.h"
+#include "libpipeline/numbers/lanes.h"
 
 PIPELINE_BEGIN_KERNELS();
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-// Operations for kernels that work on two or four doubles at a time: + - * / are the processor's, lane by
-// lane. A mask is a vector that has all bits set in a lane for "yes".
-
-constexpr hn::CappedTag<double, 4> kDoubles;
-constexpr hn::Rebind<int, decltype(kDoubles)> kInts;
-constexpr std::size_t kLanes = hn::MaxLanes(kDoubles);
-using Doubles = hn::Vec<decltype(kDoubles)>;
-
-HWY_INLINE Doubles all(double value) {
-  return hn::Set(kDoubles, value);
-}
-HWY_INLINE Doubles is_less(Doubles a, Doubles b) {
-  return hn::VecFromMask(kDoubles, hn::Lt(a, b));
-}
-HWY_INLINE Doubles is_at_most(Doubles a, Doubles b) {
-  return hn::VecFromMask(kDoubles, hn::Le(a, b));
-}
-HWY_INLINE Doubles is_equal(Doubles a, Doubles b) {
-  return hn::VecFromMask(kDoubles, hn::Eq(a, b));
-}
-HWY_INLINE Doubles pick(Doubles mask, Doubles yes, Doubles no) {
-  return hn::IfVecThenElse(mask, yes, no);
-}
-/// One bit per lane.
-HWY_INLINE unsigned bits_of(Doubles mask) {
-  std::array<std::uint8_t, 8> bytes;
-  hn::StoreMaskBits(kDoubles, hn::MaskFromVec(mask), bytes.data());
-  return bytes[0];
-}
-
-HWY_INLINE Doubles clamped(Doubles value, double low, double high) {
-  return hn::Min(all(high), hn::Max(all(low), value));
-}
-
-// Access to single lanes.
-
-using Numbers = std::array<double, kLanes>;
-
-HWY_INLINE Numbers numbers_of(Doubles value) {
-  Numbers numbers;
-  hn::StoreU(value, kDoubles, numbers.data());
-  return numbers;
-}
-HWY_INLINE double number_in(Doubles value, std::size_t lane) {
-  return numbers_of(value)[lane];
-}
-/// Of a struct of Doubles alone: each number in a lane, in all of them.
-template <typename Lanes>
-HWY_INLINE Lanes lane_of(const Lanes& some, std::size_t lane) {
-  static_assert(sizeof(Lanes) % sizeof(Doubles) == 0);
-  Lanes result;
-  const char* const from = reinterpret_cast<const char*>(&some) + lane * sizeof(double);
-#pragma GCC unroll 32
-  for (std::size_t i = 0; i < sizeof(Lanes); i += sizeof(Doubles)) {
-    double number;
-    std::memcpy(&number, from + i, sizeof number);
-    const Doubles in_all = all(number);
-    std::memcpy(reinterpret_cast<char*>(&result) + i, &in_all, sizeof in_all);
-  }
-  return result;
-}
-HWY_INLINE double largest_of(Doubles value) {
-  return hn::GetLane(hn::MaxOfLanes(kDoubles, value));
-}
-
-/// A point of each of some triangles.
-struct Points {
-  Doubles x;
-  Doubles y;
-  Doubles z;
-};
 
 #if HWY_TARGET != HWY_SCALAR
 
@@ -105,8 +30,8 @@ HWY_INLINE void load_two(const TaggedTriangle* triangles, std::size_t i, Doubles
 }
 
 /// The vertices of some triangles.
-HWY_INLINE std::array<Points, 3> vertices_of(const TaggedTriangle* triangles) {
-  std::array<Points, 3> result;
+HWY_INLINE std::array<Vectors, 3> vertices_of(const TaggedTriangle* triangles) {
+  std::array<Vectors, 3> result;
   load_two(triangles, 0, result[0].x, result[0].y);
   load_two(triangles, 2, result[0].z, result[1].x);
   load_two(triangles, 4, result[1].y, result[1].z);
@@ -118,15 +43,31 @@ HWY_INLINE std::array<Points, 3> vertices_of(const TaggedTriangle* triangles) {
 /// left_x and dx of a depth.
 using Axis = std::array<double, 2>;
 
-/// Spans that kernels find in their lanes, each kept in few pieces laid out as they will be in memory.
+/// Of a struct of Doubles and Masks alone: each number in a lane, in all of them. By bit_cast, GCC 12 would
+/// copy the struct twice.
+template <typename Lanes>
+HWY_INLINE Lanes lane_of(const Lanes& some, std::size_t lane) {
+  Lanes result;
+  const char* const from = reinterpret_cast<const char*>(&some) + lane * sizeof(double);
+#pragma GCC unroll 32
+  for (std::size_t i = 0; i < sizeof(Lanes); i += sizeof(Doubles)) {
+    double number;
+    std::memcpy(&number, from + i, sizeof number);
+    const Doubles in_all = all(number);
+    std::memcpy(reinterpret_cast<char*>(&result) + i, &in_all, sizeof in_all);
+  }
+  return result;
+}
+
+/// Spans that kernels find in their lanes.
 class LaneSpans {
  public:
   /// There is a span where the last column is not before the first.
   HWY_INLINE void set_columns(Doubles row, Doubles first, Doubles last) {
-    const auto rows = hn::DemoteTo(kInts, row), firsts = hn::DemoteTo(kInts, first);
-    const auto lasts = hn::DemoteTo(kInts, last);
+    constexpr hn::Rebind<int, decltype(kDoubles)> kInts;
+    const auto firsts = hn::DemoteTo(kInts, first), lasts = hn::DemoteTo(kInts, last);
     const auto steps = hn::IfThenZeroElse(hn::Gt(firsts, lasts), hn::Set(kInts, sizeof(TaggedSpan)));
-    hn::StoreInterleaved4(rows, firsts, lasts, steps, kInts, columns_[0].data());
+    hn::StoreInterleaved4(hn::DemoteTo(kInts, row), firsts, lasts, steps, kInts, columns_[0].data());
   }
   /// The points where depths are known.
   HWY_INLINE void set_points(Doubles x0, Doubles z0) {
@@ -137,13 +78,10 @@ class LaneSpans {
   /// no pixel. `axis` is left_x and dx of its depth. Branch-free: whether it has one is unpredictable.
   HWY_INLINE TaggedSpan* append(std::size_t lane, const Axis& axis, double slope, PixelTag tag,
                                 TaggedSpan* spans) const {
-    static_assert(offsetof(Span, row) == 0 && offsetof(Span, first_column) == 4);
-    static_assert(offsetof(Span, last_column) == 8 && offsetof(Span, depth) == 16);
-    static_assert(offsetof(SpanDepth, left_x) == 0 && offsetof(SpanDepth, dx) == 8);
-    static_assert(offsetof(SpanDepth, x0) == 16 && offsetof(SpanDepth, z0) == 24);
+    // A depth is five doubles; the size falls between the columns and them.
+    static_assert(offsetof(Span, depth) == sizeof columns_[lane] && sizeof(SpanDepth) == 5 * sizeof(double));
     Span& span = spans->span;
-    // The fourth number falls between the columns and the depth.
-    std::memcpy(static_cast<void*>(&span), &columns_[lane], sizeof(Columns));
+    std::memcpy(static_cast<void*>(&span), &columns_[lane], sizeof columns_[lane]);
     std::memcpy(&span.depth.left_x, &axis, sizeof axis);
     std::memcpy(&span.depth.x0, &points_[lane], sizeof points_[lane]);
     span.depth.slope = slope;
@@ -153,8 +91,7 @@ class LaneSpans {
 
  private:
   // Row, first and last column, and the size of a span if there is one, else 0.
-  using Columns = std::array<int, 4>;
-  alignas(16) std::array<Columns, kLanes> columns_;
+  alignas(16) std::array<std::array<int, 4>, kLanes> columns_;
   alignas(16) std::array<std::array<double, 2>, kLanes> points_;
 };
 
@@ -210,7 +147,7 @@ template <typename Rule, typename TriangleLanes>
 TaggedSpan* append_triangles(const Rule& rule, const TriangleLanes& some, const TaggedTriangle* triangles,
                              const RowRange& range, TaggedSpan* spans) {
   constexpr int kMaxLowRows = 8;
-  const double most = largest_of(some.end_row() - some.begin_row);
+  const double most = hn::GetLane(hn::MaxOfLanes(kDoubles, some.end_row() - some.begin_row));
   bool are_ordinary = some.ordinary.has_all() && most <= kMaxLowRows;
   const int count = are_ordinary ? static_cast<int>(most) : 0;
   std::array<typename Rule::RowLanes, kMaxLowRows> low;
