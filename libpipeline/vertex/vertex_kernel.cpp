@@ -3,34 +3,137 @@
 #include <cmath>
 #include <limits>
 
-#include "libpipeline/vertex/vertex_loops.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/vertex/vertex_kernel.cpp"
-#include "libpipeline/numbers/lanes.h"
+#include "libpipeline/vertex/vertex_lanes.h"
 
 PIPELINE_BEGIN_KERNELS();
 
-// Plain loops, which the compiler makes vectors of, but for normals.
+constexpr hn::RebindToUnsigned<decltype(kDoubles)> kBits;
+using Bits = hn::Vec<decltype(kBits)>;
 
-#if HWY_NATIVE_FMA
-using ProductError = FmaError;
-#else
-using ProductError = DekkerError;
-#endif
+// Lanes beyond the last vertex of a block are calculated with whatever is there, and never read.
+
+HWY_INLINE Doubles coordinates(const VertexBlock& p, std::size_t axis, std::size_t i) {
+  return hn::LoadU(kDoubles, &p.p[axis][i]);
+}
+
+/// Sets some vertices of a block to the `estimate(axis)` of their images, and whether they pass the test.
+template <RoundingTestKind kind, typename Estimator>
+HWY_INLINE void set_images(ImageBlock& image, std::size_t i, double scale, Mask are_safe,
+                           const Estimator& estimate) {
+#pragma GCC unroll 3
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Doubles value;
+    are_safe = hn::And(are_safe, passes_rounding_test<kind>(estimate(axis), scale, value));
+    hn::StoreU(value, kDoubles, &image.p[axis][i]);
+  }
+  hn::StoreU(hn::VecFromMask(kBits, hn::RebindMask(kBits, are_safe)), kBits, &image.passes_rounding_test[i]);
+}
+
+template <RoundingTestKind kind>
+HWY_INLINE void transform_in_doubles(AffineCoefficients m, double scale, const VertexBlock& p,
+                                     ImageBlock& image) {
+  for (std::size_t i = 0; i < p.count; i += kLanes) {
+    const Vectors v =
+        Vectors{coordinates(p, 0, i), coordinates(p, 1, i), coordinates(p, 2, i)} - all(m.origin);
+    set_images<kind>(image, i, scale, hn::Eq(all(0), all(0)),
+                     [&](std::size_t axis) HWY_ATTR { return image_in_doubles(m.rows[axis], v); });
+  }
+}
+
+template <RoundingTestKind kind>
+HWY_INLINE void transform_in_pairs(AffineCoefficients m, double scale, const VertexBlock& p,
+                                   ImageBlock& image) {
+  const auto [x, y, z] = m.origin;
+  for (std::size_t i = 0; i < p.count; i += kLanes) {
+    const std::array<Pairs, 3> v = {two_sum(coordinates(p, 0, i), all(-x)),
+                                    two_sum(coordinates(p, 1, i), all(-y)),
+                                    two_sum(coordinates(p, 2, i), all(-z))};
+    set_images<kind>(image, i, scale, hn::Eq(all(0), all(0)),
+                     [&](std::size_t axis) HWY_ATTR { return image_in_pairs(m.rows[axis], v); });
+  }
+}
 
 void transform(const AffineCoefficients& m, const RoundingTest& test, const VertexBlock& p,
                ImageBlock& image) {
-  transform_block<ProductError>(m, test, p, image);
+  using Kind = RoundingTestKind;
+  image.count = p.count;
+  if (test.kind == Kind::finite) {
+    transform_in_doubles<Kind::finite>(m, test.scale, p, image);
+  } else if (test.kind == Kind::nearest) {
+    transform_in_pairs<Kind::nearest>(m, test.scale, p, image);
+  } else if (test.needs_pairs) {
+    transform_in_pairs<Kind::decimals>(m, test.scale, p, image);
+  } else {
+    transform_in_doubles<Kind::decimals>(m, test.scale, p, image);
+  }
+}
+
+template <RoundingTestKind kind, bool in_pairs>
+HWY_INLINE void project_all(ProjectionCoefficients m, double scale, const VertexBlock& p, ImageBlock& p_ndc) {
+  for (std::size_t i = 0; i < p.count; i += kLanes) {
+    const Doubles z = coordinates(p, 2, i), distance = hn::Neg(z);
+    const Doubles w = m.is_perspective ? distance : all(1), q = m.is_perspective ? z : all(1);
+    set_images<kind>(p_ndc, i, scale, is_safe_divisor(w), [&](std::size_t axis) HWY_ATTR {
+      const Doubles v = coordinates(p, axis, i);
+      const Coefficient &a = m.scales[axis], &b = m.offsets[axis];
+      if constexpr (in_pairs)
+        return projected_in_pairs(a, b, v, axis == 2 ? all(1) : q, w);
+      else
+        return axis == 2 ? depth_in_doubles(m, distance, w)
+                         : quotient_in_doubles(all(a.value) * v, all(b.value) * q, w);
+    });
+  }
 }
 
 void project(const ProjectionCoefficients& m, const RoundingTest& test, const VertexBlock& p,
              ImageBlock& p_ndc) {
-  project_block<ProductError>(m, test, p, p_ndc);
+  using Kind = RoundingTestKind;
+  p_ndc.count = p.count;
+  if (test.kind == Kind::finite) {
+    project_all<Kind::finite, false>(m, test.scale, p, p_ndc);
+  } else if (test.kind == Kind::nearest) {
+    project_all<Kind::nearest, true>(m, test.scale, p, p_ndc);
+  } else if (test.needs_pairs) {
+    project_all<Kind::decimals, true>(m, test.scale, p, p_ndc);
+  } else {
+    project_all<Kind::decimals, false>(m, test.scale, p, p_ndc);
+  }
+}
+
+/// Adds the two planes of an axis, `low` and the bit after it. A vertex is at the distances w + v and w - v
+/// from them, where v = scale p + offset q and w is that of the clip volume. Each of these three terms is
+/// rounded less often than a term of tests/proofs/coordinate_in_doubles.g, so a distance is off by less than
+/// 8 u of their sum, and one of 2^-30 of that sum has the right sign. Sums above 2^-400 make the underflow of
+/// a product negligible; a sum that overflows, or a coefficient that is NaN, fails every comparison.
+HWY_INLINE void add_sides(const Coefficient& a, const Coefficient& b, std::uint64_t low, Doubles p, Doubles q,
+                          Doubles w, Bits& outside, Bits& inside) {
+  const Doubles scaled = all(a.value) * p, shift = all(b.value) * q, v = scaled + shift;
+  const Doubles size = hn::Abs(scaled) + hn::Abs(shift) + hn::Abs(w), margin = all(0x1p-30) * size;
+  const Mask is_in_range = hn::Gt(size, all(0x1p-400));
+  const auto add = [&](Mask mask, std::uint64_t bit, Bits& bits) HWY_ATTR {
+    const auto is_there = hn::RebindMask(kBits, hn::And(is_in_range, mask));
+    bits = hn::Or(bits, hn::IfThenElseZero(is_there, hn::Set(kBits, bit)));
+  };
+  add(hn::Lt(w + v, hn::Neg(margin)), low, outside);
+  add(hn::Lt(w - v, hn::Neg(margin)), 2 * low, outside);
+  add(hn::Gt(w + v, margin), low, inside);
+  add(hn::Gt(w - v, margin), 2 * low, inside);
 }
 
 void find_sides(const ProjectionCoefficients& m, const VertexBlock& p_view, SideBlock& sides, bool beside) {
-  find_sides_of_block(m, p_view, sides, beside);
+  for (std::size_t i = 0; i < p_view.count; i += kLanes) {
+    const Doubles z = coordinates(p_view, 2, i), q = m.is_perspective ? z : all(1);
+    const Doubles w = (m.is_perspective ? hn::Neg(z) : all(1)) * all(m.clip_w);
+    Bits outside = hn::Zero(kBits), inside = outside;
+    add_sides(m.scales[2], m.offsets[2], 1, z, all(1), w, outside, inside);
+    for (std::size_t axis = 0; beside && axis < 2; ++axis)
+      add_sides(m.scales[axis], m.offsets[axis], axis == 0 ? 4 : 16, coordinates(p_view, axis, i), q, w,
+                outside, inside);
+    hn::StoreU(outside, kBits, &sides.outside[i]);
+    hn::StoreU(inside, kBits, &sides.inside[i]);
+  }
 }
 
 std::size_t transform_normals(const std::array<Vec3, 3>& rows, std::span<Vec3> normals) {

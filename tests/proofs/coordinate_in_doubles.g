@@ -1,4 +1,4 @@
-# A coordinate in doubles and the bound on its error: image_in_doubles and project_in_doubles (libpipeline/vertex/vertex_loops.h)
+# A coordinate in doubles and the bound on its error: image_in_doubles and quotient_in_doubles (libpipeline/vertex/vertex_lanes.h)
 # with the errors of Coefficient (libpipeline/vertex/vertex_kernel.cpp).
 #
 # a x + b y + c z + d: each term is a product that is rounded in the coefficient, in the difference of coordinate and origin, in

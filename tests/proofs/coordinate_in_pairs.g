@@ -1,4 +1,4 @@
-# A coordinate in pairs and the bound on its error: image_in_pairs and project_in_pairs (libpipeline/vertex/vertex_loops.h) with the
+# A coordinate in pairs and the bound on its error: image_in_pairs and projected_in_pairs (libpipeline/vertex/vertex_lanes.h) with the
 # errors of Coefficient (libpipeline/vertex/vertex_kernel.cpp).
 #
 # In parts of the sum of the terms' absolute values: each term is a product of pairs, within 2^-102 (pair_product.g), of a coordinate

@@ -1,5 +1,5 @@
 # The product of two pairs: operator*(DoubleDouble, DoubleDouble) (libpipeline/numbers/double_double.h), and product()
-# (libpipeline/vertex/vertex_loops.h), which has no fused multiply-add and rounds once more.
+# (libpipeline/vertex/vertex_lanes.h), which has no fused multiply-add and rounds once more.
 #
 # In parts of a.hi b.hi: the low parts are la and lb, at most u = 2^-53; the product of the high parts is off by ph, which is
 # known exactly; the cross products are rounded (e0, e1), their sum (e2), and the sum with ph (e3). The final sum is exact.

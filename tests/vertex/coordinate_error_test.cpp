@@ -1,17 +1,23 @@
-// The errors of coordinates as the vertex loops calculate them, before any rounding test, against MPFR.
+// The errors of coordinates as the vertex kernels calculate them, before any rounding test, against MPFR.
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "libpipeline/vertex/vertex_loops.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/numbers/real.h"
 #include "tests/numbers/worst_error.h"
 
+// Every kernel does the same operations in each lane.
+#define PIPELINE_TARGETS HWY_SCALAR
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/vertex/coordinate_error_test.cpp"
+#include "libpipeline/vertex/vertex_lanes.h"
+
 namespace pipeline {
 namespace {
 
+using namespace N_SCALAR;
 using Exact2048 = Real<2048>;
 
 /// A row of a matrix, the origin and a vertex; often most of it cancels.
@@ -48,9 +54,9 @@ TEST(CoordinateError, InDoublesIsWithinTheCalculatedBound) {
     const Source source(random);
     const auto& [x, y, z] = source.p;
     const auto& [ox, oy, oz] = source.origin;
-    const Estimate e = image_in_doubles(source.coefficients(), x - ox, y - oy, z - oz);
-    const Exact2048 error = abs(Exact2048(e.value) - source.image());
-    ASSERT_LE(error, Exact2048(e.error)) << i;
+    const Estimate e = image_in_doubles(source.coefficients(), all(Vec3{x - ox, y - oy, z - oz}));
+    const Exact2048 error = abs(Exact2048(e.value.raw) - source.image());
+    ASSERT_LE(error, Exact2048(e.error.raw)) << i;
     worst.add((error / source.size()).nearest_double());
   }
 }
@@ -63,10 +69,11 @@ TEST(CoordinateError, InPairsIsWithin2ToMinus98OfTheTerms) {
     const auto& [x, y, z] = source.p;
     const auto& [ox, oy, oz] = source.origin;
     const PairEstimate e =
-        image_in_pairs<DekkerError>(source.coefficients(), two_sum(x, -ox), two_sum(y, -oy), two_sum(z, -oz));
-    const Exact2048 error = abs(Exact2048(DoubleDouble{e.high, e.low}) - source.image());
+        image_in_pairs(source.coefficients(),
+                       {two_sum(all(x), all(-ox)), two_sum(all(y), all(-oy)), two_sum(all(z), all(-oz))});
+    const Exact2048 error = abs(Exact2048(DoubleDouble{e.high.raw, e.low.raw}) - source.image());
     ASSERT_LE(error, source.size() * Exact2048(0x1p-98)) << i;
-    ASSERT_LE(error, Exact2048(e.error)) << i;
+    ASSERT_LE(error, Exact2048(e.error.raw)) << i;
     worst.add((error / source.size()).nearest_double());
   }
 }
