@@ -14,19 +14,19 @@ struct SpanDepth {
   /// never NaN; only finite ones can be seen.
   [[nodiscard]] double operator()(int column) const { return z0 + (left_x + column * dx - x0) * slope; }
 
-  double left_x = 0;  // x of the center of column 0
-  double dx = 0;      // width of a pixel
-  double x0 = 0;      // a point where the depth is known ...
-  double z0 = 0;      // ... and that depth
-  double slope = 0;   // dz/dx
+  double left_x;  // x of the center of column 0
+  double dx;      // width of a pixel
+  double x0;      // a point where the depth is known ...
+  double z0;      // ... and that depth
+  double slope;   // dz/dx
 };
 
 /// A run of adjacent pixels of one row, covered by one triangle: from a coverage rule to a visibility
 /// algorithm.
 struct Span {
-  int row = 0;
-  int first_column = 0;
-  int last_column = 0;  // included, not less than first_column
+  int row;
+  int first_column;
+  int last_column;  // included, not less than first_column
   SpanDepth depth;
 };
 

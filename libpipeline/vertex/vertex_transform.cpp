@@ -47,29 +47,25 @@ void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t
   RoundingTest test = rounder.rounding_test();
   TransformedBlock block;
   const std::size_t end_of_triangles = std::min(end, batch.size());
-  for (std::size_t first = begin; first < end_of_triangles; first += VertexBlock::kTriangles) {
-    const std::size_t count = std::min(end_of_triangles - first, VertexBlock::kTriangles);
-    block.first_triangle = first;
-    block.p.fill(std::span(batch.triangles).subspan(first, count));
-    vertex_kernel().transform(coefficients_, test, block.p, block.image);
-    // Numbers so large that doubles cannot decide the last decimal: where there is one, others follow.
-    if (!test.needs_pairs && block.image.passes_rounding_test[0] == 0) {
-      test.needs_pairs = true;
+  std::size_t i = begin;
+  try {
+    while (i < end_of_triangles) {
+      const std::size_t count = std::min(end_of_triangles - i, VertexBlock::kTriangles);
+      block.first_triangle = i;
+      block.p.fill(std::span(batch.triangles).subspan(i, count));
       vertex_kernel().transform(coefficients_, test, block.p, block.image);
-    }
-    for (std::size_t i = 0; i < count; ++i) try {
-        set_image(batch, block, i, rounder);
-      } catch (...) {
-        batch.truncate(first + i);
-        throw;
+      // Numbers so large that doubles cannot decide the last decimal: where there is one, others follow.
+      if (!test.needs_pairs && block.image.passes_rounding_test[0] == 0) {
+        test.needs_pairs = true;
+        vertex_kernel().transform(coefficients_, test, block.p, block.image);
       }
-  }
-  for (std::size_t i = std::max(begin, batch.size()); i < end; ++i) try {
-      apply(batch.spheres[i - batch.size()], rounder);
-    } catch (...) {
-      batch.truncate(i);
-      throw;
+      for (std::size_t index = 0; index < count; ++index, ++i) set_image(batch, block, index, rounder);
     }
+    for (; i < end; ++i) apply(batch.spheres[i - batch.size()], rounder);
+  } catch (...) {
+    batch.truncate(i);
+    throw;
+  }
 }
 
 void VertexTransform::apply(Sphere& sphere, CoordinateRounder& rounder) const {

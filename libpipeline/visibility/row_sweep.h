@@ -24,7 +24,7 @@ struct RowPolygon {
 
   [[nodiscard]] bool is_empty() const { return first_column > last_column; }
 
-  SpanDepth depth;
+  SpanDepth depth = {};
   int first_column = 0;
   int last_column = -1;
   typename Depth::Stored nearest = {};  // of the stored depths of its pixels

@@ -26,7 +26,7 @@ class SpanQueue {
     Half& half = halves_[filling_];
     for (const TaggedSpan* span = half.end; span != new_end; ++span) fetch(*span);
     half.end = new_end;
-    if (half.end < half.begin() + kWaiting) return;
+    if (half.end < half.spans.get() + kWaiting) return;
     filling_ = 1 - filling_;
     take(halves_[filling_], draw);
   }
@@ -42,21 +42,17 @@ class SpanQueue {
   static constexpr std::size_t kWaiting = 32;
 
   struct Half {
-    explicit Half(std::size_t count) : memory(::operator new(count * sizeof(TaggedSpan))), end(begin()) {}
-    [[nodiscard]] TaggedSpan* begin() const { return static_cast<TaggedSpan*>(memory.get()); }
+    explicit Half(std::size_t count)
+        : spans(std::make_unique_for_overwrite<TaggedSpan[]>(count)), end(spans.get()) {}
 
-    struct Delete {
-      void operator()(void* p) const { ::operator delete(p); }
-    };
-    // Not initialized: spans are written before they are read.
-    std::unique_ptr<void, Delete> memory;
+    std::unique_ptr<TaggedSpan[]> spans;  // not initialized: they are written before they are read
     TaggedSpan* end;
   };
 
   template <typename Draw>
   void take(Half& half, Draw& draw) {
-    draw(std::span<const TaggedSpan>(half.begin(), half.end));
-    half.end = half.begin();
+    draw(std::span<const TaggedSpan>(half.spans.get(), half.end));
+    half.end = half.spans.get();
   }
 
   std::array<Half, 2> halves_;
