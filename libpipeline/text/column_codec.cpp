@@ -26,15 +26,13 @@ const char* read_three(const char* p, char separator, Vec3& numbers, unsigned& m
                                                     DecimalMarks& marks) {
   const std::size_t group_count = columns.group_count();
   for (std::size_t group = 0; group < group_count; ++group) {
-    const auto separators = columns.separators_after(group, group + 1 == group_count);
+    const bool has_w = group == 0 && !columns.w.empty();
+    const char separator = columns.separator_after(group);
     unsigned group_marks = 0;
-    p = read_three(p, separators[0], columns.groups[group][triangle][vertex], group_marks);
+    p = read_three(p, has_w ? ' ' : separator, columns.groups[group][triangle][vertex], group_marks);
     if (p == nullptr) return nullptr;
     if (group == 0) marks = static_cast<DecimalMarks>(marks | group_marks << (3 * vertex));
-    for (std::size_t i = 0; i < kMaxSingles; ++i)
-      if (const char separator = separators[1 + i]; separator != 0)
-        if ((p = read_single(p, separator, columns.singles[i].numbers[triangle][vertex])) == nullptr)
-          return nullptr;
+    if (has_w && (p = read_w(p, separator, columns.w[triangle][vertex])) == nullptr) return nullptr;
   }
   return columns.materials.empty() ? p : read_material(p, vertex, columns.materials[triangle]);
 }
@@ -107,8 +105,7 @@ FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const 
 GroupDecimals decimals_of_groups(std::string_view text, const FixedColumns& columns) {
   GroupDecimals decimals = {decimals_of_number(text.data())};
   for (std::size_t group = 1; group < columns.group_count(); ++group) {
-    const auto is_before = [&](const auto& single) { return single.after == group - 1; };
-    for (auto words = 3 + std::ranges::count_if(columns.singles, is_before); words > 0; --words)
+    for (int words = group == 1 && !columns.w.empty() ? 4 : 3; words > 0; --words)
       text.remove_prefix(std::min(text.find(' '), text.size() - 1) + 1);
     decimals[group] = decimals_of_number(text.data());
   }
@@ -120,15 +117,13 @@ char* write_triangle(char* out, const ConstFixedColumns& columns, std::size_t tr
                      const Triangle& low_part, NumberFormat format) {
   const std::size_t group_count = columns.group_count();
   for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-    const auto print_single = [&](char* p, std::size_t i) {
-      return print_shortest(p, columns.singles[i].numbers[triangle][vertex]);
-    };
     out = print_three(out, columns.groups[0][triangle][vertex], low_part[vertex], format);
-    out = write_singles(out, columns, 0, print_single);
-    for (std::size_t group = 1; group < group_count; ++group) {
-      out = print_three(out, columns.groups[group][triangle][vertex], {}, format);
-      out = write_singles(out, columns, group, print_single);
+    if (!columns.w.empty()) {
+      out = print_shortest(out, columns.w[triangle][vertex]);
+      *out++ = ' ';
     }
+    for (std::size_t group = 1; group < group_count; ++group)
+      out = print_three(out, columns.groups[group][triangle][vertex], {}, format);
     out = write_line_end(out, columns.materials, triangle);
   }
   *out++ = '\n';
@@ -153,7 +148,7 @@ void write_columns(const ConstFixedColumns& columns, const Triangle* low_part, N
   static const WriteFixedColumns write_fixed = chosen_kernel(fixed_printing_kernels());
   static constexpr Triangle kNothing = {};
   constexpr std::size_t kMaxShortestLength = 24;
-  constexpr std::size_t kNumbers = 3 * (3 * kMaxGroups + kMaxSingles + 1);
+  constexpr std::size_t kNumbers = 3 * (3 * kMaxGroups + 2);
   const std::size_t max_fixed_length = columns.form() == 0 ? kMaxFixedTriangleLength : kMaxFixedColumnsLength;
   const std::size_t max_length =
       kNumbers * ((format.shortest ? kMaxShortestLength : kMaxNumberLength) + 1) + 1;

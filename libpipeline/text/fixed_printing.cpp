@@ -10,9 +10,11 @@
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/vertex_lines.h"
 
+// Of more than four lanes, nine numbers would leave most empty.
+#define PIPELINE_MAX_LANES 4
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/text/fixed_printing.cpp"
-#include "libpipeline/numbers/vector_targets.h"
+#include "libpipeline/numbers/lanes.h"
 
 PIPELINE_BEGIN_KERNELS();
 
@@ -25,8 +27,6 @@ FixedTextPart write_columns(const ConstFixedColumns&, std::size_t, int, char*) {
 }
 
 #else
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 // The sixteen digits of a number.
 constexpr hn::FixedTag<std::uint8_t, 16> kSixteen;
@@ -62,15 +62,12 @@ alignas(16) constexpr std::array<std::uint8_t, 16> kPointAndZeros = {'.', '0', '
                                                                      '0', '0', '0', '0', '0', '0', '0', '0'};
 
 // Two or four numbers at a time.
-constexpr hn::CappedTag<double, 4> kDoubles;
 constexpr hn::RebindToUnsigned<decltype(kDoubles)> kWords;
 constexpr hn::Repartition<std::uint32_t, decltype(kDoubles)> kFours;
 constexpr hn::Repartition<std::uint16_t, decltype(kDoubles)> kPairs;
 constexpr hn::Repartition<std::uint8_t, decltype(kDoubles)> kBytes;
-using Doubles = hn::Vec<decltype(kDoubles)>;
 using Words = hn::Vec<decltype(kWords)>;
-using Mask = hn::Mask<decltype(kDoubles)>;
-constexpr std::size_t kLanes = hn::MaxLanes(kDoubles), kBlocks = kLanes / 2;
+constexpr std::size_t kBlocks = kLanes / 2;
 
 /// Like sixteen_digits in eight_digits.h, for numbers below 10^8, two in each block of sixteen bytes.
 PIPELINE_INLINE auto digits_of(Words eights) {
@@ -99,7 +96,7 @@ enum class Rounding {
 /// Positive numbers in units of the last decimal; clears those in `good` that it cannot round.
 template <Rounding rounding>
 PIPELINE_INLINE Doubles units_of(Doubles sizes, Doubles scale, Mask& good) {
-  const auto rounder = hn::Set(kDoubles, kWholeRounder);
+  const auto rounder = all(kWholeRounder);
   const auto scaled = sizes * scale;
   auto units = (scaled + rounder) - rounder;
   const auto offset = scaled - units;
@@ -107,19 +104,18 @@ PIPELINE_INLINE Doubles units_of(Doubles sizes, Doubles scale, Mask& good) {
     // If the product is a tie, it may have been rounded to one; the rounding error tells which side it came
     // from.
     const auto lost = hn::MulSub(sizes, scale, scaled);
-    const auto is_tie = hn::Eq(hn::Abs(offset), hn::Set(kDoubles, 0.5));
+    const auto is_tie = hn::Eq(hn::Abs(offset), all(0.5));
     units = units +
             hn::IfThenElseZero(hn::And(is_tie, hn::Gt(lost * offset, hn::Zero(kDoubles))), offset + offset);
   } else if constexpr (rounding == Rounding::unless_near_tie) {
     // The same test as DecimalUnits::is_certain.
-    const auto reach = hn::Abs(offset) + scaled * hn::Set(kDoubles, kProductError);
-    good = hn::And(good, hn::Lt(reach, hn::Set(kDoubles, kBelowHalf)));
+    const auto reach = hn::Abs(offset) + scaled * all(kProductError);
+    good = hn::And(good, hn::Lt(reach, all(kBelowHalf)));
   } else {
-    const auto is_plain =
-        hn::And(hn::Ge(sizes, hn::Set(kDoubles, 0.001)), hn::Lt(sizes, hn::Set(kDoubles, 1e5)));
+    const auto is_plain = hn::And(hn::Ge(sizes, all(0.001)), hn::Lt(sizes, all(1e5)));
     good = hn::And(good, hn::And(is_plain, hn::Eq(units / scale, sizes)));
   }
-  good = hn::And(good, hn::Lt(units, hn::Set(kDoubles, kUnitsLimit)));
+  good = hn::And(good, hn::Lt(units, all(kUnitsLimit)));
   return units;
 }
 
@@ -135,8 +131,8 @@ class Texts {
 #pragma GCC unroll 5
     for (std::size_t step = 0; step < kSteps; ++step) {
       const std::size_t i = step * kLanes;
-      const auto values = i + kLanes <= number_count ? hn::LoadU(kDoubles, p + i) : hn::Set(kDoubles, p[i]);
-      add(step, values, units_of<rounding>(hn::Abs(values), hn::Set(kDoubles, scale), good));
+      const auto values = i + kLanes <= number_count ? hn::LoadU(kDoubles, p + i) : all(p[i]);
+      add(step, values, units_of<rounding>(hn::Abs(values), all(scale), good));
     }
     return hn::AllTrue(kDoubles, good);
   }
@@ -163,22 +159,20 @@ class Texts {
   static constexpr std::size_t kSteps = (number_count + kLanes - 1) / kLanes;
 
   PIPELINE_INLINE void add(std::size_t step, Doubles values, Doubles units) {
-    const auto zero = hn::Zero(kDoubles), one = hn::Set(kDoubles, 1), eight_digits = hn::Set(kDoubles, 1e8);
+    const auto zero = hn::Zero(kDoubles), one = all(1), eight_digits = all(1e8);
     // units / 10^8, off by at most one; the exact remainder corrects it.
-    const auto quotient = hn::Floor(units * hn::Set(kDoubles, 1e-8));
+    const auto quotient = hn::Floor(units * all(1e-8));
     const auto rest = units - quotient * eight_digits;
     const auto correction =
         hn::IfThenElseZero(hn::Ge(rest, eight_digits), one) - hn::IfThenElseZero(hn::Lt(rest, zero), one);
     const auto first = word_of(quotient + correction), last = word_of(rest - correction * eight_digits);
-    std::array<std::uint8_t, 8> below_zero;
-    hn::StoreMaskBits(kDoubles, hn::And(hn::Lt(values, zero), hn::Gt(units, zero)), below_zero.data());
-    negative_ |= static_cast<unsigned>(below_zero[0]) << (step * kLanes);
+    negative_ |= bits_of(hn::And(hn::Lt(values, zero), hn::Gt(units, zero))) << (step * kLanes);
     store(2 * step, digits_of(hn::InterleaveLower(kWords, first, last)));
     store(2 * step + 1, digits_of(hn::InterleaveUpper(kWords, first, last)));
   }
   /// Of whole numbers from 0 to 2^52.
   PIPELINE_INLINE static Words word_of(Doubles whole) {
-    const auto shift = hn::Set(kDoubles, 0x1p52);
+    const auto shift = all(0x1p52);
     return hn::Xor(hn::BitCast(kWords, whole + shift), hn::BitCast(kWords, shift));
   }
   /// '0' is added to all digits but the first, which is 0 and becomes the point.
@@ -204,8 +198,8 @@ class Texts {
 template <std::size_t group_count>
 struct TriangleTexts {
   std::array<Texts<9>, group_count> groups;
-  std::array<Texts<4>, kMaxSingles> singles;
-  std::array<bool, kMaxSingles> has_short;  // of singles, where they are set
+  Texts<4> w;
+  bool has_short_w = false;  // whether that is set
 };
 
 /// Prints a vertex line.
@@ -227,11 +221,11 @@ PIPELINE_INLINE char* write_line(char* out, const PrintedForm& form, const Const
       if (group == kRepeatedGroup && vertex == 2)
         last.set(columns.groups[group][triangle][vertex], begin, out);
     }
-    if (may_have_more && columns.has_single(group))
-      out = write_singles(out, columns, group, [&](char* p, std::size_t i) HWY_ATTR {
-        return texts.has_short[i] ? texts.singles[i].write_short(p, form, vertex)
-                                  : print_shortest(p, columns.singles[i].numbers[triangle][vertex]);
-      });
+    if (may_have_more && group == 0 && !columns.w.empty()) {
+      out = texts.has_short_w ? texts.w.write_short(out, form, vertex)
+                              : print_shortest(out, columns.w[triangle][vertex]);
+      *out++ = ' ';
+    }
   }
   return write_line_end(out, may_have_more ? columns.materials : std::span<const std::uint32_t>(), triangle);
 }
@@ -253,11 +247,9 @@ FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, i
       if (!(repeats && group == kRepeatedGroup) &&
           !texts.groups[group].template set<rounding>(&columns.groups[group][i][0].x, scale))
         return part;
-    for (std::size_t k = 0; may_have_more && k < kMaxSingles; ++k) {
-      if (columns.singles[k].numbers.empty()) continue;
-      const auto& [a, b, c] = columns.singles[k].numbers[i];
-      texts.has_short[k] =
-          texts.singles[k].template set<Rounding::of_short>(std::array{a, b, c, c}.data(), scale);
+    if (may_have_more && !columns.w.empty()) {
+      const auto& [a, b, c] = columns.w[i];
+      texts.has_short_w = texts.w.template set<Rounding::of_short>(std::array{a, b, c, c}.data(), scale);
     }
 #pragma GCC unroll 3
     for (std::size_t vertex = 0; vertex < 3; ++vertex)

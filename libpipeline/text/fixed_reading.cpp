@@ -2,7 +2,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include "libpipeline/numbers/decimal_units.h"
@@ -14,7 +13,7 @@
 #define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/text/fixed_reading.cpp"
-#include "libpipeline/numbers/vector_targets.h"
+#include "libpipeline/numbers/lanes.h"
 
 PIPELINE_BEGIN_KERNELS();
 
@@ -28,8 +27,6 @@ FixedTextPart read_groups(std::string_view, TriangleFrame, const GroupDecimals&,
 }
 
 #else
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::FixedTag<std::uint8_t, 16> kSixteen;
 constexpr hn::FixedTag<std::uint16_t, 8> kPairs;
@@ -96,16 +93,6 @@ HWY_INLINE hn::Vec<decltype(kPairs)> join_digits(hn::Vec<decltype(kSixteen)> dig
 #endif
 }
 
-/// A bit for each of sixteen bytes.
-template <typename Mask>
-HWY_INLINE unsigned bits_of(Mask mask) {
-  std::array<std::uint8_t, 8> bytes;
-  hn::StoreMaskBits(kSixteen, mask, bytes.data());
-  std::uint16_t bits = 0;
-  std::memcpy(&bits, bytes.data(), sizeof bits);
-  return bits;
-}
-
 /// The index of the first byte with a bit, or 16.
 HWY_INLINE std::size_t first_of(unsigned bits) {
   return static_cast<std::size_t>(std::countr_zero(bits | 0x10000u));
@@ -123,17 +110,16 @@ HWY_INLINE double number_of(hn::Vec<decltype(kSixteen)> digits, double units_per
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign);
 }
 
-/// Reads a single number and the separator after it; null if the form differs. Of those with at most eight
-/// digits before the point, and fifteen in all, any count of decimals takes the same time.
-HWY_INLINE const char* read_short(const char* p, char separator, double& value) {
+/// Reads w and the separator after it; null if the form differs. With at most eight digits before the point,
+/// and fifteen in all, any count of decimals takes the same time.
+HWY_INLINE const char* read_short_w(const char* p, char separator, double& value) {
   const bool is_negative = *p == '-';
   const char* const first = p + (is_negative ? 1 : 0);
   const auto less_zeros =
       hn::Sub(hn::LoadU(kSixteen, reinterpret_cast<const std::uint8_t*>(first)), hn::Set(kSixteen, '0'));
-  const unsigned others = bits_of(hn::Gt(less_zeros, hn::Set(kSixteen, 9)));
+  const unsigned others = bits_of(kSixteen, hn::Gt(less_zeros, hn::Set(kSixteen, 9)));
   const std::size_t count = first_of(others), end = first_of(others & (others - 1));
-  if (count - 1 >= 8 || first[count] != '.' || first[end] != separator)
-    return read_single(p, separator, value);
+  if (count - 1 >= 8 || first[count] != '.' || first[end] != separator) return read_w(p, separator, value);
   const std::size_t decimals = end - count - 1;
   const auto shuffle = hn::Load(kSixteen, kDigitShuffles[decimals].rows[count].data());
   value = number_of(hn::TableLookupBytesOr0(less_zeros, shuffle), kPowersOfTen[decimals], is_negative);
@@ -147,11 +133,10 @@ class ColumnReader {
       : forms_([&]<std::size_t... group>(std::index_sequence<group...>) {
           return std::array{ReadForm(decimals[group])...};
         }(std::make_index_sequence<group_count>())),
-        columns_(columns) {
+        columns_(columns),
+        has_w_(!columns.w.empty()),
+        has_material_(!columns.materials.empty()) {
     have_one_digit_.fill(true);
-#pragma GCC unroll 3
-    for (std::size_t group = 0; may_have_more && group < group_count; ++group)
-      separators_[group] = columns.separators_after(group, group + 1 == group_count);
   }
 
   /// Reads the vertex lines of a triangle; null if the form differs.
@@ -164,8 +149,8 @@ class ColumnReader {
 #pragma GCC unroll 3
       for (std::size_t group = 0; group < group_count; ++group) {
         Vec3& numbers = columns_.groups[group][triangle][vertex];
-        const char end_of_groups = group + 1 == group_count ? '\n' : ' ';
-        const char separator = may_have_more ? separators_[group][0] : end_of_groups;
+        const bool is_last = group + 1 == group_count, has_w = may_have_more && group == 0 && has_w_;
+        const char separator = is_last && !(may_have_more && has_material_) ? '\n' : ' ';
         if (group == kRepeatedGroup && last_.is_at(p)) {
           numbers = last_.numbers();
           p += last_.length();
@@ -173,18 +158,13 @@ class ColumnReader {
           const char* const begin = p;
           p = read_number(p, group, ' ', numbers.x);
           p = read_number(p, group, ' ', numbers.y);
-          p = read_number(p, group, separator, numbers.z);
+          p = read_number(p, group, has_w ? ' ' : separator, numbers.z);
           if (group == kRepeatedGroup) last_.set(begin, p, numbers);
         }
-#pragma GCC unroll 2
-        for (std::size_t i = 0; may_have_more && i < kMaxSingles; ++i) {
-          if (group > kLastGroupBefore[i]) continue;
-          if (const char after = separators_[group][1 + i]; after != 0)
-            if ((p = read_short(p, after, columns_.singles[i].numbers[triangle][vertex])) == nullptr)
-              return nullptr;
-        }
+        if (has_w && (p = read_short_w(p, separator, columns_.w[triangle][vertex])) == nullptr)
+          return nullptr;
       }
-      if (may_have_more && !columns_.materials.empty() &&
+      if (may_have_more && has_material_ &&
           (p = read_material(p, vertex, columns_.materials[triangle])) == nullptr)
         return nullptr;
     }
@@ -207,7 +187,7 @@ class ColumnReader {
     const auto text = hn::LoadU(kSixteen, reinterpret_cast<const std::uint8_t*>(p));
     std::size_t count = 1;
     if (!have_one_digit_[group] || p[1] != point) {
-      count = first_of(bits_of(hn::Eq(text, hn::Set(kSixteen, static_cast<std::uint8_t>(point)))));
+      count = first_of(bits_of(kSixteen, hn::Eq(text, hn::Set(kSixteen, static_cast<std::uint8_t>(point)))));
       counts_[group] |= count;
     }
     const auto shuffle = hn::Load(kSixteen, form.shuffles.rows[count].data());
@@ -220,7 +200,7 @@ class ColumnReader {
 
   const std::array<ReadForm, group_count> forms_;  // of the groups
   const FixedColumns& columns_;
-  std::array<std::array<char, 1 + kMaxSingles>, group_count> separators_;
+  const bool has_w_, has_material_;
   LastRead last_;
   /// Whether the numbers of each group have one digit before the point. Where the last ones had, a branch
   /// lets the processor go ahead to the next number, whose beginning would otherwise depend on this one;

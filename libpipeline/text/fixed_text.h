@@ -59,32 +59,17 @@ enum class TriangleFrame {
 
 /// The position, and attributes of three numbers.
 constexpr std::size_t kMaxGroups = 1 + attribute_count<Vec3>(kAttributes);
-/// Attributes of one number.
-constexpr std::size_t kMaxSingles = attribute_count<double>(kAttributes);
-/// The last group that each of these may come after.
-constexpr auto kLastGroupBefore = [] {
-  std::array<std::size_t, kMaxSingles> last{};
-  std::size_t group = 0, single = 0;
-  for_each_attribute([&]<typename Value>(const VertexAttribute<Value>&) {
-    if constexpr (std::is_same_v<Value, Vec3>)
-      ++group;
-    else
-      last[single++] = group;
-  });
-  return last;
-}();
+// Besides them there is w, after the position, and the material.
+static_assert(std::is_same_v<decltype(std::get<0>(kAttributes)), const VertexAttribute<double>&>);
+static_assert(attribute_count<double>(kAttributes) == 1);
 
-/// The numbers on vertex lines, by column: groups of three numbers in fixed form (the position first), single
-/// numbers in any form, which come after a group, and last the material, a whole number that the lines of a
-/// triangle share. All arrays have an entry per triangle; those of columns that are not there are empty.
+/// The numbers on vertex lines, by column: groups of three numbers in fixed form (the position first), w in
+/// any form after the position, and last the material, a whole number that the lines of a triangle share. All
+/// arrays have an entry per triangle; those of columns that are not there are empty.
 template <typename Numbers, typename OneNumber, typename Whole>
 struct FixedColumnsOf {
-  struct Single {
-    std::span<OneNumber> numbers;
-    std::size_t after = kMaxGroups;  // the index of its group
-  };
   std::array<std::span<Numbers>, kMaxGroups> groups;
-  std::array<Single, kMaxSingles> singles = {};
+  std::span<OneNumber> w = {};
   std::span<Whole> materials = {};
 
   [[nodiscard]] std::size_t triangle_count() const { return groups[0].size(); }
@@ -93,27 +78,12 @@ struct FixedColumnsOf {
     while (count < kMaxGroups && !groups[count].empty()) ++count;
     return count;
   }
-  /// Whether one of the singles from `first` on comes after this group.
-  [[nodiscard]] bool has_single(std::size_t group, std::size_t first = 0) const {
-    for (std::size_t i = first; i < kMaxSingles; ++i)
-      if (group <= kLastGroupBefore[i] && singles[i].after == group) return true;
-    return false;
-  }
-  /// What follows a group, and each single number after it, 0 for those that do not come after it.
-  [[nodiscard]] std::array<char, 1 + kMaxSingles> separators_after(std::size_t group, bool is_last) const {
-    std::array<char, 1 + kMaxSingles> separators{};
-    char next = is_last && materials.empty() ? '\n' : ' ';
-    for (std::size_t i = kMaxSingles; i-- > 0;)
-      if (group <= kLastGroupBefore[i] && singles[i].after == group)
-        separators[1 + i] = std::exchange(next, ' ');
-    separators[0] = next;
-    return separators;
+  /// The character after a group and, of the position, w.
+  [[nodiscard]] char separator_after(std::size_t group) const {
+    return group + 1 == group_count() && materials.empty() ? '\n' : ' ';
   }
   /// Whether there are groups alone.
-  [[nodiscard]] bool has_groups_alone() const {
-    const auto is_there = [](const Single& single) { return !single.numbers.empty(); };
-    return materials.empty() && std::ranges::none_of(singles, is_there);
-  }
+  [[nodiscard]] bool has_groups_alone() const { return w.empty() && materials.empty(); }
   /// Which of the kernels' loops has these columns, by groups and whether there are others.
   [[nodiscard]] std::size_t form() const { return 2 * (group_count() - 1) + (has_groups_alone() ? 0 : 1); }
 };
@@ -127,16 +97,12 @@ auto fixed_columns(Positions& positions, Attributes& attributes, const Attribute
   std::conditional_t<std::is_const_v<Positions>, ConstFixedColumns, FixedColumns> columns;
   const auto part = [&](auto& array) { return std::span(array).subspan(begin, count); };
   columns.groups[0] = part(positions);
-  std::size_t group = 0, single = 0;
+  std::size_t group = 0;
   for_each_attribute([&]<typename Value>(const VertexAttribute<Value>& attribute) {
-    const bool is_there = names.*attribute.is_there;
-    if constexpr (std::is_same_v<Value, Vec3>) {
-      if (is_there) columns.groups[++group] = part(attributes.*attribute.array);
-    } else {
-      if (is_there) columns.singles[single] = {part(attributes.*attribute.array), group};
-      ++single;
-    }
+    if constexpr (std::is_same_v<Value, Vec3>)
+      if (names.*attribute.is_there) columns.groups[++group] = part(attributes.*attribute.array);
   });
+  if (names.w) columns.w = part(attributes.w);
   if (names.material) columns.materials = part(attributes.materials);
   return columns;
 }
@@ -146,16 +112,16 @@ using GroupDecimals = std::array<int, kMaxGroups>;
 
 /// Reads triangles with these columns from the beginning of `text` until one is not in fixed form, with these
 /// decimals and at most eight digits before the point, the columns are full, or the text ends. Every number
-/// becomes the nearest double, as from_chars returns it. Of singles it reads those that read_decimal_number
-/// reads, of materials those of at most eight digits. Without vectors, it reads nothing.
+/// becomes the nearest double, as from_chars returns it. Of w it reads what read_decimal_number reads, of
+/// materials those of at most eight digits. Without vectors, it reads nothing.
 using ReadFixedColumns = FixedTextPart (*)(std::string_view text, TriangleFrame frame,
                                            const GroupDecimals& decimals, const FixedColumns& columns);
 /// One for each form of columns, by the kernel in use.
 using FixedReaders = std::array<ReadFixedColumns, 2 * kMaxGroups>;
 const FixedReaders& fixed_readers();
 
-/// Prints triangles in fixed form, from `first` on, with the same decimals in all groups, and singles in
-/// their shortest form. Stops before a triangle with a number that has more than 15 digits, or is so close to
+/// Prints triangles in fixed form, from `first` on, with the same decimals in all groups, and w in its
+/// shortest form. Stops before a triangle with a number that has more than 15 digits, or is so close to
 /// a tie that only exact arithmetic can round it (some kernels have it). `out` must have room for
 /// kMaxFixedTriangleLength or, with more columns, kMaxFixedColumnsLength characters per triangle, and
 /// kFixedTextSlack more. The scalar kernel prints nothing.
@@ -163,9 +129,8 @@ using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, st
                                             char* out);
 const KernelTable<WriteFixedColumns>& fixed_printing_kernels();
 
-/// The groups of numbers; three times the singles and a material with a separator each.
-constexpr std::size_t kMaxFixedColumnsLength =
-    kMaxGroups * kMaxFixedTriangleLength + 3 * (kMaxSingles * 26 + 11);
+/// The groups of numbers; three times w and a material with a separator each.
+constexpr std::size_t kMaxFixedColumnsLength = kMaxGroups * kMaxFixedTriangleLength + 3 * (26 + 11);
 
 // The codec of vertex lines. Besides the fixed form it has a fast path for numbers that have each a count of
 // decimals of their own, as `--digits exact` and people write them: without exponents, and with single blanks
@@ -180,7 +145,7 @@ using DecimalMarks = std::uint16_t;
 FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
                            std::span<DecimalMarks> marks);
 
-/// Prints triangles in this format, singles always in their shortest form: by the fixed printer, or number by
+/// Prints triangles in this format, w always in its shortest form: by the fixed printer, or number by
 /// number where it stops. `low_part`, which may be null, is what the doubles of each triangle's position lack
 /// (TriangleBatch).
 void write_columns(const ConstFixedColumns& columns, const Triangle* low_part, NumberFormat format,

@@ -100,8 +100,8 @@ class LastPrinted {
   int miss_count_ = 0;  // in a row
 };
 
-/// Reads a single number and the separator after it; null if the form differs.
-inline const char* read_single(const char* p, char separator, double& value) {
+/// Reads a number and the separator after it; null if the form differs.
+inline const char* read_w(const char* p, char separator, double& value) {
   DecimalNumber number;
   p = read_decimal_number(p, number);
   value = number.value;
@@ -116,17 +116,6 @@ inline const char* read_material(const char* p, std::size_t vertex, std::uint32_
   const auto number = static_cast<std::uint32_t>(join_leading_digits(less_zeros, count));
   if (vertex == 0) material = number;
   return number == material ? p + count + 1 : nullptr;
-}
-
-/// Prints the single numbers after a group by print(out, which), and a blank after each.
-template <typename Print>
-char* write_singles(char* out, const ConstFixedColumns& columns, std::size_t group, const Print& print) {
-  for (std::size_t i = 0; i < kMaxSingles; ++i) {
-    if (columns.singles[i].after != group) continue;
-    out = print(out, i);
-    *out++ = ' ';
-  }
-  return out;
 }
 
 /// Ends a line of which a blank was printed last: with its triangle's material, if there is such a column.

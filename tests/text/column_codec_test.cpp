@@ -26,9 +26,7 @@ struct Columns {
   /// As the codec takes them.
   template <typename Of, typename Arrays>
   static Of of(Arrays& arrays) {
-    return {{arrays.groups[0], arrays.groups[1], arrays.groups[2]},
-            {{{arrays.w, arrays.w.empty() ? kMaxGroups : 0}}},
-            arrays.materials};
+    return {{arrays.groups[0], arrays.groups[1], arrays.groups[2]}, arrays.w, arrays.materials};
   }
   /// Calls `visit(number)` for every number of a triangle, in the order of the text; then `end_line()`.
   template <typename Visit, typename EndLine>

@@ -391,12 +391,8 @@ struct ColumnArrays {
     for (std::size_t group = 0; group < group_count; ++group) groups[group].resize(triangle_count);
     if (has_w) w.resize(triangle_count);
   }
-  [[nodiscard]] FixedColumns columns() {
-    return {{groups[0], groups[1], groups[2]}, {{{w, w.empty() ? kMaxGroups : 0}}}};
-  }
-  [[nodiscard]] ConstFixedColumns columns() const {
-    return {{groups[0], groups[1], groups[2]}, {{{w, w.empty() ? kMaxGroups : 0}}}};
-  }
+  [[nodiscard]] FixedColumns columns() { return {{groups[0], groups[1], groups[2]}, w}; }
+  [[nodiscard]] ConstFixedColumns columns() const { return {{groups[0], groups[1], groups[2]}, w}; }
 };
 
 std::string scene_frame(const std::string& lines) {
