@@ -87,10 +87,9 @@ char* print_with_decimals(char* out, double value, Decimal decimal) {
   return print_whole(out, digits * kWholePowersOfTen[static_cast<std::size_t>(exponent)]);
 }
 
-/// Prints hi + lo, in units of its last decimal, as a whole number of at most 62 bits; null where it has
-/// more, or may lie within 2^-20 of a tie. Inlined, it made every number take longer.
+/// As print_scaled, of hi + lo, of units with at most 62 bits; null where there are more, or hi + lo may lie
+/// within 2^-20 of a tie. Inlined, it made every number take longer.
 [[gnu::noinline]] char* print_scaled_sum(char* out, double hi, double lo, int decimals) {
-  constexpr std::int64_t kMaxBeforePoint = 10'000'000'000'000'000;  // of print_before_point
   const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
   const double product = hi * scale;
   if (!(std::fabs(product) < 0x1p62)) return nullptr;
@@ -101,22 +100,7 @@ char* print_with_decimals(char* out, double value, Decimal decimal) {
   const double whole_rest = std::nearbyint(rest);
   if (!(std::fabs(rest - whole_rest) < 0.5 - 0x1p-20)) return nullptr;
   const auto units = static_cast<std::int64_t>(whole_product) + static_cast<std::int64_t>(whole_rest);
-  const std::int64_t unit = static_cast<std::int64_t>(kWholePowersOfTen[static_cast<std::size_t>(decimals)]);
-  const std::int64_t size = std::abs(units);
-  const std::int64_t before = size / unit;
-  if (before >= kMaxBeforePoint) return nullptr;
-  out = print_before_point(print_sign(out, units < 0), static_cast<std::uint64_t>(before));
-  if (decimals == 0) return out;
-  *out++ = '.';
-  return print_digits(out, split_sixteen(static_cast<std::uint64_t>(size - before * unit)), decimals);
-}
-
-char* without_sign_of_zero(char* first, char* last) {
-  if (*first != '-') return last;
-  const bool is_zero = std::all_of(first + 1, last, [](char c) { return c == '0' || c == '.'; });
-  if (!is_zero) return last;
-  std::copy(first + 1, last, first);
-  return last - 1;
+  return print_units(out, units < 0, static_cast<std::uint64_t>(std::abs(units)), decimals);
 }
 
 }  // namespace
@@ -167,14 +151,11 @@ char* print_shortest_float(char* out, float value) {
 char* print_number(char* out, double hi, double lo, NumberFormat format) {
   assert(std::isfinite(hi) && std::isfinite(lo));
   if (format.shortest) return print_shortest(out, hi);
-  if (lo == 0 && format.decimals <= kMaxScaledDecimals)
-    if (char* const end = print_scaled(out, hi, format.decimals)) return end;
-  if (format.decimals <= kMaxScaledDecimals)
+  if (format.decimals <= kMaxScaledDecimals) {
+    if (char* const end = lo == 0 ? print_scaled(out, hi, format.decimals) : nullptr) return end;
     if (char* const end = print_scaled_sum(out, hi, lo, format.decimals)) return end;
-  char* const end =
-      lo == 0 ? std::to_chars(out, out + kMaxNumberLength, hi, std::chars_format::fixed, format.decimals).ptr
-              : print_exact_sum(out, hi, lo, format.decimals);
-  return without_sign_of_zero(out, end);
+  }
+  return print_exact_sum(out, hi, lo, format.decimals);
 }
 
 std::string shortest_text(double value) {

@@ -14,7 +14,7 @@ namespace pipeline {
 
 // Whole numbers and scaled numbers as text.
 
-/// Prints a number below 10^16; 16 characters may be written.
+/// Prints a number; 8 characters after its first digits may be written.
 char* print_whole(char* out, std::uint64_t number);
 
 /// Prints a number below 10^16 with exactly `count` digits, at most 16 and at least as many as it has; 16
@@ -58,30 +58,28 @@ inline char* print_six_digits(char* out, std::uint32_t number) {
 
 constexpr int kMaxScaledDecimals = 15;
 
-/// The fast path of print_number for a fixed count of decimals, at most kMaxScaledDecimals: prints the scaled
-/// number as a whole number, of at most 16 digits. Null where that has more than 51 bits, or lies so close to
-/// a tie that the rounding of the product matters. 16 characters after the end may be overwritten. Inlined,
-/// so that a constant count of decimals costs no look-up.
-[[gnu::always_inline]] inline char* print_scaled(char* out, double value, int decimals) {
-  const auto n = static_cast<std::size_t>(decimals);
-  const DecimalUnits rounded(value, kPowersOfTen[n]);
-  if (!rounded.is_certain()) return nullptr;
-  // Through signed numbers, which processors convert.
-  const auto to_whole = [](double x) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(x)); };
-  const std::uint64_t units = to_whole(rounded.whole);
-  out = print_sign(out, (value < 0) & (units != 0));
-  // Truncation instead of a division: exact unless the decimals were rounded up to the next whole number.
-  std::uint64_t whole = to_whole(std::fabs(value));
-  std::uint64_t behind = units - whole * kWholePowersOfTen[n];
-  if (behind >= kWholePowersOfTen[n]) {
-    ++whole;
-    behind -= kWholePowersOfTen[n];
-  }
-  out = print_before_point(out, whole);
+/// Prints a whole number of units of its last decimal. Inlined, so that a constant count of decimals costs no
+/// division and no look-up.
+[[gnu::always_inline]] inline char* print_units(char* out, bool is_negative, std::uint64_t units,
+                                                int decimals) {
+  const std::uint64_t units_per_one = kWholePowersOfTen[static_cast<std::size_t>(decimals)];
+  const std::uint64_t whole = units / units_per_one, rest = units - whole * units_per_one;
+  out = print_before_point(print_sign(out, is_negative & (units != 0)), whole);
   if (decimals == 0) return out;
   *out++ = '.';
-  if (decimals == 6) return print_six_digits(out, static_cast<std::uint32_t>(behind));
-  return print_digits(out, split_sixteen(behind), decimals);
+  if (decimals == 6) return print_six_digits(out, static_cast<std::uint32_t>(rest));
+  return print_digits(out, split_sixteen(rest), decimals);
+}
+
+/// The fast path of print_number for at most kMaxScaledDecimals: null where the number of units has more than
+/// 51 bits, or lies so close to a tie that the rounding of the product matters. 16 characters after the end
+/// may be overwritten.
+[[gnu::always_inline]] inline char* print_scaled(char* out, double value, int decimals) {
+  const DecimalUnits rounded(value, kPowersOfTen[static_cast<std::size_t>(decimals)]);
+  if (!rounded.is_certain()) return nullptr;
+  // Through a signed number, which processors convert.
+  const auto units = static_cast<std::uint64_t>(static_cast<std::int64_t>(rounded.whole));
+  return print_units(out, value < 0, units, decimals);
 }
 
 }  // namespace pipeline

@@ -4,9 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
-
-#include "libpipeline/text/eight_digits.h"
 
 namespace pipeline {
 namespace {
@@ -19,37 +16,30 @@ int exact_decimals(double value) {
   return value == 0 ? 0 : std::clamp(52 - std::ilogb(value), 0, kMaxExactDecimals);
 }
 
-/// The exact digits of a number's absolute value, without the point; eight zeros precede them to complete a
-/// block.
+/// The exact digits of a number's absolute value, without the point; a zero precedes them.
 struct ExactDigits {
-  static constexpr std::size_t kZeros = 8;
-  std::array<char, kZeros + 309 + 1 + kMaxExactDecimals> characters;
+  std::array<char, 1 + 309 + 1 + kMaxExactDecimals> characters;
   char* end;
 
   /// `decimals` is at least 1 and makes the number exact.
   ExactDigits(double value, int decimals) {
-    std::fill_n(characters.data(), kZeros, '0');
+    characters[0] = '0';
     char* const limit = characters.data() + characters.size();
-    end = std::to_chars(first(), limit, std::fabs(value), std::chars_format::fixed, decimals).ptr;
+    end =
+        std::to_chars(characters.data() + 1, limit, std::fabs(value), std::chars_format::fixed, decimals).ptr;
     end = std::copy(end - decimals, end, end - decimals - 1);
   }
-  char* first() { return characters.data() + kZeros; }
 };
 
 /// a = |a + sign * b|, where both have the same count of decimals and b is not the larger one.
-void add(ExactDigits& a, ExactDigits& b, int sign) {
-  constexpr std::int64_t kEightDigits = 100'000'000;
-  const auto eight_at = [](const char* p) {
-    return static_cast<std::int64_t>(join_digits(load_eight(p) - kEightZeros));
-  };
+void add(ExactDigits& a, const ExactDigits& b, int sign) {
   int carry = 0;
   const char* from = b.end;
-  for (char* to = a.end; from > b.first() || carry != 0;) {
-    to -= 8;
-    const std::int64_t summand = from > b.first() ? eight_at(from -= 8) : 0;
-    const std::int64_t sum = eight_at(to) + sign * summand + carry;
-    carry = sum >= kEightDigits ? 1 : sum < 0 ? -1 : 0;
-    store_eight(to, split_digits(static_cast<std::uint32_t>(sum - carry * kEightDigits)) + kEightZeros);
+  for (char* to = a.end; from > b.characters.data() || carry != 0;) {
+    const int digit = from > b.characters.data() ? *--from - '0' : 0;
+    const int sum = (*--to - '0') + sign * digit + carry;
+    carry = sum > 9 ? 1 : sum < 0 ? -1 : 0;
+    *to = static_cast<char>('0' + sum - 10 * carry);
   }
 }
 
@@ -69,13 +59,13 @@ char* print_exact_sum(char* out, double hi, double lo, int decimals) {
   // At least one decimal more than requested, to round by.
   const int exact = std::max({exact_decimals(hi), exact_decimals(lo), decimals + 1});
   ExactDigits sum(hi, exact);
-  ExactDigits low(lo, exact);
-  add(sum, low, std::signbit(hi) == std::signbit(lo) ? 1 : -1);
+  if (lo != 0) add(sum, ExactDigits(lo, exact), std::signbit(hi) == std::signbit(lo) ? 1 : -1);
   char* const point = sum.end - exact;
   round_at(point + decimals, sum.end);
   const char* first = sum.characters.data();
   while (*first == '0' && first + 1 < point) ++first;
-  if (std::signbit(hi)) *out++ = '-';
+  const char* const end = point + decimals;
+  if (std::signbit(hi) && std::any_of(first, end, [](char c) { return c != '0'; })) *out++ = '-';
   out = std::copy(first, static_cast<const char*>(point), out);
   if (decimals > 0) *out++ = '.';
   return std::copy_n(point, decimals, out);

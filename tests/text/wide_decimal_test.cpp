@@ -21,18 +21,12 @@ std::string printed(DoubleDouble value, int decimals) {
   return {text, print_exact_sum(text, value.hi, value.lo, decimals)};
 }
 
-/// print_exact_sum keeps the sign of a negative zero; print_number removes it.
-std::string without_sign_of_zero(const std::string& text) {
-  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
-  return is_zero && text.front() == '-' ? text.substr(1) : text;
-}
-
 /// By either way: print_number takes a shorter one where 62 bits hold the units of the last decimal.
 void expect_exact(DoubleDouble value, int decimals) {
   const std::string exact = Exact(value).text(decimals);
   char text[kMaxNumberLength];
   const std::string number = {text, print_number(text, value.hi, value.lo, {decimals})};
-  ASSERT_TRUE(without_sign_of_zero(printed(value, decimals)) == exact && number == exact)
+  ASSERT_TRUE(printed(value, decimals) == exact && number == exact)
       << exact << " is printed " << printed(value, decimals) << " and " << number << ": " << std::hexfloat
       << value.hi << " + " << value.lo << ", " << decimals << " decimals";
 }
