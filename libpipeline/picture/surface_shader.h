@@ -62,8 +62,8 @@ class SurfaceShader {
   /// A triangle ready to be shaded.
   struct Surface {
     CornerWeights weights;
-    std::array<SurfacePoint, 3>
-        corners;  // in view space; the colors are lit already except for phong shading
+    // In view space; the colors are lit already except for phong shading.
+    std::array<SurfacePoint, 3> corners;
     std::uint32_t material = 0;
   };
 

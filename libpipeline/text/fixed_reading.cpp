@@ -63,8 +63,8 @@ constexpr auto kDigitShuffles = [] {
 /// How to read numbers with a count of decimals.
 struct ReadForm {
   const DigitShuffles& shuffles;
-  std::size_t
-      end;  // the separator's position after that of the point, which it takes if there are no decimals
+  // The separator's position after the point's, whose place it takes if there are no decimals.
+  std::size_t end;
   double units_per_one;
 
   explicit ReadForm(int decimals)

@@ -44,8 +44,8 @@ class CameraOptions {
   [[nodiscard]] CameraParameters camera(const CameraParameters& header, const Tool& tool) const;
 
  private:
-  std::map<std::string, std::vector<std::string>>
-      words_;  // by option name, as they stand on the command line
+  // By option name, as they stand on the command line.
+  std::map<std::string, std::vector<std::string>> words_;
   std::string scene_path_;
 };
 

@@ -116,8 +116,8 @@ class SeenDrawing {
 
   SampledVisible<Visible>& visible_;
   TriangleStore& store_;
-  std::vector<FragmentLog<CoverageRule, Depth>>
-      nearest_;  // at the centers and the samples; none without epsilon
+  // At the centers and the samples; none without epsilon.
+  std::vector<FragmentLog<CoverageRule, Depth>> nearest_;
   std::vector<std::uint8_t> winners_, needed_;
 };
 
