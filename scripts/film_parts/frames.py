@@ -10,20 +10,21 @@ from lib.rim.command import CommandFailure, shown
 from lib.rim.output_file import OutputFile
 from lib.rim.parallel import Job, run_parallel
 from lib.rim.work_folder import WorkFolder
+from lib.running.pipe_tools import STAGE_IN_SHELL
 
 FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999
 TEXTS = ("world.txt", "config.txt", "frames.txt", "draw.sh")
 # What draws the text of view; $projection is split into words.
-RASTERIZED = '"$bin/project" $projection | "$bin/zbuf" config.txt'
-TRACED = '"$bin/trace" config.txt $projection'
-# In a frame's folder: the stages on one camera. What they say is told with the frame's name; the picture
-# appears complete or not at all. $1 is the picture, $2 the camera's words, $3 the projection's; the rest are
-# the drawing stage's, DRAWING.
+RASTERIZED = "stage project $projection | stage zbuf config.txt --expect-framed"
+TRACED = "stage trace config.txt --expect-framed $projection"
+# In a frame's folder: the stages on one camera. Their messages get the frame's name; the picture appears
+# complete or not at all, as world.txt is framed. $1 is the picture, $2 the camera's words, $3 the
+# projection's; the rest are the drawing stage's, DRAWING.
 DRAW = r'''draw() {
   picture=$1 camera=$2 projection=$3; shift 3
   [ ! -e "$picture" ] || return 0
-  if { "$bin/view" $camera world.txt | DRAWING --z-buffer none "$@" --image "$picture"; } 2> "$picture.log"
+  if { stage view $camera world.txt | DRAWING --z-buffer none "$@" --image "$picture"; } 2> "$picture.log"
   then done=yes; else done=no failed=yes; fi
   sed "s|^|${picture%.png} ($camera): |" "$picture.log" >&2
   rm -f "$picture.log"
@@ -82,7 +83,7 @@ class Frames:
         missing = self.missing()
         if not missing:
             return
-        settings = f"bin={shlex.quote(str(self.tools.folder))} failed=\n"
+        settings = f"bin={shlex.quote(str(self.tools.folder))} failed=\n" + STAGE_IN_SHELL
         self.folder.write("draw.sh", (settings + DRAW.replace("DRAWING", self.drawing) + "\n").encode())
         groups = [missing[i:i + FRAMES_PER_JOB] for i in range(0, len(missing), FRAMES_PER_JOB)]
         jobs = [Job(self.job(group), gives=[self.names[i] for i in group]) for group in groups]

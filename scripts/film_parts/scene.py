@@ -18,7 +18,7 @@ class Scene:
     def __init__(self, tools, path, config):
         with tempfile.TemporaryDirectory() as folder:
             stats = pathlib.Path(folder, "stats.txt")
-            self.world = tools.output("model", "--stats", stats, path,
+            self.world = tools.output("model", "--framed", "--stats", stats, path,
                                       stdin=read_input(path) if path == "-" else b"")
             self.stats = dict(line.split() for line in stats.read_text().splitlines())
         self.config = config

@@ -1,5 +1,6 @@
 """The pipe for one frame after another: every stage's output is kept in memory, and a stage runs only if its
 input or its arguments have changed. Those stages run in parallel, as in a shell's pipe."""
+import contextlib
 import dataclasses
 import os
 import pathlib
@@ -8,8 +9,7 @@ import tempfile
 import threading
 
 from fly_parts.framing import Ball
-from lib.rim.child import cpu_seconds, finished
-from lib.running.pipe_tools import ToolFailure, opaque_background
+from lib.running.pipe_tools import opaque_background
 from lib.text.projection import line_of
 from lib.text.stage_text import header_of
 
@@ -52,39 +52,22 @@ class Stage:
     notes: tuple = ()       # on stderr
 
 
-class Run:
-    """A running tool. Its output goes into memory and, if the next stage runs as well, to that stage."""
+class Copy:
+    """Passes on what a stage writes, and keeps it as the `output`."""
 
-    def __init__(self, name, argv, stdin, has_next):
-        self.name = name
-        self.output = MemoryFile()
-        self.process = subprocess.Popen(argv, stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.to_next, sink = os.pipe() if has_next else (None, None)
-        self.copier = threading.Thread(target=self.copy, args=(sink,))
+    def __init__(self, source):
+        self.output, self.source = MemoryFile(), source
+        reader, self.sink = os.pipe()
+        self.reader = os.fdopen(reader)
+        self.copier = threading.Thread(target=self.copy)
         self.copier.start()
 
-    def copy(self, sink):
-        while data := os.read(self.process.stdout.fileno(), 1 << 20):
-            self.output.append(data)
-            try:
-                if sink is not None:
-                    write_all(sink, data)
-            except BrokenPipeError:  # the next stage has failed, and reports it itself
-                os.close(sink)
-                sink = None
-        if sink is not None:
-            os.close(sink)
-
-    def wait(self):
-        """Waits for its end, and keeps its notes. Returns its error message, None if it succeeded."""
-        message = self.process.stderr.read().decode(errors="replace").strip()
-        self.copier.join()
-        self.seconds = cpu_seconds(finished(self.process))
-        self.process.stdout.close()
-        self.process.stderr.close()
-        self.notes = tuple(line for line in message.splitlines() if ": note: " in line)
-        return (message
-                or f"{self.name}: exit status {self.process.returncode}") if self.process.returncode else None
+    def copy(self):
+        with self.source, os.fdopen(self.sink, "wb", 0) as sink:
+            while data := os.read(self.source.fileno(), 1 << 20):
+                self.output.append(data)
+                with contextlib.suppress(BrokenPipeError):  # the next stage has failed, and reports it itself
+                    write_all(sink.fileno(), data)
 
 
 class FramePipe:
@@ -102,7 +85,7 @@ class FramePipe:
         # The output does not depend on threads.
         self.threads = {"zbuf": ["--threads", "2"]
                         } if not is_traced and tools.has_option("zbuf", "--threads") else {}
-        self.run([("model", [str(scene)])], None)
+        self.run([("model", ["--framed", str(scene)])], None)
         self.light = self.first_light()
         self.opaque = opaque_background(
             self.stages["model"].output.read())  # the window has nothing behind it
@@ -114,25 +97,24 @@ class FramePipe:
 
     def run(self, calls, source):
         """Runs the stages, pairs of a name and its words, as a pipe. The first reads `source`."""
-        runs = []
-        stdin = source.rewound() if source else subprocess.DEVNULL
         # Two stages already share the processors.
         threads = self.threads if len(calls) == 1 else {}
-        for name, words in calls:
-            is_last = name == calls[-1][0]
-            run = Run(name, [self.tools.folder / name, *self.files(name), *threads.get(name, []), *words],
-                      stdin, not is_last)
-            if runs:
-                os.close(stdin)
-            stdin = run.to_next
-            runs.append(run)
-        # The first failing stage has the cause: later stages only pass it on.
-        failures = [message for message in [run.wait() for run in runs] if message]
-        if failures:
-            raise ToolFailure(failures[0])
-        for (name, words), run in zip(calls, runs):
-            self.stages[name] = Stage(words, source, run.output, run.seconds, run.notes)
-            source = run.output
+        copies, last = [], MemoryFile()
+
+        def tee(output):
+            copies.append(Copy(output))
+            return copies[-1].reader
+
+        try:
+            done = self.tools.pipe(
+                *([name, *self.files(name), *threads.get(name, []), *words] for name, words in calls),
+                stdin=source.rewound() if source else subprocess.DEVNULL, stdout=last.descriptor, tee=tee)
+        finally:
+            for copy in copies:
+                copy.copier.join()
+        for (name, words), tool, output in zip(calls, done, [*(copy.output for copy in copies), last]):
+            self.stages[name] = Stage(words, source, output, tool.seconds, tuple(tool.notes))
+            source = output
 
     def files(self, name):
         return [self.config, "--z-buffer", "/dev/null", "--image", self.image, *self.opaque

@@ -14,7 +14,6 @@ from fly_parts.scene import rewritten
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import read_input
 from lib.rim.output_file import write_file
-from lib.running.pipe_tools import ToolFailure
 from lib.showing.pictures import png, read_picture
 from lib.text.projection import window_of
 
@@ -301,7 +300,7 @@ class FlyWindow:
         try:
             project_words = self.settings.project_words() + self.settings.gap_words(self.pipe.projection)
             frame = self.pipe.frame(self.settings.camera.lines(), project_words, config, self.drawing_words())
-        except ToolFailure as error:
+        except CommandFailure as error:
             self.settings = self.before
             return self.say(str(error))
         self.photo.configure(data=frame)

@@ -4,8 +4,6 @@ import pathlib
 import shlex
 import subprocess
 
-from lib.rim.child import cpu_seconds, finished
-from lib.rim.command import CommandFailure
 from lib.running.owners import owners, write_marked
 from lib.running.pipe_tools import opaque_background
 from lib.showing.pictures import read_picture
@@ -156,26 +154,11 @@ class Pipe:
     def cpu_seconds(self, setting, scene=None):
         """The CPU time, user and system, of a run of the whole pipe, with the image and the depths as zbuf
         writes them."""
-        processes, source = [], None
         output = ["--image", self.folder / "out.bmp", self.config]
         files = {"model": [scene or self.scene], "zbuf": output, "trace": output}
         tools = TRACING_TOOLS if setting.is_traced else TOOLS
-        for tool in tools:
-            words = self.tools.command(tool, [*self.words(tool, setting), *files.get(tool, [])])
-            processes.append(
-                subprocess.Popen(words, stdin=source or subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                 stdout=subprocess.DEVNULL if tool == tools[-1] else subprocess.PIPE))
-            if source:
-                source.close()
-            source = processes[-1].stdout
-        seconds = 0.0
-        for tool, process in zip(tools, processes):
-            usage = finished(process)
-            if process.returncode:
-                raise CommandFailure(
-                    f"{tool} failed while it was timed, with {setting}: exit status {process.returncode}")
-            seconds += cpu_seconds(usage)
-        return seconds
+        calls = ([tool, *self.words(tool, setting), *files.get(tool, [])] for tool in tools)
+        return sum(done.seconds for done in self.tools.pipe(*calls, stdout=subprocess.DEVNULL))
 
     def command_line(self, setting, scene, config):
         """What to type for a setting; the files as the user named them."""

@@ -1,13 +1,15 @@
-"""The four tools, for scripts that run them: their location, and a single run."""
+"""The four tools, for scripts that run them: their location, a single run, and a pipe of them."""
 import contextlib
 import math
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
 
+from lib.rim.child import cpu_seconds, finished
 from lib.rim.command import CommandFailure
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
@@ -15,6 +17,11 @@ SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
 class ToolFailure(CommandFailure):
     """A tool ended with a status other than 0; the text is its message."""
+
+
+class ToolKilled(CommandFailure):
+    """A signal ended a tool. No ToolFailure, since it tells nothing of the input."""
+
 
 
 def default_folder():
@@ -53,11 +60,47 @@ def with_opaque_background(text):
     return TRANSPARENT.sub(rb"\1", text, count=1) if opaque_background(text) else text
 
 
+# What makes a part of a text refused, if a tool of the pipe is killed.
+FRAMING = {"model": ["--framed"], **dict.fromkeys(("join-seen", "zbuf", "trace"), ["--expect-framed"])}
+# A tool of a pipe in sh, which says if it is killed; the shell itself knows the status of the last one alone.
+STAGE_IN_SHELL = r'''
+stage() {
+  "$bin/$@" && return
+  set -- "$1" $?
+  [ "$2" -le 128 ] || [ "$2" = 141 ] || echo "$1: ended by SIG$(kill -l "$2")" >&2
+  return "$2"
+}
+'''
+
+
+class Done:
+    """A tool that has ended: its name, its status and the lines of its stderr."""
+
+    def __init__(self, name, status, stderr):
+        self.name, self.status = name, status
+        lines = stderr.decode(errors="replace").strip().splitlines()
+        self.notes = [line for line in lines if ": note: " in line]
+        self.reasons = [line for line in lines if ": note: " not in line]
+
+
+def name_of_signal(number):
+    return next((each.name for each in signal.Signals if each == number), f"signal {number}")
+
+
+def expect_success(*pipe):
+    """Raises the error of the first tool that was killed, else of the first that says why it failed: others
+    have only lost their input or their reader."""
+    failed = [tool for tool in pipe if tool.status != 0]
+    for tool in failed:
+        if tool.status < 0 and tool.status != -signal.SIGPIPE:
+            raise ToolKilled(f"{tool.name}: ended by {name_of_signal(-tool.status)}")
+    for tool in sorted(failed, key=lambda tool: not tool.reasons):
+        raise ToolFailure("\n".join(tool.reasons) or f"{tool.name}: exit status {tool.status}")
+
+
 def checked(done, tool):
-    """The finished run of a tool, or its message as a ToolFailure."""
-    if done.returncode != 0:
-        raise ToolFailure(
-            done.stderr.decode(errors="replace").strip() or f"{tool}: exit status {done.returncode}")
+    """The finished run of a tool, or its error (expect_success)."""
+    expect_success(Done(tool, done.returncode, done.stderr))
     return done
 
 
@@ -72,6 +115,15 @@ class Tools:
         if not os.access(self.folder / "zbuf", os.X_OK):
             raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
 
+    def expect(self, *tools, png=False):
+        """Raises the ToolFailure of a build that lacks a tool, or PNG where the last one is to write it."""
+        for tool in tools:
+            if not os.access(self.folder / tool, os.X_OK):
+                raise ToolFailure(f"no {tool} in {self.folder}")
+        if png:
+            words = ["--size", "1x1", "--z-buffer", "none", "--image", f"png:{os.devnull}"]
+            self.run(tool, *words, *["--ortho", *"010112"] * (tool == "trace"))
+
     def command(self, tool, words):
         return [self.folder / tool, *(self.one_thread if tool in ("zbuf", "trace") else []), *map(str, words)]
 
@@ -82,8 +134,32 @@ class Tools:
     def output(self, tool, *words, stdin=b""):
         return self.run(tool, *words, stdin=stdin).stdout
 
+    def pipe(self, *calls, stdin=subprocess.DEVNULL, stdout=None, tee=lambda source: source, cwd=None):
+        """Runs tools at once, each a list of its name and its words, which reads what the one before writes,
+        by way of `tee`; as Done, with their CPU `seconds`. More than one frame their text."""
+        self.expect(*(tool for tool, *_ in calls))
+        with contextlib.ExitStack() as stack:
+            runs, source = [], stdin
+            for tool, *words in calls:
+                framing = FRAMING.get(tool, []) if len(calls) > 1 else []
+                is_last, errors = len(runs) == len(calls) - 1, stack.enter_context(tempfile.TemporaryFile())
+                process = subprocess.Popen(self.command(tool, [*framing, *words]), cwd=cwd, stdin=source,
+                                           stdout=stdout if is_last else subprocess.PIPE, stderr=errors)
+                if runs:
+                    source.close()
+                source = None if is_last else tee(process.stdout)
+                runs.append((process, errors))
+            done = []
+            for (process, errors), (tool, *_) in zip(runs, calls):
+                seconds = cpu_seconds(finished(process))
+                errors.seek(0)
+                done.append(Done(tool, process.returncode, errors.read()))
+                done[-1].seconds = seconds
+        expect_success(*done)
+        return done
+
     def through(self, *runs, stdin=b""):
-        """What comes out of a pipe of tools, each a list of its name and its words."""
+        """What comes out of tools, each a list of its name and its words, one after the other."""
         for words in runs:
             stdin = self.output(*words, stdin=stdin)
         return stdin
