@@ -124,6 +124,11 @@ subprocess.run(["{BIN}/zbuf", *(sys.argv[1:] or ["config.txt"])], check=True)"""
         "exit status 8"),
     "writes-to-its-parent": (
         "zbuf; for f in /proc/$PPID/fd/*; do echo hacked > $f; done 2> /dev/null; true", "right|depths: "),
+    "forges-an-answer": (
+        "import ctypes, os, sys\nparent = os.pidfd_open(os.getppid())\nfor number in range(3, 40):\n"
+        "    taken = ctypes.CDLL(None).syscall(438, parent, number, 0)  # pidfd_getfd\n"
+        "    try: os.write(taken, (6).to_bytes(4, 'big') + b'[null]')\n    except OSError: pass\nsys.exit(7)",
+        "exit status 7"),
     "kills-all": ("kill -9 -1; zbuf", "right", None),
     "locks-its-folder": ("zbuf; mkdir x; touch x/y; chmod 0 x", "right"),
     "locks-deep-folders": (

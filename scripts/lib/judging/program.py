@@ -2,7 +2,6 @@
 import contextlib
 import os
 import re
-import resource
 import sys
 import tempfile
 
@@ -16,7 +15,6 @@ from lib.running.pipe_tools import OPAQUE_NOTE, opaque_background, with_opaque_b
 sys.path.append(str(place("tests/conformance", "share/pipeline/conformance")))
 from conform_parts import confined  # noqa: E402
 from conform_parts.trial import hint_of_header  # noqa: E402, F401
-from conform_parts.workers import spread  # noqa: E402
 
 STAGES = {"model": None, "view": "stage1", "project": "stage2",
           "zbuf": "stage3"}  # with the kind of file that each reads
@@ -73,15 +71,10 @@ def run_program(options, scene, config, given, top, limit):
 
 def outcome(words, given, folder, limits, box):
     """The stdout and stderr of a command that works in a folder; raises a ProgramError."""
-    def run(_):
-        hard = resource.getrlimit(resource.RLIMIT_AS)[1]  # the judge's own limit is none of the program's
-        resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
-        return confined.run(words, stdin, folder, limits, box)
-
     with tempfile.TemporaryFile() as stdin:
         stdin.write(given)
         stdin.seek(0)
-        [ending] = spread(run, 1, 1, limits.seconds)
+        ending = confined.run_apart(words, stdin, folder, limits, box)
     if ending is None:
         raise ProgramError("it has ended the process that ran it")
     if ending.status != 0:

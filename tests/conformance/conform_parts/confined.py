@@ -24,6 +24,7 @@ MEBIBYTE = 1 << 20
 LARGEST_FILE, MOST_WRITTEN, MOST_FILES = 64 * MEBIBYTE, 256 * MEBIBYTE, 1000
 MOST_OPEN, MOST_THREADS = 256, 1024
 MOST_OF_USER = 8192  # processes and threads of a user who is not root, so that a program cannot take all
+PR_CAPBSET_DROP, CAP_DAC_OVERRIDE = 24, 1
 LEAST_LEFT = 8  # of what the system had left of memory and disk, a part of this must stay, whoever takes it
 MOST_ERRORS = MEBIBYTE  # of stderr that is kept, the last ones
 INTERVAL = 0.03  # seconds between two looks at what a program uses
@@ -38,8 +39,9 @@ Limits = collections.namedtuple("Limits", "seconds memory processes address_spac
                                 defaults=(10, 1024, 64, None, MEBIBYTE))
 # status: None if it could not be started or did not end by itself: then `why` is the reason, a verb and more
 Ending = collections.namedtuple("Ending", "status why stdout stderr", defaults=(b"", b""))
-# words: of bubblewrap, empty without it; reason: why it is not used; variables: names of those passed on
-Sandbox = collections.namedtuple("Sandbox", "words reason variables", defaults=((), "", ()))
+# words: of bubblewrap, empty without it; reason: why it is not used; variables: names of those passed on;
+# user: whose number root runs the program with, if not root's own
+Sandbox = collections.namedtuple("Sandbox", "words reason variables user", defaults=((), "", (), None))
 
 
 class Refused(Exception):
@@ -92,9 +94,7 @@ def sandbox(command, options, hidden):
     for more in (NO_NAMESPACES, ()) if options.sandbox != "no" and bwrap else ():
         words = [bwrap, *more, *words_for(command, options.read, hidden)]
         with temporary_folder("confined.") as top, opened_folder(top / "work"):
-            [done] = spread(
-                lambda _: run(["true"], subprocess.DEVNULL, top / "work", Limits(), Sandbox(words)), 1, 1,
-                Limits().seconds)
+            done = run_apart(["true"], subprocess.DEVNULL, top / "work", Limits(), Sandbox(words))
         if done and done.status == 0:
             return Sandbox(words, "", options.env)
         complaint = (done.stderr.decode(errors="replace").strip() or done.why) if done else ""
@@ -111,6 +111,18 @@ def told(box):
     return "in a sandbox: no network, and no files but the program's own (--read shows it more)"
 
 
+def run_apart(words, stdin, folder, limits, box):
+    """The same as run, by a process of its own; None if that has been killed."""
+    def task(_):
+        hard = resource.getrlimit(resource.RLIMIT_AS)[1]  # the caller's own limit is none of the program's
+        resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
+        status, why, *texts = run(words, stdin, folder, limits, box)
+        return [status, why, *(text.decode("latin-1") for text in texts)]
+
+    [answer] = spread(task, 1, 1, limits.seconds)
+    return answer and Ending(*answer[:2], *(text.encode("latin-1") for text in answer[2:]))
+
+
 def run(words, stdin, folder, limits, box):
     """The Ending of a program that works in `folder`; the folder around it belongs to this run alone."""
     environment = {name: os.environ[name] for name in (*PASSED_ON, *box.variables) if name in os.environ}
@@ -118,11 +130,14 @@ def run(words, stdin, folder, limits, box):
     space = limits.address_space and (resource.RLIMIT_AS, limits.address_space * MEBIBYTE)
     if box.words:
         words = [*words_of_folder(folder, box.words), *words]
+    else:
+        drop_capabilities()
+    user = {} if box.user is None else {"user": box.user, "group": box.user, "extra_groups": []}
     confine_self(limits)
     with tempfile.TemporaryFile() as stdout, tempfile.TemporaryFile() as stderr:
         try:
             process = subprocess.Popen(words, stdin=stdin, stdout=stdout, stderr=stderr, cwd=folder,
-                                       start_new_session=True, env=environment,
+                                       start_new_session=True, env=environment, **user,
                                        preexec_fn=functools.partial(set_limit, *space) if space else None)
         except OSError as error:
             return Ending(None, f"cannot be run: {error.strerror}")
@@ -156,6 +171,14 @@ def confine_self(limits):
     set_limit(resource.RLIMIT_NOFILE, MOST_OPEN)
     set_limit(resource.RLIMIT_CORE, 0)
     set_limit(resource.RLIMIT_NPROC, MOST_OF_USER)
+
+
+def drop_capabilities():
+    """Has what this process starts from now on run without root's capabilities, but that to read and write
+    any file: it may look neither into this process nor for its connection."""
+    for capability in range(64):
+        if capability != CAP_DAC_OVERRIDE:
+            prctl(PR_CAPBSET_DROP, capability)
 
 
 def set_limit(name, value):

@@ -3,6 +3,7 @@ parents and its session."""
 import collections
 import contextlib
 import ctypes
+import json
 import os
 import signal
 import sys
@@ -65,7 +66,8 @@ def end_all(keep=()):
 
 
 class Worker:
-    """A process that answers a number by task(number)."""
+    """A process that answers a number by task(number), as JSON: a program that gets hold of the connection
+    can send data alone."""
 
     def __init__(self, task, others):
         self.connection, theirs = Pipe()
@@ -81,12 +83,12 @@ class Worker:
     def give(self, number, seconds):
         self.number, self.end = number, time.monotonic() + seconds + PATIENCE
         with contextlib.suppress(OSError):  # it may have been killed
-            self.connection.send(number)
+            self.connection.send_bytes(b"%d" % number)
 
     def answer(self):
         try:
-            return self.connection.recv()
-        except (EOFError, OSError):
+            return json.loads(self.connection.recv_bytes())
+        except (EOFError, OSError, ValueError, RecursionError):
             return None
 
 
@@ -103,7 +105,7 @@ def serve(connection, task):
             signal.signal(number, stop)
         with contextlib.suppress(EOFError, BrokenPipeError, ConnectionError, SystemExit):
             while True:
-                connection.send(task(connection.recv()))
+                connection.send_bytes(json.dumps(task(int(connection.recv_bytes()))).encode())
     except Exception:  # an error of ours
         traceback.print_exc()
     finally:
@@ -111,9 +113,9 @@ def serve(connection, task):
 
 
 def spread(task, count, jobs, seconds):
-    """Yields task(i), i from 0 to `count` - 1, in order, worked out by `jobs` processes; None where one has
-    been killed or does not answer, `seconds` being what it is given. All that they have started ends with
-    them."""
+    """Yields task(i), i from 0 to `count` - 1, in order, worked out by `jobs` processes, and read from JSON;
+    None where one has been killed or does not answer, `seconds` being what it is given. All that they have
+    started ends with them."""
     prctl(PR_SET_CHILD_SUBREAPER, 1)
     prctl(PR_SET_DUMPABLE, 0)  # so that the programs of a user who is not root cannot write here
     left, done, workers = collections.deque(range(count)), {}, []
