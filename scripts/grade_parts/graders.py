@@ -142,7 +142,7 @@ class Running:
         self.tests, self.limits = tests, limits
         self.connection, theirs = context.Pipe(duplex=False)
         self.scratch = tempfile.TemporaryDirectory()
-        os.chmod(self.scratch.name, 0o711)  # a program that is run as nobody works in it
+        os.chmod(self.scratch.name, 0o711)  # a program that is run as another user works in it
         reader, self.alive = os.pipe()
         words = theirs, path, tests, level, limits, self.scratch.name, (reader, self.alive)
         self.process = context.Process(target=work, args=words)

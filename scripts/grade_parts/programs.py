@@ -1,9 +1,10 @@
 """Programs that are handed in: built and run for every test, in a sandbox of bubblewrap; where root finds
-none that works, as in a container, as a user who may read nothing of root's."""
+none that works, as in a container, each as a user of its own, who may read nothing of root's."""
 import argparse
+import ctypes
 import os
 import pathlib
-import shutil
+import pwd
 import subprocess
 import tempfile
 
@@ -17,10 +18,8 @@ from lib.rim.command import CommandFailure, shown
 from lib.rim.places import place
 from lib.running.pipe_tools import Tools
 
-NOBODY = 65534
-AS_NOBODY = ("setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups", "--no-new-privs",
-             "--bounding-set=-all", "--inh-caps=-all", "--pdeathsig=KILL", "--")
-LEFT = ("find", "/tmp", "/var/tmp", "/dev/shm", "-mindepth", "1", "-maxdepth", "1", "-user", str(NOBODY))
+FIRST_USER, USERS = 61184, 4336  # numbers that no package gives to a user, and a container has
+PLACES = ("/tmp", "/var/tmp", "/dev/shm", "/dev/mqueue")  # where all may write
 REMOVE = ("-exec", "sh", "-c", 'chmod -R u+rwx -- "$@"; rm -rf -- "$@"', "sh", "{}", "+")
 MOST_BYTES, MOST_FILES = 64 << 20, 500  # of a hand-in that is built
 MOST_LINES = 10                         # of a compiler's messages, as shown
@@ -28,22 +27,40 @@ MEMORY, PROCESSES = 1024, 64
 
 
 def protection(command, read, hidden):
-    """A Sandbox, and words that go before the command. Raises a CommandFailure where there is neither."""
+    """A Sandbox, or a user without one. Raises a CommandFailure where there is neither."""
     asked = argparse.Namespace(read=list(read), env=[], sandbox="auto")
     box = confined.sandbox(command, asked, [pathlib.Path(path) for path in hidden])
     if box.words:
-        return box, ()
-    if os.geteuid() == 0 and shutil.which("setpriv") and succeeds([*AS_NOBODY, "true"]):
+        return box
+    user = free_user()
+    if os.geteuid() == 0 and succeeds(user, "true"):
         for path in hidden:
-            if succeeds([*AS_NOBODY, "test", "-x", path]):
+            if succeeds(user, "test", "-x", path):
                 raise CommandFailure(f"{shown(str(path))} may be read by a program that is handed in, which "
-                                     "root runs as nobody: chmod go= it, or install bubblewrap")
-        return box, AS_NOBODY
-    raise CommandFailure(f"a program is run only in a sandbox, or by root as nobody: {box.reason}")
+                                     "root runs as another user: chmod go= it, or install bubblewrap")
+        return box._replace(user=user)
+    raise CommandFailure(f"a program is run only in a sandbox, or by root as another user: {box.reason}")
 
 
-def succeeds(words):
-    return not subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+def free_user():
+    """The number of a user who has no name and no process. Processes that grade side by side get one each."""
+    found = {os.stat(path).st_uid for path in each_process()} | {user.pw_uid for user in pwd.getpwall()}
+    numbers = (FIRST_USER + (os.getpid() + i) % USERS for i in range(USERS))
+    return next(number for number in numbers if number not in found)
+
+
+def each_process():
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        if os.path.exists(path := f"/proc/{name}"):
+            yield path
+
+
+def succeeds(user, *words):
+    try:
+        return not subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, user=user,
+                                  group=user, extra_groups=[], cwd="/").returncode
+    except OSError:
+        return False
 
 
 def right_ones():
@@ -53,10 +70,14 @@ def right_ones():
 
 
 def expect_protection(hidden):
-    """Raises the CommandFailure of a machine that protects from no program, before there is any work."""
-    _, before = protection(["true"], (), hidden)
-    if before and tempfile.tempdir:  # the command's own folder, in which nobody is to work
-        os.chmod(tempfile.tempdir, 0o711)
+    """Raises the CommandFailure of a machine that protects from no program, before there is any work. Tells
+    what is not held without a sandbox."""
+    box = protection(["true"], (), hidden)
+    if box.user is not None:
+        print(f"no sandbox ({box.reason}): each program runs as a user of its own, with network and sockets",
+              flush=True)
+        if tempfile.tempdir:  # the command's own folder, in which they are to work
+            os.chmod(tempfile.tempdir, 0o711)
 
 
 def unpack(contents, folder):
@@ -95,7 +116,7 @@ class Built:
     """A program that has been built in top/program/files."""
 
     def __init__(self, contents, program, top, hidden):
-        self.program, self.top, self.hidden = program, top, hidden
+        self.program, self.top, self.hidden, self.user = program, top, hidden, None
         self.folder = top / "program/files"
         self.folder.mkdir(parents=True)
         unpack(contents, self.folder)
@@ -103,26 +124,42 @@ class Built:
             folder.chmod(0o711)
         if program.build:
             self.build()
-        self.box, self.before = protection(words := self.command(), [self.folder], hidden)
-        self.words = [*self.before, *words]
+        self.words = self.command()
+        self.box = self.boxed(self.words, [self.folder])
+
+    def boxed(self, command, read):
+        """The Sandbox of a command; without one, no user but its own enters the folder."""
+        box = protection(command, read, self.hidden)
+        if box.user is not None and self.user is None:
+            self.user = box.user
+            os.chown(self.top, 0, self.user)
+            self.top.chmod(0o710)
+        return box._replace(user=self.user)
 
     def build(self):
         words = ["sh", "-c", self.program.build]
-        box, before = protection(words, (), self.hidden)
-        if before:
-            give(self.folder, NOBODY)
+        box = self.boxed(words, ())
+        if self.user is not None:
+            give(self.folder, self.user)
         try:
-            outcome([*before, *words], b"", self.folder,
-                    confined.Limits(SECONDS_OF_BUILD, MEMORY, PROCESSES), box)
+            outcome(words, b"", self.folder, confined.Limits(SECONDS_OF_BUILD, MEMORY, PROCESSES), box)
         finally:
-            if before:
+            if self.user is not None:
                 give(self.folder, 0)
                 self.remove_what_is_left()
 
     def remove_what_is_left(self):
-        """Removes what it has made, as nobody, in folders that all may write to, since a file was last made
-        in top."""
-        succeeds([*AS_NOBODY, *LEFT, "-cnewer", str(self.top), *REMOVE])
+        """Removes, as its user, what it has made in PLACES since a file was last made in top, and its
+        segments, semaphores and queues of System V."""
+        succeeds(self.user, "find", *filter(os.path.isdir, PLACES), "-mindepth", "1", "-maxdepth", "1",
+                 "-user", str(self.user), "-cnewer", str(self.top), *REMOVE)
+        for kind in ("shm", "sem", "msg"):
+            with open(f"/proc/sysvipc/{kind}") as file:
+                names, *rows = map(str.split, file)
+            remove = getattr(ctypes.CDLL(None), f"{kind}ctl")
+            for row in rows:
+                if row[names.index("cuid")] == str(self.user):
+                    remove(int(row[1]), 0, 0)  # 0 is IPC_RMID
 
     def command(self):
         """The words that run it, with the paths of its own files."""
@@ -150,14 +187,14 @@ class Built:
                                      address_space=None, program=self.words, box=self.box)
         limit = max(test.reference.limit(kind) for kind in test.kinds)
         with confined.temporary_folder("run.", self.top) as top, confined.opened_folder(top / "work") as work:
-            if self.before:
+            if self.user is not None:
                 top.chmod(0o711)
-                os.chown(work, NOBODY, NOBODY)
+                os.chown(work, self.user, self.user)
             try:
                 output, _ = run_program(options, test.reference.scene_data, test.reference.config or b"1 1\n",
                                         given, top, limit)
             finally:
-                if self.before:
+                if self.user is not None:
                     self.remove_what_is_left()
             return hand_in(self.program.stage, output, before, work)
 

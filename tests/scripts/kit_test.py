@@ -73,7 +73,20 @@ if not SANDBOX:
     os.makedirs("/tmp/left/closed")  # fails where an earlier run has left it
     os.chmod("/tmp/left", 0)
 '''
-
+# Each while another program runs: ends all that it can, and is right; takes another one's file, and leaves a
+# segment and a folder.
+KILLER = "import os, signal\nif not os.fork(): os.kill(-1, signal.SIGKILL)\nos.wait()\n"
+THIEF = '''import ctypes, glob, os, sys, time
+ctypes.CDLL(None).shmget(0, 4096, 0o1600)
+os.mkdir("/tmp/left")
+end, given = time.monotonic() + 5, sys.stdin.read()
+while time.monotonic() < end:
+    for path in glob.glob("/proc/[0-9]*/cmdline"):
+        for word in open(path).read().split("\\0") if os.path.exists(path) else ():
+            if word.endswith("view.py") and word != os.path.abspath(__file__) and os.access(word, os.R_OK):
+                os.execvp("sh", ["sh", "-c", f"echo '{given}' | python3 {word}"])
+    time.sleep(0.02)
+'''
 
 # A root that holds the system's programs, /autograder and /secret alone; $1 is the folder of both, $2 a
 # program that is not there.
@@ -140,6 +153,7 @@ class KitTest(ToolTest):
                 os.chmod(archive.extract(info, top / "source"), info.external_attr >> 16)
         if kind == "gradescope":
             shutil.copy2(top / "source/run_autograder", top)
+        (top / "source/json.py").write_text("a hand-in beside the kit is not asked")
         # As setup.sh does, and CONTRACT.md tells.
         subprocess.run(["chmod", "-R", "go=", top / "source"], check=True)
         return top
@@ -257,8 +271,8 @@ class Judges(KitTest):
             "wrong": {"worked-example": round(5 / 7.5, 4), "nested-transforms": 1.0}})
 
     def expect_programs(self, **programs):
-        if not shutil.which("bwrap") or not shutil.which("setpriv"):
-            self.skipTest("no bubblewrap or no setpriv")
+        if not shutil.which("bwrap"):
+            self.skipTest("no bubblewrap")
         pathlib.Path("tests/assignment.txt").write_text(
             "program view\nbuild cp view.in view.py && ! grep -q unbuildable view.py\nrun python3 view.py\n")
         for name, text in programs.items():
@@ -273,7 +287,7 @@ class Judges(KitTest):
                                          for name in ("right", "wrong", "unbuilt", "ours")})
 
     def test_hostile_programs_get_nothing_and_leave_nothing(self):
-        """With a sandbox, and as nobody."""
+        """With a sandbox, and as a user of its own."""
         self.expect_programs(curious="", **{name: HOSTILE + ending for name, ending in ENDINGS.items()})
         both = self.make("gradescope").rename("both").resolve()
         shutil.rmtree("tests/nested-transforms")
@@ -294,6 +308,28 @@ class Judges(KitTest):
                                      {"worked-example": 0.0})
                     self.assertEqual(os.listdir(top / "results"), ["results.json"])
         self.assertEqual(files(), before)
+
+    def test_programs_without_a_sandbox_neither_end_nor_read_each_other(self):
+        """Two at a time; each does its worst while the other one runs."""
+        slow = VIEW.replace("import sys", "import sys, time\ntime.sleep(1)")
+        self.expect_programs(right=slow, killer=KILLER + VIEW, thief=THIEF)
+        shutil.rmtree("tests/nested-transforms")
+        top = self.make("plain")
+        for hostile in ("killer", "thief"):
+            for name in ("right", hostile):
+                shutil.copytree(f"hand-ins/{name}", top / name, dirs_exist_ok=True)
+            judges = "".join(f"source/judge {name} {name}.out & " for name in ("right", hostile)) + "wait"
+            done = subprocess.run(
+                entered(top, "/autograder", "sh", "-c", f"{judges}; cat /proc/sysvipc/shm; ls /tmp",
+                        without="usr/bin/bwrap"), timeout=250, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            first, second, header, *left = done.stdout.splitlines()
+            for line in (first, second):
+                self.assertRegex(line, r"no sandbox \(.*\): each program runs as a user of its own, with net")
+            self.assertEqual(left, [])
+            for name, expected in (("right", 1.0), (hostile, 0.0)):
+                result = json.loads((top / f"{name}.out/results.json").read_text())
+                self.assertEqual(parts(result), {"worked-example": expected}, (name, hostile))
 
 
 if __name__ == "__main__":
