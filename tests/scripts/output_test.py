@@ -613,6 +613,20 @@ class Endings(ToolTest):
             shutil.rmtree(name)
 
 
+class Beginnings(ToolTest):
+    def test_a_signal_may_come_at_once(self):
+        """Just when the folder of temporary files is there."""
+        os.mkdir("tmp")
+        done = subprocess.run(
+            [sys.executable, "-c", "import os, signal\nfrom lib.rim.command import run_command\n"
+             "make = os.mkdir\n"
+             "os.mkdir = lambda *words: (make(*words), os.kill(os.getpid(), signal.SIGTERM))\n"
+             "run_command(lambda: 0, 'command')"], capture_output=True, text=True,
+            env={**PLAIN, "PYTHONPATH": str(SCRIPTS), "PYTHONDONTWRITEBYTECODE": "1", "TMPDIR": "tmp"})
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGTERM, "command: ended by SIGTERM\n"))
+        self.assertEqual(os.listdir("tmp"), [])
+
+
 class Channels(ToolTest):
     def test_a_closed_channel_is_no_file_of_ours(self):
         """What is opened first must not get the descriptor of standard input, output or error."""

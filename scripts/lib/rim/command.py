@@ -49,9 +49,9 @@ def run_command(main, name, failure_status=1):
     """Runs `main`, prints any error, and ends the process with the status that `main` returns (None is 0), or
     with `failure_status`. By then the output of `main` has reached stdout; if it could not, that is the
     error."""
-    prepare()
     status, signal_number = failure_status, None
     try:
+        prepare()
         status = status_of(main, name, failure_status)
         heed_no_signal()
     except Ended as end:
