@@ -415,8 +415,10 @@ TEST(ClipFromView, TakesAFieldOfViewThatOnlyItsLowPartKeepsBelowAHalfTurn) {
   EXPECT_NO_THROW(clip_from_view({Perspective{fov_y, aspect, 1, 2}, {}}));
 }
 
-TEST(ClipFromView, RatioTakesAnyAspect) {
-  EXPECT_NO_THROW(clip_from_view({Perspective{90, 2, 1, 2, AspectRule::ratio}, {}}));
+TEST(ClipFromView, RatioDividesTheScaleByAnyAspect) {
+  const ProjectionTransform computed = clip_from_view({Perspective{90, 2, 1, 2, AspectRule::ratio}, {}});
+  EXPECT_EQ(computed.x_scale.nearest_double(), 0.5);
+  EXPECT_EQ(computed.y_scale.nearest_double(), 1);
 }
 
 TEST(ViewFromClip, TakesBackAProjectionBesideTheAxis) {
