@@ -188,7 +188,7 @@ class Attempt:
                              for t, color, is_drawn in zip(owner, pixels.colors[row], pixels.drawn[row])
                              if t >= 0 and is_drawn)
         if pixels.colors:
-            self.add_colors(result, pairs)
+            self.add_colors(result, pairs, limit)
         return result if len(result.pixels) <= limit else None
 
     def add(self, result, row, column, kind, drawn_row):
@@ -202,9 +202,9 @@ class Attempt:
             z = self.pixels.depths[row][column] if self.pixels.depths[row] else None
             result.offsets[row, column] = abs(z - depth[column]) if z is not None else 0.0
 
-    def add_colors(self, result, pairs):
+    def add_colors(self, result, pairs, limit):
         """Gives every triangle the color that most of its pixels have, and adds the pixels that show another
-        triangle. `pairs` counts (triangle, color)."""
+        triangle, until there are more than `limit`. `pairs` counts (triangle, color)."""
         for (t, color), _ in reversed(pairs.most_common()):
             result.colors[t] = color
         for (t, _), count in pairs.items():
@@ -212,6 +212,8 @@ class Attempt:
         if all(result.colors[t] == color for t, color in pairs):
             return
         for row in range(self.height):
+            if len(result.pixels) > limit:
+                return
             owner, _ = self.drawing.row(row)
             depths = self.pixels.depths[row] if self.pixels.depths else None
             shown = zip(owner, self.pixels.colors[row], self.pixels.drawn[row])
