@@ -11,6 +11,7 @@ import shutil
 import struct
 import subprocess
 import unittest
+from unittest import mock
 
 from toolbox import BIN, ToolTest, run_script
 import reference
@@ -19,6 +20,7 @@ import student  # takes the word behind toolbox's
 os.environ["BIN"] = str(BIN)
 from lib.judging import fit  # noqa: E402
 from lib.judging import mistakes  # noqa: E402
+from lib.judging import pixel_comparing  # noqa: E402
 from lib.judging.hand_in import File, find_files  # noqa: E402
 from lib.judging.judge import judge  # noqa: E402
 from lib.judging.matrices import image, perspective_matrix, view_matrix  # noqa: E402
@@ -403,6 +405,44 @@ class Wrong(HandIn):
         self.assertEqual(
             self.verdict(config=False).files[2].cause,
             f"Row 1, column 1 of the matrix (counted from 1) is {1.3 / t:.5g}, not {scene[0][0]:.5g}")
+
+    def in_many_colors(self):
+        """Gives each pixel with a triangle a color of its own, and counts them."""
+        pixels = Pixels()
+        drawn = [(r, c) for r, row in enumerate(pixels.depths) for c, z in enumerate(row) if z is not None]
+        for r, c in drawn:
+            pixels.colors[r][c] = (r + 1, c + 1, 7)
+        pixels.write()
+        return len(drawn)
+
+    def test_a_triangle_of_many_colors_is_found_before_any_search(self):
+        self.hand_in()
+        count = self.in_many_colors()
+        with mock.patch.object(pixel_comparing, "MOST_WORK", 100_000):
+            verdict = self.assert_verdicts([*["right"] * 4, "wrong"], 1)
+        file = verdict.files[4]
+        self.assertEqual((file.cause, file.remarks),
+                         (f"A triangle has many colors: there are {count:,} for 5 triangles", []))
+        self.assertRegex(file.first, r"^row \d+, column \d+: one of [\d,]+ colors of triangle \d$")
+
+    def test_many_colors_beside_another_mistake(self):
+        self.hand_in()
+        pixels = Pixels()
+        pixels.depths, pixels.colors = pixels.depths[::-1], pixels.colors[::-1]
+        pixels.write()
+        count, rows = self.in_many_colors(), "The rows are in reverse order"
+        self.assertEqual(
+            [file.cause for file in self.verdict().files[3:]],
+            [rows, f"{rows}; and: A triangle has many colors: there are {count:,} for 5 triangles"])
+
+    def test_a_frame_around_the_picture_is_not_many_colors(self):
+        self.hand_in()
+        pixels = Pixels()
+        for row in (pixels.colors[0], pixels.colors[-1]):
+            row[:] = [(250, c, 1) for c in range(len(row))]
+        pixels.write(depths="other.txt")
+        file = self.verdict().files[4]
+        self.assertEqual((file.verdict, file.cause), ("wrong", ""))
 
     def test_a_picture_of_a_text_that_draws_nothing(self):
         """All its pixels lie at borders, but not at those of what the text draws."""

@@ -3,6 +3,7 @@ import collections
 import dataclasses
 import itertools
 
+from lib.judging import pixel_colors
 from lib.judging.pixel_comparing import Context
 from lib.judging.pixel_files import Findings, mismatch_to_show
 from lib.judging.pixel_words import difference_in_words, unexplained_in_words
@@ -52,8 +53,28 @@ class PixelStage:
             return verdicts | {
                 kind: undecided_outcome("zbuf", self.files[kind].name).verdict for kind in given}
         shown = self.shown(colors, depths)
-        context = Context(self.readings, self.ours.window, shown)
-        findings = Findings(context)
+        counts = (len(points) // 3 for points, _ in self.readings.values())
+        found = pixel_colors.has_many(shown, max(len(self.ours.world) // 3, *counts)) and (
+            self.verdicts_of_many_colors(given, shown))
+        return verdicts | (found or self.verdicts_of_shown(given, Context(
+            self.readings, self.ours.window, shown))[0])
+
+    def verdicts_of_many_colors(self, given, shown):
+        """The verdicts if triangles have many colors and that explains most of the picture; else nothing."""
+        context = Context(self.readings, self.ours.window, shown.in_one_color())
+        if pixel_colors.is_another_picture(context):
+            return {}
+        verdicts, mismatch = self.verdicts_of_shown(given, context)
+        if mismatch is not None:
+            many = pixel_colors.ManyColors(shown, context, mismatch)
+            if many.explain_most:
+                many.add_to(verdicts["picture"])
+                return verdicts
+        return {}
+
+    def verdicts_of_shown(self, given, context):
+        """The verdicts on the files of a Context, and the Mismatch of the last one."""
+        shown, findings, verdicts = context.shown, Findings(context), {}
         for kind in given:
             best = findings.of(kind) if len(given) == 2 else findings.of_all
             verdicts[kind] = self.verdict_of_pixels(kind, best, shown)
@@ -63,7 +84,7 @@ class PixelStage:
             if is_open and shown.is_blank(kind) and not self.ours.draws_nothing:
                 why = f"there is too little in {self.thin}" if self.thin else "nothing is in view"
                 verdicts[kind] = undecided_outcome("zbuf", self.files[kind].name, why).verdict
-        return verdicts
+        return verdicts, best.mismatch
 
     def shown(self, colors, depths):
         window = self.ours.window

@@ -88,6 +88,19 @@ class Shown:
             rest.depths, rest.is_full = None, False
         return rest
 
+    def in_one_color(self):
+        """This with one color for all pixels that show a triangle."""
+        rest = copy.copy(self)
+        rest.made, color = {}, bytes(255 - x for x in self.background)
+        rest.colors = [[self.background if own == self.background else color for own in row]
+                       for row in self.colors]
+        return rest
+
+    @property
+    def own_colors(self):
+        """The colors of a picture without the background."""
+        return {color for row in self.colors for color in row} - {self.background}
+
     def is_blank(self, kind):
         """Whether the depths, or the picture, show no triangle."""
         if kind == "depths":
