@@ -1,5 +1,5 @@
 """Grades hand-ins in parallel, each in a process of its own with limits of time and memory: what a hand-in
-does to it, it does to itself."""
+does to it, it does to itself, and costs it no test that was judged before."""
 import contextlib
 import dataclasses
 import fcntl
@@ -18,11 +18,15 @@ from grade_parts.difference import pictures
 from grade_parts.hand_ins import files_for, looked_for
 from grade_parts.hints import fixes, gives, in_words
 from grade_parts.programs import verdicts
-from lib.judging.hand_in import KINDS
+from lib.judging.hand_in import KINDS, STAGE_OF
 from lib.judging.judge import HandIn as Judge
-from lib.judging.verdict import OPEN, WRONG, Verdict
+from lib.judging.verdict import OPEN, UNDECIDED, WRONG, FileVerdict, Verdict
 
+ENDED = "It could not be judged: its judge was ended, perhaps for lack of memory."
 LARGEST_FILE = 1 << 30  # that a tool may write for a hand-in
+# Seconds by the clock for one of the processor, which a busy machine needs, and the least that start it: a
+# judge that waits for something has an end, too.
+CLOCK, LEAST_SECONDS = 10, 6
 MEBIBYTE = 1 << 20
 
 
@@ -59,34 +63,75 @@ class Graded:
 
 @dataclasses.dataclass
 class Limits:
-    seconds: float
+    seconds: float  # of the processor, for each test of a hand-in
     mebibytes: int
     jobs: int
     hidden: tuple = ()  # folders that no program may read
     program: object = None  # an assignment.Program, if that is what is handed in
 
 
-def grade(path, tests, level, limits):
-    """The Graded of the hand-in at a path."""
+class TooLong(BaseException):
+    """More processor time than allowed; no handler of what a file may raise stops it."""
+
+
+@contextlib.contextmanager
+def processor_seconds(seconds):
+    """Raises TooLong in a block that takes more seconds of the processor, however busy the machine is."""
+    def give_up(*_):
+        raise TooLong
+
+    signal.signal(signal.SIGPROF, give_up)
+    signal.setitimer(signal.ITIMER_PROF, seconds, 1.0)
     try:
-        contents = contents_of(path)
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+
+
+def grade(path, tests, level, limits, keep):
+    """The Graded of the hand-in at a path; `keep` gets each GradedTest as soon as it is there."""
+    try:
+        with processor_seconds(limits.seconds):
+            contents = contents_of(path)
     except ContentsError as error:
         return failed(tests, f"It could not be read: {error}.")
+    except TooLong:
+        return failed(tests, f"It could not be read: {too_long(limits)}.")
     graded = Graded(max_score=sum(test.max_score for test in tests), remarks=contents.remarks)
-    judged = verdicts(contents, tests, limits) if limits.program else (
-        judge_files(contents, test, len(tests) == 1) for test in tests)
-    for test, (files, verdict, remark) in zip(tests, judged):
+    of_program = verdicts(contents, tests, limits) if limits.program else None
+    for test in tests:
+        try:
+            with processor_seconds(limits.seconds):
+                files, verdict, remark = next(of_program) if of_program else (
+                    judge_files(contents, test, len(tests) == 1))
+                made = graded_test(test, files, verdict, level, graded.wrong)
+        except (TooLong, StopIteration):  # a generator that has raised is at its end
+            made, remark = not_judged(test, level), f"{test.name}: it could not be judged: {too_long(limits)}"
         graded.remarks += [remark] * bool(remark)
-        shown = pictures(test, files, verdict) if gives(level, "stage") else []
-        for kind, file in zip(test.kinds, verdict.files):
-            file.worth = test.settings.another_rule
-            file.places = []  # the pictures have them; there may be millions
-            if file.verdict == WRONG and (data := kind in files and files[kind].data):
-                graded.wrong[test.name, KINDS[kind][0]] = hashlib.sha256(data).digest()
-        graded.tests.append(
-            GradedTest(test.name, test.score(verdict.files), test.max_score, verdict,
-                       in_words(verdict, level), fixes(verdict, level), shown))
+        graded.tests.append(made)
+        keep(made)
     return graded
+
+
+def graded_test(test, files, verdict, level, wrong):
+    """The GradedTest of a Verdict. Notes in `wrong` the hashes of files that are not right."""
+    shown = pictures(test, files, verdict) if gives(level, "stage") else []
+    for kind, file in zip(test.kinds, verdict.files):
+        file.worth = test.settings.another_rule
+        file.places = []  # the pictures have them; there may be millions
+        if file.verdict == WRONG and (data := kind in files and files[kind].data):
+            wrong[test.name, KINDS[kind][0]] = hashlib.sha256(data).digest()
+    return GradedTest(test.name, test.score(verdict.files), test.max_score, verdict, in_words(verdict, level),
+                      fixes(verdict, level), shown)
+
+
+def not_judged(test, level):
+    verdict = Verdict([FileVerdict(STAGE_OF[kind], KINDS[kind][0], UNDECIDED) for kind in test.kinds])
+    return graded_test(test, {}, verdict, level, {})
+
+
+def too_long(limits):
+    return f"that takes longer than {limits.seconds:g} s of the processor"
 
 
 def judge_files(contents, test, is_only_test):
@@ -124,7 +169,7 @@ def work(connection, path, tests, level, limits, scratch, pipe):
     resource.setrlimit(resource.RLIMIT_FSIZE, (LARGEST_FILE,) * 2)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
-        graded = grade(path, tests, level, limits)
+        graded = grade(path, tests, level, limits, connection.send)
     except MemoryError:
         graded = failed(tests,
                         f"It could not be judged: that needs more than {limits.mebibytes} MiB of memory.")
@@ -149,20 +194,33 @@ class Running:
         self.process.start()
         theirs.close()
         os.close(reader)
-        self.end = time.monotonic() + limits.seconds
+        self.kept = []  # of GradedTest
+        self.seconds = CLOCK * max(limits.seconds * len(tests), LEAST_SECONDS)
+        self.end = time.monotonic() + self.seconds
         if limits.program:
             self.end += limits.program.seconds(len(tests))
 
     def result(self):
-        """Its Graded, now that it is done or out of time."""
-        if not self.connection.poll():
-            return failed(self.tests,
-                          f"It could not be judged: that takes longer than {self.limits.seconds:g} s.")
-        try:
-            return self.connection.recv()
-        except EOFError:
-            return failed(self.tests,
-                          "It could not be judged: its judge was ended, perhaps for lack of memory.")
+        """Its Graded, once it is done, has ended, or is out of time; None before."""
+        while self.connection.poll():
+            try:
+                received = self.connection.recv()
+            except EOFError:
+                return self.with_kept(ENDED)
+            if isinstance(received, GradedTest):
+                self.kept.append(received)
+            else:
+                return self.with_kept(received.failure) if received.failure else received
+        if time.monotonic() < self.end:
+            return None
+        return self.with_kept(f"It could not be judged: that takes longer than {self.seconds:g} s.")
+
+    def with_kept(self, reason):
+        """The Graded of a failure, with the tests that were judged before."""
+        graded = failed(self.tests, reason)
+        if self.kept:
+            graded.tests = self.kept + [not_judged(test, "none") for test in self.tests[len(self.kept):]]
+        return graded
 
     def stop(self):
         """Ends the process, and the tools that it has started."""
@@ -187,8 +245,7 @@ def grade_all(hand_ins, tests, level, limits):
             rest = min(one.end for _, one in running.values()) - time.monotonic()
             multiprocessing.connection.wait(list(running), max(0.0, rest))
             for connection, (hand_in, one) in list(running.items()):
-                if connection.poll() or time.monotonic() >= one.end:
-                    graded = one.result()
+                if graded := one.result():
                     one.stop()
                     del running[connection]
                     yield hand_in, graded

@@ -15,11 +15,13 @@ import signal
 import subprocess
 import tarfile
 import tempfile
+import time
 import unittest
 import zipfile
 from unittest import mock
 
 from grade_parts import graders
+from grade_parts.assignment import read_tests
 from grade_parts.contents import contents_of
 from grade_parts.hand_ins import find_hand_ins
 from lib.judging.mistakes import fix, sentences
@@ -609,6 +611,53 @@ class Hostile(ClassTest):
         self.judge("--time-limit", "60", status=0)
         self.assertIn("30000 triangles in place of 1", self.page(1))
         self.assertIn("by the right numbers, which are not those of stage3.txt", self.page(1))
+
+    def graded_by(self, judge_files, seconds):
+        """The Graded of a right hand-in with three tests, whose files are judged by a function of the right
+        one and the words for it."""
+        for name in ("square-2", "square-3"):
+            self.add_test(name)
+        for name in ("square", "square-2", "square-3"):
+            self.add("a", name)
+        with mock.patch.dict(os.environ, BIN=str(BIN)):
+            tests, _ = read_tests("tests")
+        hand_in, = [one for one in find_hand_ins("hand-ins", False)[0] if one.name == "a"]
+        right, limits = graders.judge_files, graders.Limits(seconds, 2048, 1)
+        with mock.patch.object(graders, "judge_files", lambda *words: judge_files(right, words)):
+            (_, graded), = graders.grade_all([hand_in], tests, "cause", limits)
+        return graded
+
+    def test_a_busy_machine_changes_no_verdict(self):
+        def waiting(judge_files, words):
+            time.sleep(1.2)  # as a process does that gets no processor
+            return judge_files(*words)
+
+        graded = self.graded_by(waiting, 1)
+        self.assertEqual((graded.score, graded.failure, graded.remarks), (3.0, "", []))
+
+    def test_a_test_that_takes_too_long_costs_no_other(self):
+        def endless(judge_files, words):
+            while words[1].name == "square-2":
+                pass
+            return judge_files(*words)
+
+        graded = self.graded_by(endless, 2)
+        self.assertEqual([test.score for test in graded.tests], [1.0, 0.0, 1.0])
+        self.assertEqual({file.verdict for file in graded.tests[1].verdict.files}, {"could not be judged"})
+        self.assertEqual(
+            (graded.remarks, graded.is_judged),
+            (["square-2: it could not be judged: that takes longer than 2 s of the processor"], False))
+
+    def test_a_judge_that_is_ended_keeps_what_was_judged(self):
+        def ended(judge_files, words):
+            if words[1].name == "square-2":
+                os.kill(os.getpid(), signal.SIGKILL)
+            return judge_files(*words)
+
+        graded = self.graded_by(ended, 60)
+        self.assertEqual([test.score for test in graded.tests], [1.0, 0.0, 0.0])
+        self.assertEqual(graded.failure,
+                         "It could not be judged: its judge was ended, perhaps for lack of memory.")
 
     def test_time_and_memory_have_limits(self):
         self.add("a")
