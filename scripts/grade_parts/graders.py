@@ -21,6 +21,7 @@ from grade_parts.programs import verdicts
 from lib.judging.hand_in import KINDS, STAGE_OF
 from lib.judging.judge import HandIn as Judge
 from lib.judging.verdict import OPEN, UNDECIDED, WRONG, FileVerdict, Verdict
+from lib.running.pipe_tools import ToolKilled
 
 ENDED = "It could not be judged: its judge was ended, perhaps for lack of memory."
 LARGEST_FILE = 1 << 30  # that a tool may write for a hand-in
@@ -170,7 +171,7 @@ def work(connection, path, tests, level, limits, scratch, pipe):
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
         graded = grade(path, tests, level, limits, connection.send)
-    except MemoryError:
+    except (MemoryError, ToolKilled):  # a tool without memory is ended by a signal
         graded = failed(tests,
                         f"It could not be judged: that needs more than {limits.mebibytes} MiB of memory.")
     except Exception as error:  # an error of ours: it costs this hand-in its verdict, and must be seen
