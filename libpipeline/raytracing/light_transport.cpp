@@ -54,26 +54,26 @@ void LightTransport::RayCounts::add(const RayCounts& other) {
   largest_cut_weight = std::max(largest_cut_weight, other.largest_cut_weight);
 }
 
-Vec3 LightTransport::Thread::radiance(const SurfaceHit& hit, const Ray& ray) {
+Vec3 LightTransport::radiance(SurfaceId seen, const Ray& ray) {
   cut_weight_ = 0;
   shown_.has_seen = true;
   Path path = {1, 0, 0, 0};
   if (log_ != nullptr)
     path.log_entry = log_->add({.kind = RayKind::primary, .depth = 0, .weight = 1, .origin = ray.origin});
-  const Vec3 color = color_of(hit, ray, path);
+  const Vec3 color = color_of(caster_.seen(seen, ray), ray, path);
   counts_.largest_cut_weight = std::max(counts_.largest_cut_weight, cut_weight_);
   return color;
 }
 
 /// The color at a hit, attenuated on the way there.
-Vec3 LightTransport::Thread::color_of(const SurfaceHit& hit, const Ray& ray, Path path) {
+Vec3 LightTransport::color_of(const SurfaceHit& hit, const Ray& ray, Path path) {
   Vec3 left = {1, 1, 1};
   if (!hit.is_front && setup_.recurses)
     left = passed(material(hit), length(difference(hit.point, ray.origin)));
   path.weight *= largest(left);
   const Vec3 color = product(left, surface_color(hit, ray, path));
   if (log_ != nullptr) {
-    RayLog::Entry& entry = (*log_)[path.log_entry];
+    LoggedRay& entry = (*log_)[path.log_entry];
     entry.object = caster_.number(hit.id);
     entry.point = hit.point;
     entry.is_front = hit.is_front;
@@ -83,7 +83,7 @@ Vec3 LightTransport::Thread::color_of(const SurfaceHit& hit, const Ray& ray, Pat
   return color;
 }
 
-Vec3 LightTransport::Thread::surface_color(const SurfaceHit& hit, const Ray& ray, const Path& path) {
+Vec3 LightTransport::surface_color(const SurfaceHit& hit, const Ray& ray, const Path& path) {
   const Material& m = material(hit);
   if (!setup_.recurses || !m.sends_rays()) return local_color(hit, ray, path);
   const Vec3 direction = unit_vector(ray.direction);
@@ -106,7 +106,7 @@ Vec3 LightTransport::Thread::surface_color(const SurfaceHit& hit, const Ray& ray
 }
 
 /// The radiance of a ray that starts on a surface, times `share`.
-Vec3 LightTransport::Thread::follow(RayKind kind, const SurfaceRay& ray, const Path& path, double share) {
+Vec3 LightTransport::follow(RayKind kind, const SurfaceRay& ray, const Path& path, double share) {
   Path next = {path.weight * share, path.depth + 1, path.length, 0};
   const bool is_cut = next.weight < setup_.min_contribution || next.depth > setup_.max_depth;
   if (log_ != nullptr)
@@ -124,7 +124,7 @@ Vec3 LightTransport::Thread::follow(RayKind kind, const SurfaceRay& ray, const P
   ++(kind == RayKind::mirrored ? counts_.mirrored : counts_.refracted);
   const auto hit = caster_.nearest(ray);
   if (!hit && log_ != nullptr) {
-    RayLog::Entry& entry = (*log_)[next.log_entry];
+    LoggedRay& entry = (*log_)[next.log_entry];
     entry.direction = unit_vector(ray.ray.direction);
     entry.brought = setup_.background;
   }
@@ -133,7 +133,7 @@ Vec3 LightTransport::Thread::follow(RayKind kind, const SurfaceRay& ray, const P
 
 /// As SurfaceShader lights it, but with the light that arrives here. A ray that has been turned is seen by an
 /// eye at the end of its way, stretched to a line.
-Vec3 LightTransport::Thread::local_color(const SurfaceHit& hit, const Ray& ray, const Path& path) {
+Vec3 LightTransport::local_color(const SurfaceHit& hit, const Ray& ray, const Path& path) {
   shown_.greatest_channel = std::max(shown_.greatest_channel.value_or(0), largest(hit.color));
   if (setup_.model == ShadingModel::none) return hit.color;
   const Lighting& lighting = setup_.lighting;
@@ -160,7 +160,7 @@ Vec3 LightTransport::Thread::local_color(const SurfaceHit& hit, const Ray& ray, 
 }
 
 /// The part of a light that arrives at a hit.
-Vec3 LightTransport::Thread::part_of_light(const SurfaceHit& hit, std::size_t light, const Path& path) {
+Vec3 LightTransport::part_of_light(const SurfaceHit& hit, std::size_t light, const Path& path) {
   shown_.has_facing_light = true;
   shown_.has_arriving_light |= !setup_.has_shadows;
   if (!setup_.has_shadows) return {1, 1, 1};
@@ -177,7 +177,7 @@ Vec3 LightTransport::Thread::part_of_light(const SurfaceHit& hit, std::size_t li
   return part;
 }
 
-Vec3 LightTransport::Thread::part_through(const SurfaceHit& hit, const Vec3& light) {
+Vec3 LightTransport::part_through(const SurfaceHit& hit, const Vec3& light) {
   const Vec3 way = difference(light, hit.point);
   const auto stops = [&](std::uint32_t number) {
     return !setup_.recurses || setup_.materials[number].alpha == 1;

@@ -36,9 +36,9 @@ struct LightTransportSetup {
 /// of channels from 0 to 255, not clamped.
 class LightTransport {
  public:
-  /// A hierarchy for any ray, of triangles that keep what `project` drops.
-  LightTransport(const TracedTriangles& triangles, const Bvh& bvh, LightTransportSetup setup)
-      : triangles_(triangles), bvh_(bvh), setup_(std::move(setup)) {}
+  /// A hierarchy for any ray, of triangles that keep what `project` drops. For one thread.
+  LightTransport(const TracedTriangles& triangles, const Bvh& bvh, const LightTransportSetup& setup)
+      : setup_(setup), caster_(triangles, bvh) {}
 
   /// How many rays there were, besides the primary ones.
   struct RayCounts {
@@ -51,59 +51,40 @@ class LightTransport {
     void add(const RayCounts& other);
   };
 
-  /// One for each thread.
-  class Thread {
-   public:
-    explicit Thread(const LightTransport& transport)
-        : setup_(transport.setup_), caster_(transport.triangles_, transport.bvh_) {}
-
-    /// The radiance of a primary ray from the surface that it is known to see.
-    [[nodiscard]] Vec3 radiance(SurfaceId seen, const Ray& ray) {
-      return radiance(caster_.seen(seen, ray), ray);
-    }
-    /// The radiance from the point where a ray meets a surface.
-    [[nodiscard]] Vec3 radiance(const SurfaceHit& hit, const Ray& ray);
-    /// The radiance of a ray that meets nothing.
-    [[nodiscard]] Vec3 background() const { return setup_.background; }
-    [[nodiscard]] const RayCounts& counts() const { return counts_; }
-    /// What was seen, except which colors were shown (the caller adds those).
-    [[nodiscard]] const ShownLight& shown() const { return shown_; }
-    [[nodiscard]] SurfaceCaster& caster() { return caster_; }
-    /// From now on, adds every ray to a log; null for none.
-    void log_to(RayLog* log) { log_ = log; }
-
-   private:
-    /// A ray that is traced, and how much it can contribute to the pixel.
-    struct Path {
-      double weight;
-      int depth;
-      double length;  // from the eye to the ray's start
-      std::size_t log_entry;
-    };
-
-    [[nodiscard]] Vec3 color_of(const SurfaceHit& hit, const Ray& ray, Path path);
-    [[nodiscard]] Vec3 surface_color(const SurfaceHit& hit, const Ray& ray, const Path& path);
-    [[nodiscard]] Vec3 local_color(const SurfaceHit& hit, const Ray& ray, const Path& path);
-    [[nodiscard]] Vec3 follow(RayKind kind, const SurfaceRay& ray, const Path& path, double share);
-    [[nodiscard]] Vec3 part_of_light(const SurfaceHit& hit, std::size_t light, const Path& path);
-    [[nodiscard]] Vec3 part_through(const SurfaceHit& hit, const Vec3& to_light);
-    [[nodiscard]] const Material& material(const SurfaceHit& hit) const {
-      return setup_.materials[hit.material];
-    }
-
-    const LightTransportSetup& setup_;
-    SurfaceCaster caster_;
-    RayCounts counts_;
-    ShownLight shown_;
-    double cut_weight_ = 0;
-    std::vector<SurfaceCaster::Crossing> crossings_;
-    RayLog* log_ = nullptr;
-  };
+  /// The radiance of a primary ray from the surface that it is known to see.
+  [[nodiscard]] Vec3 radiance(SurfaceId seen, const Ray& ray);
+  [[nodiscard]] const RayCounts& counts() const { return counts_; }
+  /// The rays' facts, but for the colors shown, which are the caller's.
+  [[nodiscard]] const ShownLight& shown() const { return shown_; }
+  /// From now on, adds every ray to a log.
+  void log_to(RayLog& log) { log_ = &log; }
 
  private:
-  const TracedTriangles& triangles_;
-  const Bvh& bvh_;
-  LightTransportSetup setup_;
+  /// A ray that is traced, and how much it can contribute to the pixel.
+  struct Path {
+    double weight;
+    int depth;
+    double length;  // from the eye to the ray's start
+    std::size_t log_entry;
+  };
+
+  [[nodiscard]] Vec3 color_of(const SurfaceHit& hit, const Ray& ray, Path path);
+  [[nodiscard]] Vec3 surface_color(const SurfaceHit& hit, const Ray& ray, const Path& path);
+  [[nodiscard]] Vec3 local_color(const SurfaceHit& hit, const Ray& ray, const Path& path);
+  [[nodiscard]] Vec3 follow(RayKind kind, const SurfaceRay& ray, const Path& path, double share);
+  [[nodiscard]] Vec3 part_of_light(const SurfaceHit& hit, std::size_t light, const Path& path);
+  [[nodiscard]] Vec3 part_through(const SurfaceHit& hit, const Vec3& to_light);
+  [[nodiscard]] const Material& material(const SurfaceHit& hit) const {
+    return setup_.materials[hit.material];
+  }
+
+  const LightTransportSetup& setup_;
+  SurfaceCaster caster_;
+  RayCounts counts_;
+  ShownLight shown_;
+  double cut_weight_ = 0;
+  std::vector<SurfaceCaster::Crossing> crossings_;
+  RayLog* log_ = nullptr;
 };
 
 }  // namespace pipeline

@@ -42,18 +42,18 @@ Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, Thread
   return {std::move(primitives), pool};
 }
 
-std::optional<RayCaster::Seen> RayCaster::Thread::cast(int row, int column, bool wants_depth) {
+std::optional<RayCaster::Seen> RayCaster::cast(int row, int column, bool wants_depth) {
   row_ = row;
   column_ = column;
   nearest_.reset();
-  const Ray ray = caster_.rays_.ray(row, column);
-  const double largest_depth = caster_.triangles_.largest_depth();
-  double limit = caster_.depth_.distance_up_to(caster_.screen_.rear, largest_depth);
-  caster_.bvh_.for_each_candidate(ray, first_distance(caster_.rays_), limit, [&](TracedTriangles::Id id) {
+  const Ray ray = rays_.ray(row, column);
+  const double largest_depth = triangles_.largest_depth();
+  double limit = depth_.distance_up_to(screen_.rear, largest_depth);
+  bvh_.for_each_candidate(ray, first_distance(rays_), limit, [&](TracedTriangles::Id id) {
     const std::optional<Candidate> next = candidate(id, ray);
     if (!next) return;
     take_nearer(*next);
-    if (nearest_) limit = std::min(limit, caster_.depth_.distance_up_to(nearest_->depth.high, largest_depth));
+    if (nearest_) limit = std::min(limit, depth_.distance_up_to(nearest_->depth.high, largest_depth));
   });
   if (nearest_ && wants_depth) nearest_ = made_exact(*nearest_);
   if (!nearest_) return std::nullopt;
@@ -61,48 +61,42 @@ std::optional<RayCaster::Seen> RayCaster::Thread::cast(int row, int column, bool
 }
 
 /// The triangle, if it may be seen here: its fragment is within the limits.
-std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::candidate(TracedTriangles::Id id,
-                                                                         const Ray& ray) {
-  if (id >= caster_.first_sphere_) return sphere_candidate(id, ray);
-  if (caster_.triangles_.piece(id)) return exact_candidate(id);
-  if (caster_.triangles_.is_dropped(id)) return std::nullopt;
-  const Hit hit = caster_.test_(ray, caster_.triangles_.p_view(id));
+std::optional<RayCaster::Candidate> RayCaster::candidate(TracedTriangles::Id id, const Ray& ray) {
+  if (triangles_.is_sphere(id)) return sphere_candidate(id, ray);
+  if (triangles_.piece(id)) return exact_candidate(id);
+  if (triangles_.is_dropped(id)) return std::nullopt;
+  const Hit hit = test_(ray, triangles_.p_view(id));
   if (hit.result == HitResult::miss) return std::nullopt;
   if (hit.result == HitResult::uncertain) return exact_candidate(id);
-  const Viewport& screen = caster_.screen_;
-  if (hit.depth.high < screen.front || hit.depth.low >= screen.rear) return std::nullopt;
-  const bool is_surely_within = hit.depth.low >= screen.front && hit.depth.high < screen.rear;
+  if (hit.depth.high < screen_.front || hit.depth.low >= screen_.rear) return std::nullopt;
+  const bool is_surely_within = hit.depth.low >= screen_.front && hit.depth.high < screen_.rear;
   if (!is_surely_within) return exact_candidate(id);
   return Candidate{id, hit.depth, false};
 }
 
-std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::exact_candidate(TracedTriangles::Id id) {
+std::optional<RayCaster::Candidate> RayCaster::exact_candidate(TracedTriangles::Id id) {
   const std::optional<double> depth = exact_.depth(id, row_, column_);
-  if (!depth || !(*depth >= caster_.screen_.front && *depth < caster_.screen_.rear)) return std::nullopt;
+  if (!depth || !(*depth >= screen_.front && *depth < screen_.rear)) return std::nullopt;
   return Candidate{id, {*depth, *depth}, true};
 }
 
 /// The sphere's nearer side, if that is within the limits, else the farther one: the front limit may cut a
 /// sphere open.
-std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::sphere_candidate(TracedTriangles::Id id,
-                                                                                const Ray& ray) const {
-  const double first = first_distance(caster_.rays_);
-  for (const auto& [distance, is_front] : caster_.triangles_.sphere(id).surface.meetings(ray)) {
+std::optional<RayCaster::Candidate> RayCaster::sphere_candidate(TracedTriangles::Id id,
+                                                                const Ray& ray) const {
+  const double first = first_distance(rays_);
+  for (const auto& [distance, is_front] : triangles_.sphere(id).surface.meetings(ray)) {
     if (!(distance > first)) continue;
-    const double depth = caster_.depth_.at(distance);
-    if (depth >= caster_.screen_.front && depth < caster_.screen_.rear)
+    const double depth = depth_.at(distance);
+    if (depth >= screen_.front && depth < screen_.rear)
       return Candidate{is_front ? id : id | TracedTriangles::kFromWithin, {depth, depth}, true};
   }
   return std::nullopt;
 }
 
-std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::made_exact(const Candidate& candidate) {
-  return candidate.is_exact ? candidate : exact_candidate(candidate.id);
-}
-
 /// Where the depths may be equal, or in either order, they are calculated as `zbuf` does; of equal ones the
 /// earlier triangle stays.
-void RayCaster::Thread::take_nearer(const Candidate& next) {
+void RayCaster::take_nearer(const Candidate& next) {
   if (!nearest_ || next.depth.high < nearest_->depth.low) {
     nearest_ = next;
     return;
@@ -114,10 +108,6 @@ void RayCaster::Thread::take_nearer(const Candidate& next) {
   const auto order = [](const Candidate& c) { return std::pair(c.depth.low, c.id); };
   if (!nearest_ || order(*rival) < order(*nearest_)) nearest_ = rival;
 }
-
-ExactFragments::ExactFragments(const TracedTriangles& triangles, const ProjectionTransform& projection,
-                               const ExactGrid& grid)
-    : triangles_(triangles), grid_(grid), projection_(projection, "", false), cache_(kCached) {}
 
 const CenterRows& ExactFragments::rows_of(TracedTriangles::Id id) {
   CachedRows& cached = cache_[id % kCached];

@@ -35,7 +35,8 @@ Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, Thread
 class ExactFragments {
  public:
   ExactFragments(const TracedTriangles& triangles, const ProjectionTransform& projection,
-                 const ExactGrid& grid);
+                 const Viewport& screen)
+      : triangles_(triangles), grid_(screen), projection_(projection, "", false), cache_(kCached) {}
 
   /// The depth of a triangle at a pixel; none if it does not cover the pixel's center.
   [[nodiscard]] std::optional<double> depth(TracedTriangles::Id id, int row, int column);
@@ -53,7 +54,7 @@ class ExactFragments {
   const CenterRows& rows_of(TracedTriangles::Id id);
 
   const TracedTriangles& triangles_;
-  const ExactGrid& grid_;
+  ExactGrid grid_;
   ExactProjection projection_;
   TriangleBatch p_view_;
   std::vector<CachedRows> cache_;
@@ -62,7 +63,7 @@ class ExactFragments {
 
 /// Casts primary rays: finds the triangle that a pixel shows by the search of a ray tracer, and decides as
 /// the z-buffer with the rule `center` does, wherever the search cannot tell. So it finds the same triangle
-/// and, on request, the same depth.
+/// and, on request, the same depth. For one thread.
 class RayCaster {
  public:
   /// The visible triangle and its depth, which is exact only where it is requested. Or a sphere, whose depth
@@ -76,54 +77,41 @@ class RayCaster {
             const Viewport& screen)
       : triangles_(triangles),
         bvh_(bvh),
-        projection_(projection),
         screen_(screen),
-        grid_(screen),
         rays_(projection, screen),
         depth_(projection),
         test_(rays_, depth_),
-        first_sphere_(static_cast<TracedTriangles::Id>(triangles.size())) {}
+        exact_(triangles, projection, screen) {}
 
-  /// One for each thread.
-  class Thread {
-   public:
-    explicit Thread(const RayCaster& caster)
-        : caster_(caster), exact_(caster.triangles_, caster.projection_, caster.grid_) {}
-
-    /// The triangle seen at a pixel, between the depth limits; none if there is none.
-    std::optional<Seen> cast(int row, int column, bool wants_depth);
-    /// The number of exact evaluations.
-    [[nodiscard]] std::uint64_t exact_count() const { return exact_.count(); }
-
-   private:
-    struct Candidate {
-      TracedTriangles::Id id;
-      DepthInterval depth;
-      bool is_exact;
-    };
-
-    [[nodiscard]] std::optional<Candidate> candidate(TracedTriangles::Id id, const Ray& ray);
-    [[nodiscard]] std::optional<Candidate> exact_candidate(TracedTriangles::Id id);
-    [[nodiscard]] std::optional<Candidate> sphere_candidate(TracedTriangles::Id id, const Ray& ray) const;
-    [[nodiscard]] std::optional<Candidate> made_exact(const Candidate& candidate);
-    void take_nearer(const Candidate& next);
-
-    const RayCaster& caster_;
-    ExactFragments exact_;
-    int row_ = 0, column_ = 0;
-    std::optional<Candidate> nearest_;
-  };
+  /// The triangle seen at a pixel, between the depth limits; none if there is none.
+  std::optional<Seen> cast(int row, int column, bool wants_depth);
+  /// The number of exact evaluations.
+  [[nodiscard]] std::uint64_t exact_count() const { return exact_.count(); }
 
  private:
+  struct Candidate {
+    TracedTriangles::Id id;
+    DepthInterval depth;
+    bool is_exact;
+  };
+
+  [[nodiscard]] std::optional<Candidate> candidate(TracedTriangles::Id id, const Ray& ray);
+  [[nodiscard]] std::optional<Candidate> exact_candidate(TracedTriangles::Id id);
+  [[nodiscard]] std::optional<Candidate> sphere_candidate(TracedTriangles::Id id, const Ray& ray) const;
+  [[nodiscard]] std::optional<Candidate> made_exact(const Candidate& candidate) {
+    return candidate.is_exact ? candidate : exact_candidate(candidate.id);
+  }
+  void take_nearer(const Candidate& next);
+
   const TracedTriangles& triangles_;
   const Bvh& bvh_;
-  ProjectionTransform projection_;
   Viewport screen_;
-  ExactGrid grid_;
   PixelRays rays_;
   NdcDepth depth_;
   TriangleTest test_;
-  TracedTriangles::Id first_sphere_;
+  ExactFragments exact_;
+  int row_ = 0, column_ = 0;
+  std::optional<Candidate> nearest_;
 };
 
 }  // namespace pipeline

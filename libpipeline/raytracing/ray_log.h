@@ -12,37 +12,32 @@ namespace pipeline {
 
 enum class RayKind { primary, shadow, mirrored, refracted };
 
-/// The rays that make the color of a pixel, each after the one it comes from.
-class RayLog {
- public:
-  struct Entry {
-    RayKind kind;
-    int depth;            // 0 of a primary ray, and otherwise 1 more than that of the ray it comes from
-    double weight;        // the largest part that it can have of the pixel's color
-    Vec3 origin;          // in view space
-    bool is_cut = false;  // not cast
-    std::optional<std::uint64_t> object = {};  // the number of what it meets; none if it meets nothing
-    std::optional<std::size_t> light = {};     // the number of the light that a shadow ray goes to
-    Vec3 point = {};                           // where it meets that
-    Vec3 direction = {};                       // of length 1, if it meets nothing
-    bool is_front = true;
-    bool is_sphere = false;
-    Vec3 brought = {};  // a color; of a shadow ray the part of the light that comes through
-  };
-
-  /// Adds an entry and returns its place.
-  std::size_t add(const Entry& entry) {
-    entries_.push_back(entry);
-    return entries_.size() - 1;
-  }
-  [[nodiscard]] Entry& operator[](std::size_t place) { return entries_[place]; }
-  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-
- private:
-  std::vector<Entry> entries_;
+/// A ray that takes part in the color of a pixel.
+struct LoggedRay {
+  RayKind kind;
+  int depth;            // 0 of a primary ray, and otherwise 1 more than that of the ray it comes from
+  double weight;        // the largest part that it can have of the pixel's color
+  Vec3 origin;          // in view space
+  bool is_cut = false;  // not cast
+  std::optional<std::uint64_t> object = {};  // the number of what it meets; none if it meets nothing
+  std::optional<std::size_t> light = {};     // the number of the light that a shadow ray goes to
+  Vec3 point = {};                           // where it meets that
+  Vec3 direction = {};                       // of length 1, if it meets nothing
+  bool is_front = true;
+  bool is_sphere = false;
+  Vec3 brought = {};  // a color; of a shadow ray the part of the light that comes through
 };
 
-/// What rays have seen, for the note on a picture that shows nothing.
+/// The rays that make the color of a pixel, each after the one it comes from.
+struct RayLog : std::vector<LoggedRay> {
+  /// Adds a ray and returns its place.
+  std::size_t add(const LoggedRay& ray) {
+    push_back(ray);
+    return size() - 1;
+  }
+};
+
+/// Facts about all rays, for the note on a picture that shows nothing.
 struct ShownLight {
   bool has_seen = false;         // a surface
   bool shows_something = false;  // a color other than the background's, by more than one step in a channel

@@ -15,11 +15,11 @@ double error_of_point(const Ray& ray, double t) {
 }  // namespace
 
 /// A ray that starts on the sphere itself leaves out that place as such, however near the other one is.
-SurfaceCaster::SphereMeetings SurfaceCaster::sphere_meetings(SurfaceId id, const SurfaceRay& ray) const {
+Ellipsoid::Meetings SurfaceCaster::sphere_meetings(SurfaceId id, const SurfaceRay& ray) const {
   const Ellipsoid& surface = triangles_.sphere(id).surface;
-  const SphereMeetings all =
+  const Ellipsoid::Meetings all =
       id == ray.start ? surface.meetings_from_surface(ray.ray) : surface.meetings(ray.ray);
-  SphereMeetings beyond;
+  Ellipsoid::Meetings beyond;
   for (const Ellipsoid::Meeting& meeting : all) {
     const double way = meeting.t * largest_in(ray.ray.direction);
     const double error = ray.start == kNoSurface ? 0 : 2 * ray.error + error_of_point(ray.ray, meeting.t);
@@ -29,7 +29,7 @@ SurfaceCaster::SphereMeetings SurfaceCaster::sphere_meetings(SurfaceId id, const
 }
 
 SurfaceHit SurfaceCaster::sphere_hit(SurfaceId id, const Ray& ray, const Ellipsoid::Meeting& meeting) {
-  const TracedSpheres::TracedSphere& sphere = triangles_.sphere(id);
+  const TracedSphere& sphere = triangles_.sphere(id);
   const Vec3 point = point_at(ray, meeting.t);
   const Vec3 normal = sphere.surface.normal(point);
   return {.id = id,
@@ -38,7 +38,7 @@ SurfaceHit SurfaceCaster::sphere_hit(SurfaceId id, const Ray& ray, const Ellipso
           .error = error_of_point(ray, meeting.t),
           .face_normal = normal,
           .normal = normal,
-          .color = triangles_.spheres().have_colors() ? sphere.color : to_vec3(colors_.of(sphere.number)),
+          .color = sphere.color ? *sphere.color : to_vec3(colors_.of(sphere.number)),
           .material = sphere.material,
           .is_front = meeting.is_front};
 }
@@ -46,58 +46,54 @@ SurfaceHit SurfaceCaster::sphere_hit(SurfaceId id, const Ray& ray, const Ellipso
 std::optional<SurfaceHit> SurfaceCaster::nearest(const SurfaceRay& ray) {
   const SurfaceTriangleTest test(ray);
   SurfaceId nearest = kNoSurface;
-  SurfaceTriangleTest::Meeting meeting{};
-  Ellipsoid::Meeting of_sphere{};
+  SurfaceTriangleTest::Meeting with_triangle{};
+  Ellipsoid::Meeting with_sphere{};
   double limit = std::numeric_limits<double>::infinity();
   bvh_.for_each_candidate(ray.ray, 0, limit, [&](SurfaceId id) {
-    if (id >= triangles_.size()) {
-      const SphereMeetings meetings = sphere_meetings(id, ray);
-      if (meetings.count == 0) return;
-      const Ellipsoid::Meeting& first = *meetings.begin();
-      if (std::pair(first.t, id) >= std::pair(limit, nearest)) return;
-      nearest = id;
-      of_sphere = first;
-      limit = first.t;
-      return;
+    const auto is_nearest = [&](double t) { return std::pair(t, id) < std::pair(limit, nearest); };
+    if (triangles_.is_sphere(id)) {
+      const Ellipsoid::Meetings found = sphere_meetings(id, ray);
+      if (found.count == 0 || !is_nearest(found.list[0].t)) return;
+      with_sphere = found.list[0];
+      limit = with_sphere.t;
+    } else {
+      const auto found = meeting(id, ray, test);
+      if (!found || !is_nearest(found->t)) return;
+      with_triangle = *found;
+      limit = with_triangle.t;
     }
-    if (id == ray.start || !triangles_.is_first(id)) return;
-    const auto found = test(triangles_.p_view(id));
-    if (!found || std::pair(found->t, id) >= std::pair(limit, nearest)) return;
     nearest = id;
-    meeting = *found;
-    limit = found->t;
   });
   if (nearest == kNoSurface) return std::nullopt;
-  if (nearest >= triangles_.size()) return sphere_hit(nearest, ray.ray, of_sphere);
-  return triangle_hit(nearest, ray.ray, meeting.t, meeting.weights);
+  return triangles_.is_sphere(nearest) ? sphere_hit(nearest, ray.ray, with_sphere)
+                                       : triangle_hit(nearest, ray.ray, with_triangle);
 }
 
 SurfaceHit SurfaceCaster::seen(SurfaceId id, const Ray& ray) {
-  if (id >= triangles_.size()) {
-    const bool is_from_within = (id & TracedTriangles::kFromWithin) != 0;
-    const Ellipsoid::Meetings meetings = triangles_.sphere(id).surface.meetings(ray);
-    return sphere_hit(id & ~TracedTriangles::kFromWithin, ray, meetings.list[is_from_within ? 1 : 0]);
-  }
-  const auto meeting = SurfaceTriangleTest({ray}).known(triangles_.p_view(id));
-  return triangle_hit(id, ray, meeting.t, meeting.weights);
+  if (!triangles_.is_sphere(id))
+    return triangle_hit(id, ray, SurfaceTriangleTest({ray}).known(triangles_.p_view(id)));
+  const Ellipsoid::Meetings meetings = triangles_.sphere(id).surface.meetings(ray);
+  const bool is_from_within = (id & TracedTriangles::kFromWithin) != 0;
+  return sphere_hit(id & ~TracedTriangles::kFromWithin, ray, meetings.list[is_from_within ? 1 : 0]);
 }
 
-SurfaceHit SurfaceCaster::triangle_hit(SurfaceId id, const Ray& ray, double t,
-                                       const std::array<double, 3>& weights) {
+SurfaceHit SurfaceCaster::triangle_hit(SurfaceId id, const Ray& ray,
+                                       const SurfaceTriangleTest::Meeting& meeting) {
   const Triangle& p_view = triangles_.p_view(id);
   const Vec3 normal = unit_vector(face_normal(p_view));
   const auto* const normals = triangles_.normals(id);
   const auto* const colors = triangles_.colors(id);
   return {.id = id,
-          .t = t,
-          .point = mean(p_view, weights),
+          .t = meeting.t,
+          .point = mean(p_view, meeting.weights),
           .error = error_of_mean(p_view),
           .face_normal = normal,
-          .normal = normals != nullptr ? mean(*normals, weights) : normal,
-          .color = colors != nullptr ? mean(*colors, weights) : to_vec3(colors_.of(triangles_.number(id))),
+          .normal = normals != nullptr ? mean(*normals, meeting.weights) : normal,
+          .color =
+              colors != nullptr ? mean(*colors, meeting.weights) : to_vec3(colors_.of(triangles_.number(id))),
           .material = triangles_.material(id),
           .is_front = dot(ray.direction, normal) < 0,
-          .weights = weights};
+          .weights = meeting.weights};
 }
 
 /// The neighbors at an edge meet a ray at the same point, up to errors in t.
@@ -111,7 +107,7 @@ void SurfaceCaster::settle(std::vector<Crossing>& crossings) {
 }
 
 std::optional<std::array<SurfacePoint, 3>> SurfaceCaster::corners(SurfaceId id) {
-  if (id >= triangles_.size()) return std::nullopt;
+  if (triangles_.is_sphere(id)) return std::nullopt;
   const Triangle& p_view = triangles_.p_view(id);
   const Vec3 normal = unit_vector(face_normal(p_view));
   const auto* const normals = triangles_.normals(id);

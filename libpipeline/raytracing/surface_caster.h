@@ -47,13 +47,18 @@ class SurfaceCaster {
 
  private:
   /// The meetings with a sphere that are surely beyond the ray's start.
-  using SphereMeetings = Ellipsoid::Meetings;
-  [[nodiscard]] SphereMeetings sphere_meetings(SurfaceId id, const SurfaceRay& ray) const;
+  [[nodiscard]] Ellipsoid::Meetings sphere_meetings(SurfaceId id, const SurfaceRay& ray) const;
+  /// The meeting with a triangle; none with the one that the ray starts on.
+  [[nodiscard]] std::optional<SurfaceTriangleTest::Meeting> meeting(SurfaceId id, const SurfaceRay& ray,
+                                                                    const SurfaceTriangleTest& test) const {
+    if (id == ray.start || !triangles_.is_first(id)) return std::nullopt;
+    return test(triangles_.p_view(id));
+  }
   [[nodiscard]] SurfaceHit sphere_hit(SurfaceId id, const Ray& ray, const Ellipsoid::Meeting& meeting);
   static Vec3 point_at(const Ray& ray, double t) { return sum(ray.origin, scaled(ray.direction, t)); }
 
-  [[nodiscard]] SurfaceHit triangle_hit(SurfaceId id, const Ray& ray, double t,
-                                        const std::array<double, 3>& weights);
+  [[nodiscard]] SurfaceHit triangle_hit(SurfaceId id, const Ray& ray,
+                                        const SurfaceTriangleTest::Meeting& meeting);
   /// Sorts crossings, and merges those on the same side of the same place into one.
   static void settle(std::vector<Crossing>& crossings);
 
@@ -69,30 +74,23 @@ bool SurfaceCaster::cross(const SurfaceRay& ray, std::vector<Crossing>& crossing
   double limit = 1;
   bool is_stopped = false;
   bvh_.for_each_candidate(ray.ray, 0, limit, [&](SurfaceId id) {
-    if (is_stopped) return;
-    if (id >= triangles_.size()) {
-      const SphereMeetings meetings = sphere_meetings(id, ray);
-      for (const auto& [t, is_front] : meetings) {
-        if (is_stopped || !(t < 1)) continue;
-        is_stopped = stops(triangles_.material(id));
-        const Vec3 normal = triangles_.sphere(id).surface.normal(point_at(ray.ray, t));
-        const double cosine = std::fabs(dot(unit_vector(ray.ray.direction), normal));
-        crossings.push_back({t, id, triangles_.material(id), is_front, cosine});
+    const auto add = [&](double t, std::optional<bool> is_front, const auto& unit_normal) {
+      if (is_stopped || !(t < 1)) return;
+      is_stopped = stops(triangles_.material(id));
+      if (is_stopped) {
+        limit = -1;  // ends the search
+        return;
       }
-      if (is_stopped) limit = -1;
-      return;
+      const double cosine = dot(unit_vector(ray.ray.direction), unit_normal());
+      crossings.push_back({t, id, triangles_.material(id), is_front.value_or(cosine < 0), std::fabs(cosine)});
+    };
+    if (is_stopped) return;
+    if (triangles_.is_sphere(id)) {
+      for (const auto& [t, is_front] : sphere_meetings(id, ray))
+        add(t, is_front, [&, at = t] { return triangles_.sphere(id).surface.normal(point_at(ray.ray, at)); });
+    } else if (const auto found = meeting(id, ray, test)) {
+      add(found->t, {}, [&] { return unit_vector(face_normal(triangles_.p_view(id))); });
     }
-    if (id == ray.start || !triangles_.is_first(id)) return;
-    const Triangle& p_view = triangles_.p_view(id);
-    const auto found = test(p_view);
-    if (!found || !(found->t < 1)) return;
-    is_stopped = stops(triangles_.material(id));
-    if (is_stopped) {
-      limit = -1;  // ends the search
-      return;
-    }
-    const double cosine = dot(unit_vector(ray.ray.direction), unit_vector(face_normal(p_view)));
-    crossings.push_back({found->t, id, triangles_.material(id), cosine < 0, std::fabs(cosine)});
   });
   if (is_stopped) return false;
   settle(crossings);

@@ -7,52 +7,17 @@
 #include <vector>
 
 #include "libpipeline/raytracing/ellipsoid.h"
+#include "libpipeline/raytracing/exact_projection.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/vertex/projection.h"
 
 namespace pipeline {
 
-/// Projects triangles of a text as `project --digits exact` does, and rounds them as `zbuf` reads them.
-class ExactProjection {
- public:
-  /// `file` names the text in messages. With `is_lit`, pieces keep the triangle they were cut from.
-  ExactProjection(const ProjectionTransform& projection, const std::string& file, bool is_lit);
-  ExactProjection(const ExactProjection&) = delete;
-  ExactProjection& operator=(const ExactProjection&) = delete;
-
-  /// Fills `p_ndc` as ProjectionStage::project does; valid until the next call.
-  const TriangleBatch& project(const TriangleBatch& p_view);
-  [[nodiscard]] const ProjectionStage& stage() const { return stage_; }
-  /// A place in the text, for messages.
-  [[nodiscard]] SourceLocation location_of(LineAndColumn place) const { return rounder_.location_of(place); }
-
- private:
-  CoordinateRounder rounder_;
-  ProjectionStage stage_;
-  TriangleBatch p_ndc_;
-};
-
-/// The spheres of a text in view space, by their place among them. Each takes 240 bytes.
-class TracedSpheres {
- public:
-  struct TracedSphere {
-    Ellipsoid surface;
-    Vec3 color;  // 0 if the text has no colors
-    std::uint64_t number;
-    std::uint32_t material;
-  };
-
-  [[nodiscard]] std::size_t size() const { return spheres_.size(); }
-  [[nodiscard]] bool empty() const { return spheres_.empty(); }
-  [[nodiscard]] const TracedSphere& operator[](std::size_t index) const { return spheres_[index]; }
-  [[nodiscard]] bool have_colors() const { return have_colors_; }
-
-  /// False if the sphere has no volume.
-  [[nodiscard]] bool add(const Sphere& p_view);
-
- private:
-  std::vector<TracedSphere> spheres_;
-  bool have_colors_ = false;
+/// A sphere of a text in view space; it takes 248 bytes.
+struct TracedSphere {
+  Ellipsoid surface;
+  std::optional<Vec3> color;  // none if the text has no colors
+  std::uint64_t number;
+  std::uint32_t material;
 };
 
 /// All triangles of a text in view space, in the order in which `project` writes them. A cut triangle has one
@@ -62,19 +27,19 @@ class TracedSpheres {
 class TracedTriangles {
  public:
   using Id = std::uint32_t;
+  /// Watches triangles of a text, before and after their projection.
+  using Watcher = std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>;
 
   /// From now on, adds triangles that `project` drops, too.
   void keep_dropped() { keeps_dropped_ = true; }
-  /// Adds the triangles of a batch, and calls `look_at(p_view, p_ndc)` for them in one or several batches;
-  /// adds its spheres. An InputError as ProjectionStage::project throws, or at a sphere whose points lie in a
-  /// plane.
-  void add(const TriangleBatch& p_view, ExactProjection& projection,
-           const std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>& look_at);
+  /// Adds the triangles of a batch, and calls `look_at` for them in one or several batches; adds its spheres.
+  /// An InputError as ProjectionStage::project throws, or at a sphere whose points lie in a plane.
+  void add(const TriangleBatch& p_view, ExactProjection& projection, const Watcher& look_at);
 
   [[nodiscard]] std::size_t size() const { return p_view_.size(); }
   [[nodiscard]] const Triangle& p_view(Id id) const { return p_view_[id]; }
   /// The number in the scene of a triangle, or of a sphere.
-  [[nodiscard]] std::uint64_t number(Id id) const { return id < size() ? numbers_[id] : sphere(id).number; }
+  [[nodiscard]] std::uint64_t number(Id id) const { return is_sphere(id) ? sphere(id).number : numbers_[id]; }
   /// Which piece of its triangle this one is; none if it is whole or not projected.
   [[nodiscard]] std::optional<std::size_t> piece(Id id) const {
     if (pieces_.empty() || pieces_[id] >= kDropped) return std::nullopt;
@@ -85,16 +50,14 @@ class TracedTriangles {
   /// Whether this is the entry that represents the uncut triangle.
   [[nodiscard]] bool is_first(Id id) const { return piece(id).value_or(0) == 0; }
   [[nodiscard]] std::uint32_t material(Id id) const {
-    if (id >= size()) return sphere(id).material;
+    if (is_sphere(id)) return sphere(id).material;
     return attributes_.materials.empty() ? 0 : attributes_.materials[id];
   }
   /// In the id of a sphere that a primary ray sees: the ray sees it from within.
   static constexpr Id kFromWithin = Id{1} << 31;
-  [[nodiscard]] const TracedSpheres& spheres() const { return spheres_; }
-  /// The sphere with an id of at least size().
-  [[nodiscard]] const TracedSpheres::TracedSphere& sphere(Id id) const {
-    return spheres_[(id & ~kFromWithin) - size()];
-  }
+  [[nodiscard]] const std::vector<TracedSphere>& spheres() const { return spheres_; }
+  [[nodiscard]] bool is_sphere(Id id) const { return id >= size(); }
+  [[nodiscard]] const TracedSphere& sphere(Id id) const { return spheres_[(id & ~kFromWithin) - size()]; }
   /// The count of triangles and spheres.
   [[nodiscard]] std::size_t surface_count() const { return size() + spheres_.size(); }
   /// The corners' colors and normals; null where the text has none.
@@ -113,13 +76,10 @@ class TracedTriangles {
   static constexpr std::uint8_t kWhole = 255;
   static constexpr std::uint8_t kDropped = 254;
 
-  void add_whole(const TriangleBatch& p_view, std::size_t index);
+  void add_triangles(const TriangleBatch& p_view, ExactProjection& projection, const Watcher& look_at);
+  void add_entry(const TriangleBatch& p_view, std::size_t index, std::uint8_t piece);
 
-  void add_triangles(
-      const TriangleBatch& p_view, ExactProjection& projection,
-      const std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>& look_at);
-
-  TracedSpheres spheres_;
+  std::vector<TracedSphere> spheres_;
   std::vector<Triangle> p_view_;
   std::vector<std::uint64_t> numbers_;
   std::vector<std::uint8_t> pieces_;  // empty while all are whole

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libpipeline/coverage/rules.h"
-#include "libpipeline/stream/text_round_trip.h"
+#include "libpipeline/raytracing/exact_projection.h"
 #include "libpipeline/visibility/algorithms.h"
 #include "libpipeline/visibility/tagged_batch.h"
 
@@ -42,15 +42,14 @@ std::vector<Pixel> traced(const TriangleBatch& p_view, const ProjectionTransform
   triangles.add(p_view, exact, [](const TriangleBatch&, const TriangleBatch&) {});
   ThreadPool pool(1);
   const Bvh bvh = hierarchy_of(triangles, PixelRays(projection, screen), pool);
-  const RayCaster caster(triangles, bvh, projection, screen);
-  RayCaster::Thread thread(caster);
+  RayCaster caster(triangles, bvh, projection, screen);
   std::vector<Pixel> pixels;
   for (int row = 0; row < screen.rows; ++row)
     for (int column = 0; column < screen.columns; ++column) {
-      const auto seen = thread.cast(row, column, true);
+      const auto seen = caster.cast(row, column, true);
       pixels.push_back(seen ? Pixel{seen->id, seen->depth} : Pixel{~PixelTag{0}, screen.rear});
       // Without a depth it is the same triangle.
-      const auto again = thread.cast(row, column, false);
+      const auto again = caster.cast(row, column, false);
       EXPECT_EQ(seen ? seen->id : 0, again ? again->id : 0);
     }
   return pixels;

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "libpipeline/numbers/vec_math.h"
-#include "libpipeline/raytracing/ray_log.h"
+#include "libpipeline/raytracing/ray_caster.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
@@ -15,45 +15,40 @@ std::string to_text(const Vec3& v) {
   return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
 }
 
-std::string target_of(const RayLog::Entry& entry) {
-  if (entry.light) return "light " + std::to_string(*entry.light);
-  if (!entry.object) return "nothing along " + to_text(entry.direction);
-  return (entry.is_sphere ? "sphere " : "triangle ") + std::to_string(*entry.object) +
-         (entry.is_front ? " front at " : " back at ") + to_text(entry.point);
+std::string target_of(const LoggedRay& ray) {
+  if (ray.light) return "light " + std::to_string(*ray.light);
+  if (!ray.object) return "nothing along " + to_text(ray.direction);
+  return (ray.is_sphere ? "sphere " : "triangle ") + std::to_string(*ray.object) +
+         (ray.is_front ? " front at " : " back at ") + to_text(ray.point);
 }
 
-std::string to_text(const RayLog::Entry& entry) {
-  std::string text(2 * static_cast<std::size_t>(entry.depth), ' ');
-  text.append(kNames[static_cast<std::size_t>(entry.kind)])
-      .append(" weight ")
-      .append(shortest_text(entry.weight));
-  text.append(" from ").append(to_text(entry.origin));
-  if (entry.is_cut) return text + " cut";
-  return text + " to " + target_of(entry) + " brings " + to_text(entry.brought);
+std::string to_text(const LoggedRay& ray) {
+  const std::string text = std::string(2 * static_cast<std::size_t>(ray.depth), ' ') +
+                           kNames[static_cast<std::size_t>(ray.kind)] + " weight " +
+                           shortest_text(ray.weight) + " from " + to_text(ray.origin);
+  return text + (ray.is_cut ? " cut" : " to " + target_of(ray) + " brings " + to_text(ray.brought));
 }
 
 }  // namespace
 
-std::vector<std::string> ray_lines(const Pixel& pixel, const RayCaster& caster,
-                                   const LightTransport& transport, const PixelRays& rays) {
-  RayCaster::Thread primary(caster);
-  LightTransport::Thread light(transport);
+void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
+                   const LightTransportSetup& setup, std::vector<std::string>& lines) {
   RayLog log;
-  light.log_to(&log);
-  const Ray ray = rays.ray(pixel.row, pixel.column);
+  const Ray ray = PixelRays(scene.projection(), screen).ray(pixel.row, pixel.column);
+  RayCaster primary(scene.triangles(), bvh, scene.projection(), screen);
+  LightTransport light(scene.triangles(), bvh, setup);
+  light.log_to(log);
   if (const auto seen = primary.cast(pixel.row, pixel.column, false))
     static_cast<void>(light.radiance(seen->id, ray));
   else
-    log.add({.kind = RayKind::primary,
-             .depth = 0,
-             .weight = 1,
-             .origin = ray.origin,
-             .direction = unit_vector(ray.direction),
-             .brought = light.background()});
-  const std::string place = std::to_string(pixel.column) + "," + std::to_string(pixel.row) + ": ";
-  std::vector<std::string> lines;
-  for (const RayLog::Entry& entry : log.entries()) lines.push_back(place + to_text(entry));
-  return lines;
+    log.push_back({.kind = RayKind::primary,
+                   .depth = 0,
+                   .weight = 1,
+                   .origin = ray.origin,
+                   .direction = unit_vector(ray.direction),
+                   .brought = setup.background});
+  for (const LoggedRay& logged : log)
+    lines.push_back(std::to_string(pixel.column) + "," + std::to_string(pixel.row) + ": " + to_text(logged));
 }
 
 }  // namespace pipeline

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "libpipeline/raytracing/light_transport.h"
-#include "libpipeline/raytracing/ray_caster.h"
 #include "libpipeline/visibility/fragment.h"
+#include "tools/trace/traced_scene.h"
 
 namespace pipeline {
 
-/// The rays that make the color of a pixel, a line each without a line feed: docs/ray-tracing.md has the
+/// Adds the rays that make the color of a pixel, a line each without a line feed: docs/ray-tracing.md has the
 /// format.
-std::vector<std::string> ray_lines(const Pixel& pixel, const RayCaster& caster,
-                                   const LightTransport& transport, const PixelRays& rays);
+void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
+                   const LightTransportSetup& setup, std::vector<std::string>& lines);
 
 }  // namespace pipeline

@@ -1,10 +1,9 @@
 #include "tools/trace/rendering.h"
 
+#include <algorithm>
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "libpipeline/raytracing/ray_caster.h"
@@ -13,8 +12,6 @@
 #include "libpipeline/stream/thread_pool.h"
 #include "tools/rim/empty_picture_note.h"
 #include "tools/trace/ray_report.h"
-#include "tools/trace/sample_colors.h"
-#include "tools/trace/trace_work.h"
 #include "tools/trace/traced_picture.h"
 #include "tools/trace/traced_scene.h"
 #include "tools/zbuf/fragment_report.h"
@@ -25,8 +22,9 @@
 namespace pipeline {
 namespace {
 
-PictureRays rays_of(const TraceOptions& chosen) {
-  return {.sampling = chosen.sampling.value_or(Sampling::regular),
+PictureRays rays_of(const TraceOptions& chosen, const Viewport& screen) {
+  return {.screen = screen,
+          .sampling = chosen.sampling.value_or(Sampling::regular),
           .sample_count = chosen.sample_count,
           .threshold = chosen.threshold,
           .has_colors = chosen.has_image(),
@@ -43,19 +41,39 @@ int threads_for(const TraceOptions& chosen, const Viewport& screen, std::size_t 
   return chosen.threads_for(256 * (pixels * samples * samples + triangle_count));
 }
 
+LightTransportSetup light_transport_setup(const TraceOptions& chosen, const TracedScene& scene,
+                                          Color background) {
+  const Appearance& appearance = scene.header().appearance;
+  return {.model = shading_model(appearance, chosen.shading),
+          .lighting = lighting_of(appearance, scene.projection().is_perspective),
+          .materials = materials_of(appearance),
+          .background = to_vec3(background),
+          .has_shadows = !chosen.without_shadows,
+          .recurses = !chosen.without_recursion,
+          .min_contribution = chosen.min_contribution,
+          .max_depth = chosen.max_depth};
+}
+
+/// Whether colors need rays beyond primary ones: a shadow may fall, or a material mirrors or is clear.
+bool needs_light_transport(const LightTransportSetup& setup) {
+  const bool has_lights = setup.model != ShadingModel::none && !setup.lighting.lights.empty();
+  return (has_lights && setup.has_shadows) ||
+         (setup.recurses && std::ranges::any_of(setup.materials, &Material::sends_rays));
+}
+
 /// Why triangles do not show: the notes of `project` and of `zbuf`.
 std::optional<std::string> unseen_triangles_note(const TracedScene& scene) {
-  if (auto note = scene.view().note()) return note;
-  return scene.drawing().empty_picture_note();
+  const auto note = scene.view().note();
+  return note ? note : scene.drawing().empty_picture_note();
 }
 
 /// Why a scene with spheres shows nothing: the note on those, and on the triangles, if there are some.
 std::string unmet_note(const TracedScene& scene, std::uint64_t object_count) {
   const std::string note = unseen_spheres_note(scene.spheres());
-  if (scene.triangles().spheres().size() == object_count) return note;
   const std::string triangles = unseen_triangles_note(scene).value_or("");
   const std::size_t reason = triangles.find("empty: ");
-  return reason == std::string::npos ? note : note + "; " + triangles.substr(reason + 7);
+  const bool has_triangles = object_count > scene.triangles().spheres().size();
+  return has_triangles && reason != std::string::npos ? note + "; " + triangles.substr(reason + 7) : note;
 }
 
 /// A run of `trace`, from the header of its input to the notes.
@@ -70,16 +88,15 @@ class Rendering {
         outputs_(tool, chosen, statistics),
         scene_(tool, chosen, screen, statistics.is_wanted()),
         background_(background_color(scene_.header().appearance, parse_color(chosen.background))),
-        setup_(
-            light_transport_setup(scene_.header().appearance, scene_.projection().is_perspective, chosen)) {
+        light_(light_transport_setup(chosen, scene_, background_)) {
     if (rays_.has_colors)
-      shader_ =
-          surface_shader(scene_.header(), scene_.header_end(), places_.screen(), surface_options(chosen));
+      shader_ = surface_shader(scene_.header(), scene_.header_end(), rays_.places().screen(),
+                               surface_options(chosen));
     probed_ = probed_pixels(chosen, screen);
   }
 
   void read() {
-    const bool sends_rays = rays_.has_colors && needs_light_transport(setup_);
+    const bool sends_rays = rays_.has_colors && needs_light_transport(light_);
     casts_any_rays_ = sends_rays || !probed_.empty();
     scene_.read(casts_any_rays_);
     // The shader of zbuf has no spheres.
@@ -90,35 +107,25 @@ class Rendering {
 
   TracedPicture cast() {
     ThreadPool pool(threads_for(chosen_, screen_, tool_.timing().triangle_count));
-    auto last = std::chrono::steady_clock::now();
-    const auto lap = [&] {
-      const auto now = std::chrono::steady_clock::now();
-      return std::chrono::duration<double>(now - std::exchange(last, now)).count();
+    const auto begin = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
-    const ProjectionTransform& projection = scene_.projection();
-    const TracedTriangles& triangles = scene_.triangles();
-    const PixelRays pixel_rays(projection, screen_), sample_rays(projection, places_.screen());
-    const Bvh bvh =
-        hierarchy_of(triangles, pixel_rays, pool, casts_any_rays_ ? RaysOfBoxes::any : RaysOfBoxes::primary);
-    const LightTransport transport(triangles, bvh, setup_);
-    work_.build_seconds = lap();
-    const auto make_colors = [&]() -> std::unique_ptr<SampleColors> {
-      if (!traces_light_) return std::make_unique<SurfaceColors>(scene_, shader_ ? &*shader_ : nullptr);
-      return std::make_unique<LightColors>(transport, sample_rays, background_, work_, shown_light_);
-    };
-    TracedPicture picture =
-        traced_picture(scene_, bvh, screen_, places_, rays_, background_, make_colors, pool, work_);
-    work_.cast_seconds = lap();
-    for (const Pixel& pixel : probed_)
-      for (const std::string& line :
-           ray_lines(pixel, {triangles, bvh, projection, screen_}, transport, pixel_rays))
-        probe_lines_.push_back(line);
+    const Bvh bvh = hierarchy_of(scene_.triangles(), PixelRays(scene_.projection(), screen_), pool,
+                                 casts_any_rays_ ? RaysOfBoxes::any : RaysOfBoxes::primary);
+    const double build_seconds = seconds();
+    const ColorSetup colors = {background_, shader_ ? &*shader_ : nullptr, traces_light_ ? &light_ : nullptr};
+    TracedPicture picture = traced_picture(scene_, bvh, rays_, colors, pool);
+    picture.work.build_seconds = build_seconds;
+    picture.work.cast_seconds = seconds() - build_seconds;
+    if (shader_) shader_->add_shown(picture.shown_colors);
+    for (const Pixel& pixel : probed_) add_ray_lines(pixel, scene_, bvh, screen_, light_, probe_lines_);
     return picture;
   }
 
   void write(const TracedPicture& picture) {
-    tool_.timing().details = to_text(work_);
-    add_statistics();
+    tool_.timing().details = to_text(picture.work);
+    add_statistics(picture.work);
     outputs_.close_reports();
     tool_.timing().lap(&Timing::work_seconds);
     outputs_.open(screen_, 1, background_);
@@ -132,52 +139,48 @@ class Rendering {
   }
 
   /// Notes why the image is empty, if it is, or squeezed.
-  void note() const {
+  void note(const TracedPicture& picture) const {
     if (!rays_.has_colors) return;
-    if (const auto note = invisible_note())
+    if (const auto note = invisible_note(picture.shown_light))
       tool_.note(*note);
     else if (const auto squeezed = squeezed_note(scene_.given_projection(), screen_))
       tool_.note(*squeezed);
   }
 
  private:
-  void add_statistics() {
+  void add_statistics(const TraceWork& work) {
     statistics_.add("triangles", tool_.timing().triangle_count);
     scene_.view().add_to(statistics_);
-    statistics_.add("primary_rays", work_.primary_rays);
+    statistics_.add("primary_rays", work.primary_rays);
     if (!traces_light_) return;
-    statistics_.add("shadow_rays", work_.rays.shadow);
-    statistics_.add("mirrored_rays", work_.rays.mirrored);
-    statistics_.add("refracted_rays", work_.rays.refracted);
-    statistics_.add("cut_rays", work_.rays.cut);
+    statistics_.add("shadow_rays", work.rays.shadow);
+    statistics_.add("mirrored_rays", work.rays.mirrored);
+    statistics_.add("refracted_rays", work.rays.refracted);
+    statistics_.add("cut_rays", work.rays.cut);
   }
 
-  [[nodiscard]] std::optional<std::string> invisible_note() const {
-    if (has_spheres_ && !shown_light_.has_seen) return unmet_note(scene_, tool_.timing().triangle_count);
+  [[nodiscard]] std::optional<std::string> invisible_note(const ShownLight& shown) const {
+    if (has_spheres_ && !shown.has_seen) return unmet_note(scene_, tool_.timing().triangle_count);
     if (!has_spheres_)
       if (auto unseen = unseen_triangles_note(scene_)) return unseen;
     if (!traces_light_) return shader_ ? invisible_colors_note(*shader_) : std::nullopt;
-    return shown_light_.has_seen
-               ? invisible_light_note(shown_light_, background_, setup_.model != ShadingModel::none)
-               : std::nullopt;
+    return shown.has_seen ? invisible_light_note(shown, background_, light_.model != ShadingModel::none)
+                          : std::nullopt;
   }
 
   Tool& tool_;
   const TraceOptions& chosen_;
   const Viewport& screen_;
   Statistics& statistics_;
-  const PictureRays rays_ = rays_of(chosen_);
-  const SamplePlaces places_{screen_, rays_.sample_count, is_random(rays_.sampling)};
+  const PictureRays rays_ = rays_of(chosen_, screen_);
   PictureOutputs outputs_;
   TracedScene scene_;
   Color background_;
   std::optional<SurfaceShader> shader_;
-  LightTransportSetup setup_;
+  LightTransportSetup light_;
   std::vector<Pixel> probed_;
   bool casts_any_rays_ = false;  // beyond primary ones
   bool has_spheres_ = false, traces_light_ = false;
-  TraceWork work_;
-  ShownLight shown_light_;
   std::vector<std::string> probe_lines_;
 };
 
@@ -186,8 +189,9 @@ class Rendering {
 void trace(Tool& tool, const TraceOptions& chosen, const Viewport& screen, Statistics& statistics) {
   Rendering rendering(tool, chosen, screen, statistics);
   rendering.read();
-  rendering.write(rendering.cast());
-  rendering.note();
+  const TracedPicture picture = rendering.cast();
+  rendering.write(picture);
+  rendering.note(picture);
 }
 
 }  // namespace pipeline

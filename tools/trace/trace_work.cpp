@@ -4,30 +4,37 @@
 #include <cstdio>
 
 namespace pipeline {
+namespace {
+
+/// With three digits.
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string millions(std::uint64_t count) {
+  return rounded(static_cast<double>(count) / 1e6) + " million ";
+}
+
+}  // namespace
 
 std::string to_text(const TraceWork& work) {
-  const auto millions = [](std::uint64_t count) { return static_cast<double>(count) / 1e6; };
   const double seconds = std::max(work.cast_seconds, 1e-9);
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "build %.3f s, %.3g million primary rays at %.3g million a second, %.3g million exactly",
-                work.build_seconds, millions(work.primary_rays), millions(work.primary_rays) / seconds,
-                millions(work.exact_decisions));
-  std::string all = text;
-  const auto add = [&](const char* kind, std::uint64_t count) {
-    if (count == 0) return;
-    std::snprintf(text, sizeof text, ", %.3g million %s rays at %.3g million a second", millions(count), kind,
-                  millions(count) / seconds);
-    all += text;
+  const auto speed = [&](std::uint64_t count, const char* kind) {
+    return millions(count) + kind + " rays at " + rounded(static_cast<double>(count) / 1e6 / seconds) +
+           " million a second";
   };
-  add("shadow", work.rays.shadow);
-  add("mirrored", work.rays.mirrored);
-  add("refracted", work.rays.refracted);
-  if (work.rays.cut > 0) {
-    std::snprintf(text, sizeof text, ", %.3g million rays cut, at most %.3g of a pixel's color",
-                  millions(work.rays.cut), work.rays.largest_cut_weight);
-    all += text;
-  }
+  char build[48];
+  std::snprintf(build, sizeof build, "build %.3f s, ", work.build_seconds);
+  std::string all =
+      build + speed(work.primary_rays, "primary") + ", " + millions(work.exact_decisions) + "exactly";
+  if (work.rays.shadow > 0) all += ", " + speed(work.rays.shadow, "shadow");
+  if (work.rays.mirrored > 0) all += ", " + speed(work.rays.mirrored, "mirrored");
+  if (work.rays.refracted > 0) all += ", " + speed(work.rays.refracted, "refracted");
+  if (work.rays.cut > 0)
+    all += ", " + millions(work.rays.cut) + "rays cut, at most " + rounded(work.rays.largest_cut_weight) +
+           " of a pixel's color";
   return all;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/raytracing/ray_caster.h"
@@ -34,58 +35,57 @@ struct Tiles {
   int across;
 };
 
-/// What the threads share.
-struct Shared {
-  const TracedTriangles& triangles;
-  const RayCaster& centers;
-  const RayCaster& samples;
-  const SamplePlaces& places;
-  const SampleOrder& order;
-  const PictureRays& rays;
-  Color background;
-  bool casts_centers;
-  bool shows_centers;  // the center's color is the pixel's
-};
-
 /// The rays of one thread.
 class PixelTracer {
  public:
-  PixelTracer(const Shared& shared, std::unique_ptr<SampleColors> colors)
-      : shared_(shared), colors_(std::move(colors)), centers_(shared.centers), samples_(shared.samples) {}
+  PixelTracer(const TracedScene& scene, const Bvh& bvh, const PictureRays& rays, const ColorSetup& colors)
+      : triangles_(scene.triangles()),
+        rays_(rays),
+        background_(colors.background),
+        places_(rays.places()),
+        order_(rays.sample_count),
+        colors_(scene, bvh, PixelRays(scene.projection(), places_.screen()), colors),
+        centers_(triangles_, bvh, scene.projection(), rays.screen),
+        samples_(triangles_, bvh, scene.projection(), places_.screen()) {}
 
   void trace(int row, int column, std::size_t pixel, TracedPicture& picture) {
-    if (shared_.casts_centers) {
+    const bool has_one_sample = rays_.sample_count == 1 && !is_random(rays_.sampling);
+    if (rays_.has_depths || rays_.has_triangles || rays_.counts_covered || has_one_sample) {
       ++ray_count_;
-      if (const auto seen = centers_.cast(row, column, shared_.rays.has_depths)) {
+      if (const auto seen = centers_.cast(row, column, rays_.has_depths)) {
         ++covered_count_;
-        if (shared_.rays.has_depths) picture.depths[pixel] = seen->depth;
-        if (shared_.rays.has_triangles)
-          picture.triangles[pixel] = static_cast<std::int64_t>(shared_.triangles.number(seen->id));
-        if (shared_.shows_centers) picture.colors[pixel] = colors_->color(row, column, *seen);
+        if (rays_.has_depths) picture.depths[pixel] = seen->depth;
+        if (rays_.has_triangles)
+          picture.triangles[pixel] = static_cast<std::int64_t>(triangles_.number(seen->id));
+        if (rays_.has_colors && has_one_sample) picture.colors[pixel] = colors_.color(row, column, *seen);
       }
     }
-    if (shared_.rays.has_colors && !shared_.shows_centers) picture.colors[pixel] = mean_of(row, column);
+    if (rays_.has_colors && !has_one_sample) picture.colors[pixel] = mean_of(row, column);
   }
   [[nodiscard]] std::uint64_t ray_count() const { return ray_count_; }
   /// When all threads are done.
-  void add_up(TracedPicture& picture, TraceWork& work) const {
-    work.exact_decisions += centers_.exact_count() + samples_.exact_count();
+  void add_up(TracedPicture& picture) const {
+    picture.work.exact_decisions += centers_.exact_count() + samples_.exact_count();
     picture.covered_count += covered_count_;
-    colors_->add_up();
+    picture.shown_colors.add(colors_.shown());
+    if (!colors_.light()) return;
+    picture.work.rays.add(colors_.light()->counts());
+    picture.shown_light.add(colors_.light()->shown());
+    picture.shown_light.shows_something |= colors_.shown().show_something;
   }
 
  private:
   Color mean_of(int row, int column) {
-    std::span<const int> samples = shared_.order.samples();
+    std::span<const int> samples = order_.samples();
     ColorMean mean;
-    if (shared_.rays.sampling == Sampling::adaptive) {
-      const std::size_t first_count = shared_.order.first_count();
+    if (rays_.sampling == Sampling::adaptive) {
+      const std::size_t first_count = order_.first_count();
       ColorRange range;
       for_each_color(row, column, samples.first(first_count), [&](Color color) {
         mean.add(color);
         range.add(color);
       });
-      if (range.range() < shared_.rays.threshold) return mean.mean();
+      if (range.range() < rays_.threshold) return mean.mean();
       samples = samples.subspan(first_count);
     }
     for_each_color(row, column, samples, [&](Color color) { mean.add(color); });
@@ -95,24 +95,26 @@ class PixelTracer {
   void for_each_color(int row, int column, std::span<const int> samples, Visitor&& visit) {
     ray_count_ += samples.size();
     for (const int sample : samples) {
-      const auto place = shared_.places.of(row, column, sample);
+      const auto place = places_.of(row, column, sample);
       const auto seen = samples_.cast(place.row, place.column, false);
-      visit(seen ? colors_->color(place.row, place.column, *seen) : shared_.background);
+      visit(seen ? colors_.color(place.row, place.column, *seen) : background_);
     }
   }
 
-  const Shared& shared_;
-  std::unique_ptr<SampleColors> colors_;
-  RayCaster::Thread centers_;
-  RayCaster::Thread samples_;
+  const TracedTriangles& triangles_;
+  PictureRays rays_;
+  Color background_;
+  SamplePlaces places_;
+  SampleOrder order_;
+  SampleColors colors_;
+  RayCaster centers_, samples_;
   std::uint64_t ray_count_ = 0;
   std::uint64_t covered_count_ = 0;
 };
 
 }  // namespace
 
-TracedPicture::TracedPicture(const Viewport& of_pixels, const PictureRays& rays, Color background)
-    : screen(of_pixels) {
+TracedPicture::TracedPicture(const PictureRays& rays, Color background) : screen(rays.screen) {
   const std::size_t pixel_count =
       static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns);
   if (rays.has_colors) colors.assign(pixel_count, background);
@@ -120,32 +122,17 @@ TracedPicture::TracedPicture(const Viewport& of_pixels, const PictureRays& rays,
   if (rays.has_triangles) triangles.assign(pixel_count, -1);
 }
 
-TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
-                             const SamplePlaces& places, const PictureRays& rays, Color background,
-                             const ColorsMaker& make_colors, ThreadPool& pool, TraceWork& work) {
-  TracedPicture picture(screen, rays, background);
-  const bool has_one_sample = rays.sample_count == 1 && !is_random(rays.sampling);
-  const RayCaster centers(scene.triangles(), bvh, scene.projection(), screen);
-  const RayCaster samples(scene.triangles(), bvh, scene.projection(), places.screen());
-  const SampleOrder order(rays.sample_count);
-  const Shared shared = {
-      .triangles = scene.triangles(),
-      .centers = centers,
-      .samples = samples,
-      .places = places,
-      .order = order,
-      .rays = rays,
-      .background = background,
-      .casts_centers = rays.has_depths || rays.has_triangles || rays.counts_covered || has_one_sample,
-      .shows_centers = rays.has_colors && has_one_sample};
-  const Tiles tiles(screen);
+TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const PictureRays& rays,
+                             const ColorSetup& colors, ThreadPool& pool) {
+  TracedPicture picture(rays, colors.background);
+  const Tiles tiles(rays.screen);
   std::vector<std::unique_ptr<PixelTracer>> tracers(static_cast<std::size_t>(pool.size()));
   Progress progress("trace", "ray");
   std::atomic<std::uint64_t> ray_count = 0;
   std::atomic<int> tile_count = 0;
   pool.start(tiles.count(), [&](int tile, int worker) {
     auto& tracer = tracers[static_cast<std::size_t>(worker)];
-    if (!tracer) tracer = std::make_unique<PixelTracer>(shared, make_colors());
+    if (!tracer) tracer = std::make_unique<PixelTracer>(scene, bvh, rays, colors);
     const std::uint64_t before = tracer->ray_count();
     tiles.for_each_pixel(
         tile, [&](int row, int column, std::size_t pixel) { tracer->trace(row, column, pixel, picture); });
@@ -154,9 +141,9 @@ TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Vie
     if (worker == 0) progress.show(ray_count, static_cast<double>(tile_count) / tiles.count());
   });
   pool.finish();
-  work.primary_rays = ray_count;
+  picture.work.primary_rays = ray_count;
   for (const auto& tracer : tracers)
-    if (tracer) tracer->add_up(picture, work);
+    if (tracer) tracer->add_up(picture);
   return picture;
 }
 

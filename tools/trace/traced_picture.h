@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,11 +15,14 @@
 
 namespace pipeline {
 
-/// Which rays are cast for a picture.
+/// The rays that are cast for a picture.
 struct PictureRays {
+  [[nodiscard]] SamplePlaces places() const { return {screen, sample_count, is_random(sampling)}; }
+
+  Viewport screen;
   Sampling sampling = Sampling::basic;
   int sample_count = 1;  // along each side of a pixel
-  int threshold = 0;     // of adaptive sampling: all samples where the first ones differ by so many levels
+  int threshold = 0;     // of adaptive sampling: takes all samples if the first differ by this many levels
   bool has_colors = true;
   bool has_depths = true;
   bool has_triangles = false;
@@ -31,7 +32,7 @@ struct PictureRays {
 /// What the pixels of a screen show, row after row.
 struct TracedPicture {
   /// The picture of nothing.
-  TracedPicture(const Viewport& of_pixels, const PictureRays& rays, Color background);
+  TracedPicture(const PictureRays& rays, Color background);
   template <typename T>
   [[nodiscard]] std::span<const T> row_of(const std::vector<T>& entries, int row) const {
     const auto columns = static_cast<std::size_t>(screen.columns);
@@ -44,15 +45,14 @@ struct TracedPicture {
   std::vector<double> depths;
   std::vector<std::int64_t> triangles;  // their numbers, -1 for none
   std::uint64_t covered_count = 0;      // of pixels whose center shows something; 0 if that is not requested
+  TraceWork work;                       // without seconds
+  ShownColors shown_colors;
+  ShownLight shown_light;  // if rays bring colors
 };
 
-/// Makes the colors of a thread, in that thread.
-using ColorsMaker = std::function<std::unique_ptr<SampleColors>()>;
-
-/// Casts the rays of a picture. The places of its samples are those of `places`, on whose screen the colors
-/// are calculated. Neither picture nor work depends on the number of threads.
-TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
-                             const SamplePlaces& places, const PictureRays& rays, Color background,
-                             const ColorsMaker& make_colors, ThreadPool& pool, TraceWork& work);
+/// Casts the rays of a picture on threads, whose number changes nothing. The shader's screen, if there is
+/// one, is that of the samples' places.
+TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const PictureRays& rays,
+                             const ColorSetup& colors, ThreadPool& pool);
 
 }  // namespace pipeline

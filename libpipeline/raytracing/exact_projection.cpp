@@ -1,4 +1,4 @@
-#include "libpipeline/stream/text_round_trip.h"
+#include "libpipeline/raytracing/exact_projection.h"
 
 #include <cmath>
 #include <cstdint>

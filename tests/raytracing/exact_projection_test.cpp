@@ -1,4 +1,4 @@
-#include "libpipeline/stream/text_round_trip.h"
+#include "libpipeline/raytracing/exact_projection.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -41,7 +41,7 @@ TriangleBatch read_back(const TriangleBatch& batch) {
 
 constexpr unsigned kMarksOfXAndY = 0b011'011'011;
 
-TEST(TextRoundTrip, MarksWhatAReaderMarks) {
+TEST(ExactProjection, MarksWhatAReaderMarks) {
   std::mt19937_64 rng(1);
   const auto number = [&]() -> double {
     switch (rng() % 5) {
@@ -72,7 +72,7 @@ TEST(TextRoundTrip, MarksWhatAReaderMarks) {
   }
 }
 
-TEST(TextRoundTrip, LeavesNoSignOfZero) {
+TEST(ExactProjection, LeavesNoSignOfZero) {
   TriangleBatch batch;
   batch.add({Vec3{-0.0, -0.0, -0.0}}, 0, {});
   pass_through_text(batch);
