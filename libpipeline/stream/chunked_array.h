@@ -29,8 +29,11 @@ class ChunkedArray {
   /// Keeps the entries of the triangles that are kept. The memory of the others is used for the next ones.
   void keep(const KeptIds& kept) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < size_; ++i)
-      if (kept.is_kept(static_cast<KeptIds::Id>(i))) (*this)[count++] = std::move((*this)[i]);
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (!kept.is_kept(static_cast<KeptIds::Id>(i))) continue;
+      if (count != i) (*this)[count] = std::move((*this)[i]);  // to itself, a string would be empty
+      ++count;
+    }
     truncate(count);
   }
 

@@ -87,11 +87,9 @@ class ZBufferAlgorithm {
             [this](const TaggedSpan& span) { algorithm_.buffer_.fetch(span.span); }, draw_waiting);
       } else {
         queue_.finish(draw_waiting);
-        for (const auto& [triangle, tag] : triangles_) {
-          algorithm_.buffer_.mark(tag);
+        for (const auto& [triangle, tag] : triangles_)
           for_each_span(algorithm_.coverage_.rows(triangle), rows_,
                         [&, of = tag](const Span& span) { algorithm_.buffer_.draw(span, of); });
-        }
       }
       triangles_.clear();
       is_any_high_ = false;
@@ -111,9 +109,6 @@ class ZBufferAlgorithm {
     SpanQueue queue_;
   };
 
-  /// From now on drawers set marks[tag - first_tag] to 1 for the triangles that win a pixel, and maybe for
-  /// others; no longer if `marks` is null.
-  void mark_winners(PixelTag first_tag, std::uint8_t* marks) { buffer_.mark_winners(first_tag, marks); }
   /// Calls `visit(tag)`, which may change it, for every pixel of the rows in which something has been drawn.
   /// No drawer may be in use.
   template <typename Visitor>

@@ -32,13 +32,11 @@ class TriangleDrawing {
 
   /// Where to put the next batch.
   [[nodiscard]] TriangleBatch& next_batch() { return next_.batch; }
-  /// True if draw_batch() draws that batch at once, and leaves it where it is.
-  [[nodiscard]] bool draws_at_once() const { return picture_ && has_small_triangles(next_.batch); }
   /// Draws that batch, each triangle with the tag `tag_of(batch, index)`, which is called at once and in
   /// order. The drawing itself may be deferred, but not beyond finish().
   template <typename TagOf>
   void draw_batch(TagOf&& tag_of) {
-    if (draws_at_once()) return draw_at_once(tag_of);
+    if (picture_ && has_small_triangles(next_.batch)) return draw_at_once(tag_of);
     next_.tags.resize(next_.batch.size());
     for (std::size_t i = 0; i < next_.batch.size(); ++i) next_.tags[i] = tag_of(next_.batch, i);
     bands_.draw(next_);

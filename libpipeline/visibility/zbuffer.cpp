@@ -15,13 +15,12 @@ PixelTag select(bool takes_a, PixelTag a, PixelTag b) {
   return (a & mask) | (b & ~mask);
 }
 
-/// Into a row whose first pixel is at `depths` and `tags`. Returns whether any pixel was won.
+/// Into a row whose first pixel is at `depths` and `tags`.
 template <typename Depth>
-bool draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, double front,
+void draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, double front,
                          typename Depth::Stored* depths, PixelTag* tags) {
   const SpanDepth depth = span.depth;
   const int last_column = span.last_column;
-  bool is_any_won = false;
   for (int column = span.first_column; column <= last_column; ++column) {
     const double z = depth(column);
     const typename Depth::Stored stored = format.store(z);
@@ -29,9 +28,7 @@ bool draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, do
     const typename Depth::Stored old = depths[column];
     depths[column] = stored < old ? stored : old;
     tags[column] = select(stored < old, tag, tags[column]);
-    is_any_won |= stored < old;
   }
-  return is_any_won;
 }
 
 /// In bytes. Filling them takes a hundred times as long as asking whether they are there.
@@ -88,15 +85,6 @@ void ZBuffer<Depth>::draw_in_filled_row(const Span& span, PixelTag tag, Hierarch
 
 template <typename Depth>
 void ZBuffer<Depth>::draw(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest) {
-  if (marks_ == nullptr)
-    draw_spans<false>(spans, farthest);
-  else
-    draw_spans<true>(spans, farthest);
-}
-
-template <typename Depth>
-template <bool kMarks>
-void ZBuffer<Depth>::draw_spans(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest) {
   // Drawing a shorter span takes less time than calling a kernel.
   constexpr int kShort = 4;
   // Copies, so that the compiler sees that no pixel written changes them.
@@ -104,8 +92,6 @@ void ZBuffer<Depth>::draw_spans(std::span<const TaggedSpan> spans, HierarchicalD
   const double front = front_;
   const bool has_epsilon = depth_epsilon_ > 0;
   const auto columns = static_cast<std::size_t>(depths_.columns());
-  std::uint8_t* const marks = marks_;
-  const PixelTag first_marked = first_marked_;
   const auto first_row = static_cast<std::size_t>(rows_.first);
   Stored* const first_depth = depths_.row(rows_.first).data();
   PixelTag* const first_tag = tags_.row(rows_.first).data();
@@ -117,14 +103,10 @@ void ZBuffer<Depth>::draw_spans(std::span<const TaggedSpan> spans, HierarchicalD
     const std::size_t row = static_cast<std::size_t>(span.row) - first_row;
     const std::size_t row_begin = row * columns;
     if (is_filled[row] == 0) fill_row(span.row);
-    if (is_short && !has_epsilon) {
-      const bool is_any_won =
-          draw_pixel_by_pixel(span, tag, format, front, first_depth + row_begin, first_tag + row_begin);
-      if constexpr (kMarks) marks[tag - first_marked] |= static_cast<std::uint8_t>(is_any_won);
-    } else {
-      if constexpr (kMarks) marks[tag - first_marked] = 1;
+    if (is_short && !has_epsilon)
+      draw_pixel_by_pixel(span, tag, format, front, first_depth + row_begin, first_tag + row_begin);
+    else
       draw_in_filled_row(span, tag, farthest);
-    }
   }
 }
 

@@ -51,16 +51,6 @@ class ZBuffer {
     return {rows, depths_.columns()};
   }
 
-  /// From now on sets marks[tag - first_tag] to 1 for the triangles that win a pixel, and maybe for others,
-  /// where several spans are drawn; no longer if `marks` is null.
-  void mark_winners(PixelTag first_tag, std::uint8_t* marks) {
-    first_marked_ = first_tag;
-    marks_ = marks;
-  }
-  /// Marks a triangle whose spans are drawn singly.
-  void mark(PixelTag tag) {
-    if (marks_ != nullptr) marks_[tag - first_marked_] = 1;
-  }
   /// Calls `visit(tag)`, which may change it, for every pixel of the rows in which something has been drawn.
   template <typename Visitor>
   void for_each_drawn_tag(Visitor&& visit) {
@@ -100,8 +90,6 @@ class ZBuffer {
   void draw_in_filled_row(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest);
   [[nodiscard]] Span part_behind_front(const Span& span) const;
   void draw_what_is_nearer_by_epsilon(const Span& span, PixelTag tag);
-  template <bool kMarks>
-  void draw_spans(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest);
 
   void (*fill_)(const SpanFill<Depth>&);
   Depth format_;
@@ -109,8 +97,6 @@ class ZBuffer {
   double rear_limit_;
   Stored rear_;
   double depth_epsilon_ = 0;
-  PixelTag first_marked_ = 0;
-  std::uint8_t* marks_ = nullptr;
   PixelTag background_;
   RowRange rows_;  // those that are drawn
   Raster<Stored> depths_;

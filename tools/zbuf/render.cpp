@@ -71,12 +71,10 @@ template <typename CoverageRule, typename Depth>
   visible.set_depth_epsilon(chosen.rules.depth_epsilon);
   ThreadPool pool(chosen.threads_for(pixel_count(visible.screen)));
   SampledDrawing drawing(visible, store, pool);
-  SeenDrawing<CoverageRule, Depth> seen(visible, store, chosen.rules.depth_epsilon);
+  if (store.keeps_text() && chosen.rules.depth_epsilon > 0)
+    store.keep_where(NearestSoFar<CoverageRule, Depth>(visible));
   const auto draw = [&] {
-    if (store.keeps_text())
-      seen.draw_batch(drawing);
-    else
-      drawing.draw_batch();
+    drawing.draw_batch();
     if (!store.is_full()) return;
     drawing.finish();
     store.keep_seen([&](const auto& visit) {
@@ -97,7 +95,6 @@ template <typename CoverageRule, typename Depth>
                                 SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
-    if (store.keeps_text()) store.add_texts(p_ndc, store.next_id(), {}, {});
     for (std::size_t i = 0; i < p_ndc.size(); ++i) {
       const PixelTag tag = store.tag_of(p_ndc, i);
       visible.centers.draw(exact_triangle(p_ndc, i), tag);

@@ -45,8 +45,6 @@ class SampledDrawing {
 
   /// Where to put the next batch.
   [[nodiscard]] TriangleBatch& next_batch() { return centers_.next_batch(); }
-  /// True if draw_batch() draws that batch at once, and leaves it where it is.
-  [[nodiscard]] bool draws_at_once() const { return !samples_ && centers_.draws_at_once(); }
   void draw_batch() {
     const auto tag_of = [&store = store_](const TriangleBatch& p_ndc, std::size_t i) {
       return store.tag_of(p_ndc, i);
@@ -72,53 +70,26 @@ class SampledDrawing {
   std::vector<PixelTag> tags_;  // with samples
 };
 
-/// Draws batches for `--seen`, and keeps the texts of the triangles that may be seen.
+/// Tells of each triangle of a stream whether it is nearer than all before it at any pixel or sample. Under a
+/// depth epsilon any other may be left out of the text that `--seen` writes: a fragment that is drawn over
+/// one of depth c is nearer than c by more than epsilon, and none before it is.
 template <typename CoverageRule, typename Depth>
-class SeenDrawing {
+class NearestSoFar {
  public:
-  using Visible = ZBufferAlgorithm<CoverageRule, Depth>;
-
-  SeenDrawing(SampledVisible<Visible>& visible, TriangleStore& store, double depth_epsilon)
-      : visible_(visible), store_(store) {
-    if (depth_epsilon <= 0) return;
-    nearest_.emplace_back(visible.center_screen);
-    if (visible.samples) nearest_.emplace_back(visible.screen);
+  explicit NearestSoFar(const SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
+    logs_.emplace_back(visible.center_screen);
+    if (visible.samples) logs_.emplace_back(visible.screen);
   }
 
-  void draw_batch(SampledDrawing<Visible>& drawing) {
-    const TriangleBatch& batch = drawing.next_batch();
-    const KeptIds::Id first_id = store_.next_id();
-    needed_.clear();
-    for (std::size_t i = 0; !nearest_.empty() && i < batch.size(); ++i)
-      needed_.push_back(is_nearest_so_far(exact_triangle(batch, i)) ? 1 : 0);
-    if (!drawing.draws_at_once()) {
-      store_.add_texts(batch, first_id, {}, needed_);
-      return drawing.draw_batch();
-    }
-    drawing.finish();  // only this batch is marked
-    winners_.assign(batch.size(), 0);
-    visible_.centers.mark_winners(first_id, winners_.data());
-    drawing.draw_batch();
-    visible_.centers.mark_winners(0, nullptr);
-    store_.add_texts(batch, first_id, winners_, needed_);
-  }
-
- private:
-  /// Whether the next triangle is nearer than all before it somewhere. Under a depth epsilon any other may be
-  /// left out: a fragment that is drawn over one of depth c is nearer than c by more than epsilon, and none
-  /// before it is.
-  bool is_nearest_so_far(const ExactTriangle& p_ndc) {
+  bool operator()(const ExactTriangle& p_ndc) {
     bool is_nearest = false;
-    for (auto& log : nearest_)
+    for (auto& log : logs_)
       log.add(p_ndc, 0, [&](const Fragment& f) { is_nearest |= f.result == DepthTestResult::kept; });
     return is_nearest;
   }
 
-  SampledVisible<Visible>& visible_;
-  TriangleStore& store_;
-  // At the centers and the samples; none without epsilon.
-  std::vector<FragmentLog<CoverageRule, Depth>> nearest_;
-  std::vector<std::uint8_t> winners_, needed_;
+ private:
+  std::vector<FragmentLog<CoverageRule, Depth>> logs_;
 };
 
 }  // namespace pipeline

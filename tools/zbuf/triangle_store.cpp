@@ -7,13 +7,8 @@ namespace {
 
 // A few MiB.
 constexpr std::size_t kMinCapacity = std::size_t{1} << 14;
-// Corners are many bytes, and new memory costs more than two passes over the pixels; texts are fewer bytes,
-// as few triangles win a pixel when they are drawn, and they have to be moved.
-constexpr std::size_t kPixelsPerSurface = 4;
-constexpr std::size_t kPixelsPerText = 1;
-// Triangles that win no pixel have ids, but their texts are not kept. Looking for those that are seen takes
-// four bytes for each id.
-constexpr std::size_t kIdsPerTriangle = 4;
+// Corners and texts are many bytes, and new memory costs more than two passes over the pixels.
+constexpr std::size_t kPixelsPerTriangle = 4;
 
 }  // namespace
 
@@ -21,11 +16,8 @@ TriangleStore::TriangleStore(const Setup& setup, std::optional<SurfaceShader>& s
     : setup_(setup),
       shader_(shader),
       report_(report),
-      min_capacity_(std::max(setup.pixel_count / (setup.keeps_text ? kPixelsPerText : kPixelsPerSurface),
-                             kMinCapacity)),
-      capacity_(min_capacity_),
-      max_id_count_(kIdsPerTriangle * min_capacity_) {
-  if (setup.keeps_text) texts_.emplace();
+      min_capacity_(std::max(setup.pixel_count / kPixelsPerTriangle, kMinCapacity)),
+      capacity_(min_capacity_) {
   tags_are_colors_ = report_ == nullptr && !has_ids();
 }
 
@@ -39,7 +31,7 @@ void TriangleStore::color(std::span<const PixelTag> tags, std::span<Color> color
   for (std::size_t i = 0; i < tags.size(); ++i) {
     if (tags[i] != last) {
       last = tags[i];
-      color = last == KeptIds::kNoTriangle ? setup_.background : colors_.of(number(last));
+      color = last == KeptIds::kNoTriangle ? setup_.background : colors_.of(numbers_[last]);
     }
     colors[i] = color;
   }
@@ -52,38 +44,47 @@ std::span<const std::int64_t> TriangleStore::numbers_of(std::span<const PixelTag
   return numbers;
 }
 
-/// Pieces of a triangle stay together, and the last triangle may be the first piece of one.
-void TriangleStore::add_texts(const TriangleBatch& p_ndc, KeptIds::Id first_id,
-                              std::span<const std::uint8_t> winners, std::span<const std::uint8_t> needed) {
-  const std::vector<std::uint64_t>& numbers = p_ndc.numbers;
-  const std::size_t last = p_ndc.size() - 1;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const bool is_needed = !needed.empty() && needed[i] != 0;
-    const bool is_piece =
-        i == last || numbers[i + 1] == numbers[i] || numbers[i] == (i == 0 ? last_number_ : numbers[i - 1]);
-    if (winners.empty() || winners[i] != 0 || is_needed || is_piece)
-      texts_->add({numbers[i], first_id + static_cast<KeptIds::Id>(i), is_needed}, p_ndc.texts[i]);
+void TriangleStore::add_text(const TriangleBatch& p_ndc, std::size_t index) {
+  texts_.push_back(std::string(p_ndc.texts[index]));
+  if (is_needed_) are_needed_.push_back(is_needed_(exact_triangle(p_ndc, index)) ? 1 : 0);
+}
+
+/// Adds to those kept the needed ones, and the other pieces of each triangle, which follow one another with
+/// one number: a wireframe asks a piece's neighbors which of its edges are cuts. With `may_go_on`, more
+/// pieces of the last triangle may follow, so it is kept.
+void TriangleStore::complete(KeptIds& kept, bool may_go_on) const {
+  for (std::size_t begin = 0, end = 0; begin < texts_.size(); begin = end) {
+    for (end = begin + 1; end < texts_.size() && numbers_[end] == numbers_[begin];) ++end;
+    bool is_any_kept = may_go_on && end == texts_.size();
+    for (std::size_t i = begin; i < end; ++i)
+      is_any_kept |= kept.is_kept(static_cast<KeptIds::Id>(i)) || (is_needed_ && are_needed_[i] != 0);
+    for (std::size_t i = begin; is_any_kept && i < end; ++i) kept.keep(static_cast<KeptIds::Id>(i));
   }
-  last_number_ = numbers[last];
 }
 
 void TriangleStore::write_seen(TextWriter& text, const StageReader& reader, KeptIds& seen) const {
   text.append(reader.header_text());
-  texts_->complete(seen, false);
-  texts_->write(text, seen);
+  complete(seen, false);
+  std::uint64_t next_number = 0;
+  for (std::size_t i = 0; i < texts_.size(); ++i) {
+    if (!seen.is_kept(static_cast<KeptIds::Id>(i))) continue;
+    if (numbers_[i] != next_number) text.append("triangle " + std::to_string(numbers_[i]) + "\n");
+    text.append(texts_[i]);
+    next_number = numbers_[i] + 1;
+  }
   if (reader.header().framed) text.append("end\n");
 }
 
 /// Keeps the last triangle, too: the next may be another piece of it.
 void TriangleStore::let_go(KeptIds& kept) {
-  if (texts_) texts_->complete(kept, true);
+  complete(kept, true);
   if (shader_) kept.keep(static_cast<KeptIds::Id>(kept.size() - 1));
   const std::size_t count = kept.renumber();
   capacity_ = std::max(2 * count, min_capacity_);
-  max_id_count_ = count + kIdsPerTriangle * min_capacity_;
   next_id_ = static_cast<KeptIds::Id>(count);
   if (shader_) shader_->keep(kept);
-  if (texts_) texts_->keep(kept);
+  texts_.keep(kept);
+  are_needed_.keep(kept);
   if (keeps_numbers()) numbers_.keep(kept);
   if (keeps_corners()) corners_.keep(kept);
 }

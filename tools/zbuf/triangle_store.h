@@ -2,8 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "libpipeline/coverage/span.h"
@@ -12,7 +15,6 @@
 #include "libpipeline/stream/chunked_array.h"
 #include "libpipeline/stream/kept_ids.h"
 #include "libpipeline/stream/stage_reader.h"
-#include "libpipeline/stream/text_store.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/visibility/tagged_batch.h"
 #include "tools/zbuf/all_edges.h"
@@ -26,8 +28,7 @@ namespace pipeline {
 ///
 /// Of the triangles kept only those that are seen need to stay. They are found whenever twice as many are
 /// kept as were seen the last time; so memory is bounded by the picture. That takes two passes over its
-/// pixels, so it is done only when at least one triangle has been kept for every four pixels; where texts are
-/// kept, for every pixel.
+/// pixels, so it is done only when at least one triangle has been kept for every four pixels.
 class TriangleStore {
  public:
   struct Setup {
@@ -52,17 +53,14 @@ class TriangleStore {
     return has_ids() ? KeptIds::kNoTriangle : setup_.background.rgb();
   }
   [[nodiscard]] Color background_color() const { return setup_.background; }
-  /// The id of the next triangle, if triangles have ids.
-  [[nodiscard]] KeptIds::Id next_id() const { return next_id_; }
-  /// Adds the texts of a batch whose first triangle has the id `first_id`: of its `winners`, those marked 1
-  /// that may have won a pixel (all, if it is empty), and of those `needed` for good (none, if it is empty).
-  void add_texts(const TriangleBatch& p_ndc, KeptIds::Id first_id, std::span<const std::uint8_t> winners,
-                 std::span<const std::uint8_t> needed);
+  /// From now on keeps the texts of triangles for which `is_needed` is true, seen or not.
+  void keep_where(std::function<bool(const ExactTriangle&)> is_needed) { is_needed_ = std::move(is_needed); }
   /// The tag of the next triangle.
   PixelTag tag_of(const TriangleBatch& p_ndc, std::size_t index) {
     if (tags_are_colors_) return colors_.of(p_ndc.numbers[index]).rgb();
     if (report_ != nullptr) report_->add(p_ndc, index);
     if (keeps_numbers()) numbers_.push_back(p_ndc.numbers[index]);
+    if (keeps_text()) add_text(p_ndc, index);
     if (keeps_corners()) {
       const auto [corners, low_parts, marks] = exact_triangle(p_ndc, index);
       corners_.push_back({corners, low_parts == nullptr ? Triangle() : *low_parts, marks});
@@ -79,7 +77,7 @@ class TriangleStore {
 
   /// The number of the triangle with this tag, if it is kept, -1 for none.
   [[nodiscard]] std::int64_t shown_number(PixelTag id) const {
-    return id == KeptIds::kNoTriangle ? -1 : static_cast<std::int64_t>(number(id));
+    return id == KeptIds::kNoTriangle ? -1 : static_cast<std::int64_t>(numbers_[id]);
   }
   /// The same for many; `numbers` holds them.
   std::span<const std::int64_t> numbers_of(std::span<const PixelTag> tags,
@@ -88,17 +86,14 @@ class TriangleStore {
   [[nodiscard]] bool keeps_corners() const { return setup_.keeps_corners; }
   [[nodiscard]] const Corners& corners(KeptIds::Id id) const { return corners_[id]; }
 
-  [[nodiscard]] bool keeps_text() const { return texts_.has_value(); }
+  [[nodiscard]] bool keeps_text() const { return setup_.keeps_text; }
   /// Ids are less.
   [[nodiscard]] std::size_t id_count() const { return next_id_; }
   /// Writes a stage text of the triangles that are seen, all pieces of each, with the header as it was read.
   void write_seen(TextWriter& text, const StageReader& reader, KeptIds& seen) const;
 
   /// True if it is time to let go of triangles.
-  [[nodiscard]] bool is_full() const {
-    return texts_ && !shader_ ? texts_->size() >= capacity_ || next_id_ >= max_id_count_
-                              : has_ids() && next_id_ >= capacity_;
-  }
+  [[nodiscard]] bool is_full() const { return has_ids() && next_id_ >= capacity_; }
   /// Lets go of the triangles that no pixel shows. `for_each_drawn_tag(visit)` calls visit(tag), which
   /// changes it, for every pixel of the rows drawn into; all triangles so far are drawn.
   template <typename ForEachDrawnTag>
@@ -114,29 +109,28 @@ class TriangleStore {
   }
 
  private:
-  [[nodiscard]] bool has_ids() const { return shader_ || texts_ || keeps_numbers() || keeps_corners(); }
-  /// Texts have them, shaders colors.
+  [[nodiscard]] bool has_ids() const { return shader_ || keeps_numbers() || keeps_corners(); }
+  /// Shaders keep colors, which are by the numbers.
   [[nodiscard]] bool keeps_numbers() const {
-    return !texts_ && (setup_.keeps_numbers || (keeps_corners() && !shader_));
+    return keeps_text() || setup_.keeps_numbers || (keeps_corners() && !shader_);
   }
-  [[nodiscard]] std::uint64_t number(KeptIds::Id id) const {
-    return texts_ ? texts_->number(id) : numbers_[id];
-  }
+  void add_text(const TriangleBatch& p_ndc, std::size_t index);
+  void complete(KeptIds& kept, bool may_go_on) const;
   void let_go(KeptIds& kept);
 
   Setup setup_;
   std::optional<SurfaceShader>& shader_;
-  std::optional<TextStore> texts_;
+  ChunkedArray<std::string> texts_;
+  std::function<bool(const ExactTriangle&)> is_needed_;
+  ChunkedArray<std::uint8_t> are_needed_;  // of texts, 0 or 1; empty without is_needed_
   ChunkedArray<std::uint64_t> numbers_;
   ChunkedArray<Corners> corners_;
   KeptIds::Id next_id_ = 0;
-  std::uint64_t last_number_ = 0;  // of the triangles so far
   FragmentReport* report_;
   bool tags_are_colors_;  // and nothing else is to be done
   TriangleColors colors_;
   std::size_t min_capacity_;
   std::size_t capacity_;
-  std::size_t max_id_count_;
 };
 
 }  // namespace pipeline
