@@ -26,7 +26,8 @@ Vec3 scaled_edge(const Vec3& a, const Vec3& b) {
 Vec3 unit_face_normal(const Triangle& p) {
   constexpr double kLeast = 0x1p-600, kMost = 0x1p1000;  // of products that are used as they are
   const Vec3 normal = face_normal(p);
-  if (const double largest = largest_in(normal); largest > kLeast && largest < kMost)
+  const double largest = largest_in(normal);  // but for nan, of products that both overflow
+  if (largest > kLeast && largest < kMost && std::isfinite(normal.x + normal.y + normal.z))
     return unit_vector(normal);
   return unit_vector(cross(scaled_edge(p[0], p[1]), scaled_edge(p[0], p[2])));
 }
