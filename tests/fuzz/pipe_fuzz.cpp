@@ -1,10 +1,15 @@
 // The whole pipe in one process: the four tools' own main functions, each reading the output of the previous
-// one, and trace's beside the last two. The first byte of the input selects options, the rest is the scene.
+// one, and trace's beside the last two. The first byte of the input selects options, the rest is the scene;
+// under one of them, the next bytes select any options that the tools have.
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <map>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +27,8 @@ int trace_main(int argc, char** argv);
 
 namespace pipeline {
 namespace {
+
+constexpr int kBytesOfOptions = 32;
 
 /// Makes a descriptor refer to another one's file as long as this object lives.
 class Redirected {
@@ -101,12 +108,12 @@ Run run_stage(int (*tool)(int, char**), const std::vector<std::string>& words, c
 }
 
 std::pair<Run, std::string> draw(int (*tool)(int, char**), std::vector<std::string> words,
-                                 const std::string& input) {
+                                 const std::string& input, bool is_checked = true) {
   const TextFile config("9 7\n"), image("");
   const auto path_of = [](const TextFile& file) { return "/dev/fd/" + std::to_string(file.descriptor()); };
   words.insert(words.end(), {path_of(config), "--image", path_of(image)});
   Run done = run(tool, words, input);
-  check_messages(done);
+  if (is_checked) check_messages(done);
   return {std::move(done), image.whole_text()};
 }
 
@@ -146,8 +153,71 @@ void check_rays(const Run& viewed) {
   require(lit.second == on_threads.second, "threads change nothing");
 }
 
+/// An option of a tool, with the kinds of its values.
+using Option = std::vector<std::string>;
+
+/// What --help lists, so that a new option is tried from its first day on; --timing says more than a reason.
+std::vector<Option> options_of(int (*tool)(int, char**), const std::string& name) {
+  std::istringstream help(run(tool, {name, "--help"}, "").output);
+  std::vector<Option> options;
+  for (std::string line; std::getline(help, line);) {
+    if (!line.starts_with("  -")) continue;
+    std::istringstream words(line.substr(line.find("--"), line.find("  ", 2) - line.find("--")));
+    Option option{std::istream_iterator<std::string>(words), {}};
+    if (option[0] != "--help" && option[0] != "--version" && option[0] != "--timing")
+      options.push_back(option);
+  }
+  require(options.size() > 5, "--help lists the options");
+  return options;
+}
+
+/// A value of a kind: one of `a|b`, or what its name in --help stands for.
+std::string value_of(const std::string& kind, FuzzBytes& bytes) {
+  static const std::map<std::string, std::string> kFixed = {
+      {"FILE", "/dev/null"}, {"WIDTHxHEIGHT", "5x4"}, {"RRGGBB[AA]", "12345678"},
+      {"COLUMN,ROW", "2,3"}, {"A:B", "1:3"},          {"[all]", "all"}};
+  static const std::vector<std::string> kNumbers = {"2", "0", "1", "0.5", "3", "7", "-1", "1e155", "1e-200"};
+  if (const auto fixed = kFixed.find(kind); fixed != kFixed.end()) return fixed->second;
+  std::vector<std::string> choices;
+  std::istringstream words(kind);
+  for (std::string word; std::getline(words, word, '|');) choices.push_back(word);
+  const std::string& choice = choices[static_cast<std::size_t>(bytes.whole(int(choices.size()) - 1))];
+  const bool is_word = std::islower(static_cast<unsigned char>(choice[0])) != 0;
+  return is_word ? choice : kNumbers[static_cast<std::size_t>(bytes.whole(int(kNumbers.size()) - 1))];
+}
+
+/// A tool under up to three of its options; such a command line may be a misuse.
+Run run_with_any(int (*tool)(int, char**), const std::string& name, const std::string& input,
+                 FuzzBytes& bytes) {
+  static std::map<std::string, std::vector<Option>> known;
+  if (known[name].empty()) known[name] = options_of(tool, name);
+  std::vector<std::string> words = {name};
+  for (int count = bytes.whole(3); count > 0; --count) {
+    const Option& option = known[name][static_cast<std::size_t>(bytes.whole(int(known[name].size()) - 1))];
+    words.push_back(option[0]);
+    for (std::size_t i = 1; i < option.size(); ++i) words.push_back(value_of(option[i], bytes));
+  }
+  const bool draws = name == "zbuf" || name == "trace";
+  Run done = draws ? draw(tool, words, input, false).first : run(tool, words, input);
+  require(done.status >= 0 && done.status <= 2, "a run ends with 0, 1 or 2");
+  require(done.status == 0 || !done.messages.empty(), "a failure says why");
+  if (!draws && done.status != 2) check_stage_text(done);
+  return done;
+}
+
+void check_any_options(FuzzBytes& bytes) {
+  FuzzBytes scene = bytes;
+  for (int i = 0; i < kBytesOfOptions; ++i) scene.byte();
+  const Run modeled = run_with_any(model_main, "model", std::string(scene.rest()), bytes);
+  const Run viewed = run_with_any(view_main, "view", modeled.output, bytes);
+  run_with_any(trace_main, "trace", viewed.output, bytes);
+  const Run projected = run_with_any(project_main, "project", viewed.output, bytes);
+  run_with_any(zbuf_main, "zbuf", projected.output, bytes);
+}
+
 void check(FuzzBytes bytes) {
   const int options = bytes.byte();
+  if ((options & 64) != 0) return check_any_options(bytes);
   std::vector<std::string> digits = {"--digits", (options & 1) != 0 ? "exact" : "7"};
   const auto with_digits = [&](std::vector<std::string> words) {
     words.insert(words.end(), digits.begin(), digits.end());
