@@ -422,7 +422,7 @@ class Wrong(HandIn):
             verdict = self.assert_verdicts([*["right"] * 4, "wrong"], 1)
         file = verdict.files[4]
         self.assertEqual((file.cause, file.remarks),
-                         (f"A triangle has many colors: there are {count:,} for 5 triangles", []))
+                         (f"A triangle has many colors ({count:,} for 5 triangles)", []))
         self.assertRegex(file.first, r"^row \d+, column \d+: one of [\d,]+ colors of triangle \d$")
 
     def test_many_colors_beside_another_mistake(self):
@@ -433,7 +433,7 @@ class Wrong(HandIn):
         count, rows = self.in_many_colors(), "The rows are in reverse order"
         self.assertEqual(
             [file.cause for file in self.verdict().files[3:]],
-            [rows, f"{rows}; and: A triangle has many colors: there are {count:,} for 5 triangles"])
+            [rows, f"{rows}; and: A triangle has many colors ({count:,} for 5 triangles)"])
 
     def test_a_frame_around_the_picture_is_not_many_colors(self):
         self.hand_in()

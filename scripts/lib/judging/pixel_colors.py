@@ -52,10 +52,11 @@ class ManyColors:
 
     def add_to(self, verdict):
         """Makes this the cause of the picture's FileVerdict, or a further one beside its own."""
-        text = f"A triangle has many colors: there are {self.count:,} for {self.triangle_count:,} triangles"
+        text, detail = "A triangle has many colors", f"{self.count:,} for {self.triangle_count:,} triangles"
         own = [cause for cause in verdict.causes if cause.name != "zbuf/one-color"]
-        verdict.causes = [dataclasses.replace(cause, text=f"{cause.text.rstrip('.')}; and: {text}")
-                          for cause in own] or [Cause("", text)]
+        verdict.causes = [
+            dataclasses.replace(cause, text=f"{cause.text.rstrip('.')}; and: {text}", detail=detail)
+            for cause in own] or [Cause("", text, detail)]
         if verdict.rule:
             verdict.remarks.append(f"with {verdict.rule}")
         verdict.verdict, verdict.rule = WRONG, ""
