@@ -5,12 +5,6 @@
 
 namespace pipeline {
 
-AffineMatrix identity() {
-  AffineMatrix m;
-  for (std::size_t i = 0; i < 3; ++i) m.rows[i][i] = 1;
-  return m;
-}
-
 namespace {
 
 /// Enlarges a bound by more than the few operations that computed it can have lost to rounding and underflow.
@@ -29,6 +23,18 @@ double row_length_bound(const std::array<Ball, 4>& row) {
   return rounded_up(largest * std::sqrt(x * x + y * y + z * z));
 }
 
+/// A bound on the Euclidean length of the errors of a row's linear part, from the entries' own.
+double row_error_bound(const std::array<Ball, 4>& row) {
+  const double sum = row[0].radius() + row[1].radius() + row[2].radius();
+  return sum == 0 ? 0 : rounded_up(sum);
+}
+
+/// The Frobenius norm, which no vector is lengthened beyond.
+double norm_bound(const AffineMatrix::Rows& rows) {
+  return rounded_up(
+      std::hypot(row_length_bound(rows[0]), row_length_bound(rows[1]), row_length_bound(rows[2])));
+}
+
 /// The error of a row of a * b that comes from b's own errors and from rounding the product, per unit of the
 /// length of a's row.
 double error_per_length(const AffineMatrix& b) {
@@ -39,8 +45,21 @@ double error_per_length(const AffineMatrix& b) {
 
 }  // namespace
 
+AffineMatrix::AffineMatrix(const Rows& entries) : AffineMatrix(entries, norm_bound(entries)) {}
+
+AffineMatrix::AffineMatrix(const Rows& entries, double known_norm)
+    : rows(entries),
+      row_errors{row_error_bound(rows[0]), row_error_bound(rows[1]), row_error_bound(rows[2])},
+      norm(known_norm) {}
+
+AffineMatrix identity() {
+  AffineMatrix::Rows rows;
+  for (std::size_t i = 0; i < 3; ++i) rows[i][i] = 1;
+  return {rows, 1};
+}
+
 AffineMatrix operator*(const AffineMatrix& a, const AffineMatrix& b) {
-  AffineMatrix product;
+  AffineMatrix product = a;
   product.norm = rounded_up(a.norm * b.norm);
   const double b_error = error_per_length(b);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -74,11 +93,6 @@ AffineMatrix scaled(const AffineMatrix& m, const Vec3& factors) {
     for (std::size_t k = 0; k < 3; ++k) row[k] = row[k].with_error_at_most(product.row_errors[i]);
   }
   return product;
-}
-
-void bound_row_errors(AffineMatrix& m) {
-  for (std::size_t i = 0; i < 3; ++i)
-    m.row_errors[i] = rounded_up(m.rows[i][0].radius() + m.rows[i][1].radius() + m.rows[i][2].radius());
 }
 
 }  // namespace pipeline

@@ -16,9 +16,16 @@ namespace pipeline {
 /// first three entries, and on how much the linear part can lengthen a vector. Each entry uses the smaller of
 /// its two bounds.
 struct AffineMatrix {
-  std::array<std::array<Ball, 4>, 3> rows;
-  std::array<double, 3> row_errors{};  // bounds on the lengths; infinite where unknown
-  double norm = 1;                     // an upper bound on the linear part's 2-norm
+  using Rows = std::array<std::array<Ball, 4>, 3>;
+
+  /// Bounds the errors, and the norm too, from the entries: right for every transform.
+  explicit AffineMatrix(const Rows& entries);
+  /// For a transform whose norm is known: an isometry's is 1, which its entries only bound by sqrt(3).
+  AffineMatrix(const Rows& entries, double known_norm);
+
+  Rows rows;
+  std::array<double, 3> row_errors;  // bounds on the lengths; infinite where unknown
+  double norm;                       // an upper bound on the linear part's 2-norm
 
   friend bool operator==(const AffineMatrix&, const AffineMatrix&) = default;
 };
@@ -28,7 +35,5 @@ AffineMatrix operator*(const AffineMatrix& a, const AffineMatrix& b);
 /// m * translation(offset) and m * scaling(factors), without the products by 0 and 1.
 AffineMatrix translated(const AffineMatrix& m, const Vec3& offset);
 AffineMatrix scaled(const AffineMatrix& m, const Vec3& factors);
-/// Sets `row_errors` from the entries' own errors.
-void bound_row_errors(AffineMatrix& m);
 
 }  // namespace pipeline

@@ -104,28 +104,26 @@ AffineMatrix translation(const Vec3& offset) {
 
 // M3
 AffineMatrix scaling(const Vec3& factors) {
-  AffineMatrix m;
-  m.rows[0][0] = factors.x;
-  m.rows[1][1] = factors.y;
-  m.rows[2][2] = factors.z;
-  m.norm = std::max({std::fabs(factors.x), std::fabs(factors.y), std::fabs(factors.z)});
-  return m;
+  AffineMatrix::Rows rows;
+  rows[0][0] = factors.x;
+  rows[1][1] = factors.y;
+  rows[2][2] = factors.z;
+  return {rows, std::max({std::fabs(factors.x), std::fabs(factors.y), std::fabs(factors.z)})};
 }
 
 // M4
 AffineMatrix rotation(double angle_degrees, const Vec3& axis) {
   const BallVec3 unit_axis = normalized(to_balls(axis));
   const SineCosine angle = sine_cosine_of_degrees({angle_degrees, 0});
-  AffineMatrix m;
+  AffineMatrix::Rows rows;
   for (std::size_t j = 0; j < 3; ++j) {
     const BallVec3 unit = {j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0, j == 2 ? 1.0 : 0.0};
     const BallVec3 column = rodrigues(unit, unit_axis, angle);
-    m.rows[0][j] = column.x;
-    m.rows[1][j] = column.y;
-    m.rows[2][j] = column.z;
+    rows[0][j] = column.x;
+    rows[1][j] = column.y;
+    rows[2][j] = column.z;
   }
-  bound_row_errors(m);
-  return m;
+  return {rows, 1};
 }
 
 // V2

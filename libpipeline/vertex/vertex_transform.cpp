@@ -14,6 +14,10 @@ BallVec3 apply_in_balls(const AffineMatrix& m, const Vec3& origin, const Vec3& p
   return {coordinate(m.rows[0]), coordinate(m.rows[1]), coordinate(m.rows[2])};
 }
 
+std::array<Ball, 4> row_of(const BallVec3& v) {
+  return {v.x, v.y, v.z, Ball()};
+}
+
 /// True if every entry is exactly the identity's.
 bool is_identity(const AffineMatrix& m) {
   for (std::size_t i = 0; i < 3; ++i)
@@ -29,9 +33,9 @@ VertexTransform::VertexTransform(const AffineMatrix& world_from_model)
   set_coefficients();
 }
 
-VertexTransform::VertexTransform(const ViewTransform& view_from_world) {
-  const auto row = [](const BallVec3& v) { return std::array<Ball, 4>{v.x, v.y, v.z, Ball()}; };
-  matrix_.rows = {row(view_from_world.right), row(view_from_world.up), row(view_from_world.backward)};
+VertexTransform::VertexTransform(const ViewTransform& view_from_world)
+    : matrix_({row_of(view_from_world.right), row_of(view_from_world.up), row_of(view_from_world.backward)},
+              1) {
   coefficients_.origin = view_from_world.eye;
   set_coefficients();
 }

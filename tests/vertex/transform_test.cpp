@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/numbers/random_numbers.h"
@@ -235,6 +236,33 @@ TEST(MatrixProduct, ContainsTheTruthWhereScalesLeaveTheRange) {
     ASSERT_FALSE(HasFatalFailure()) << "scale " << std::hexfloat << scale;
     ASSERT_LE(relative_error(computed), 0x1p-90) << "scale " << std::hexfloat << scale;
   }
+}
+
+/// p + 10^6 y e_x: it lengthens vectors 10^6 times, and no such command exists.
+AffineMatrix shear() {
+  AffineMatrix::Rows rows = identity().rows;
+  rows[0][1] = 1e6;
+  return AffineMatrix(rows);
+}
+
+TEST(AffineMatrix, IsBoundedByItsEntriesWhereNoMoreIsKnown) {
+  EXPECT_EQ(shear().row_errors, (std::array<double, 3>{}));
+  EXPECT_GE(shear().norm, std::hypot(1e6, 1));  // the image of y
+  EXPECT_LE(shear().norm, 1e6 * (1 + 1e-9));
+  AffineMatrix::Rows uncertain = identity().rows;
+  uncertain[2][0] = Ball(1) / Ball(3);
+  const AffineMatrix m(uncertain);
+  EXPECT_GE(m.row_errors[2], uncertain[2][0].radius());
+  EXPECT_EQ(m.row_errors[1], 0);
+}
+
+// An error e of a row becomes e * shear: along x, 10^6 times as long.
+TEST(MatrixProduct, LengthensErrorsAsItsSecondFactorLengthensVectors) {
+  const AffineMatrix step = rotation(1.1, {1, 2, 3});
+  AffineMatrix turned = step;
+  for (int i = 1; i < 1'000; ++i) turned = turned * step;
+  const AffineMatrix product = turned * shear();
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_GE(product.row_errors[i], 1e6 * turned.row_errors[i]) << i;
 }
 
 TEST(MatrixProduct, ErrorGrowsLinearlyWithTheNumberOfRotations) {
