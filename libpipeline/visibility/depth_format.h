@@ -18,6 +18,17 @@ namespace pipeline {
 // it. Not every format has room for every pair of limits: `needed_limits` is what it needs, in words, where
 // it cannot store the depths between those of a screen, and empty where it can.
 
+/// The depth rule: a fragment is drawn if it is not before the front limit, and takes a pixel if it is nearer
+/// than what the pixel shows, as stored.
+// Z8
+constexpr bool is_drawn(double z, double front) {
+  return z >= front;
+}
+template <typename Stored>
+constexpr bool is_nearer(Stored stored, Stored of_pixel) {
+  return stored < of_pixel;
+}
+
 /// A double: the depth as calculated.
 struct DepthF64 {
   static constexpr std::string_view kName = "f64", kMeaning = "as a double";

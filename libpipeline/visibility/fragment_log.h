@@ -34,9 +34,9 @@ class FragmentTest {
   Fragment judge(Seen& seen, const Pixel& pixel, std::uint64_t triangle, double z) const {
     const typename Depth::Stored stored = format_.store(z);
     if (z < front_) return {pixel, triangle, z, DepthTestResult::before_front, 0};
-    if (!(stored < rear_)) return {pixel, triangle, z, DepthTestResult::beyond_rear, 0};
+    if (!is_nearer(stored, rear_)) return {pixel, triangle, z, DepthTestResult::beyond_rear, 0};
     const double depth = format_.depth(stored);
-    if (!(stored < seen.depth))
+    if (!is_nearer(stored, seen.depth))
       return {pixel, triangle, depth, seen.depth < stored ? DepthTestResult::behind : DepthTestResult::equal,
               seen.triangle};
     if (seen.depth < rear_ && epsilon_ > 0 && !(format_.depth(seen.depth) - depth > epsilon_))

@@ -13,8 +13,8 @@ constexpr int kMaxRun = 1 << 16;
 
 /// At equal depth the earlier polygon stays.
 template <typename Stored>
-bool is_nearer(Stored depth, PolygonId id, Stored other_depth, PolygonId other_id) {
-  return depth < other_depth || (depth == other_depth && id < other_id);
+bool hides(Stored depth, PolygonId id, Stored other_depth, PolygonId other_id) {
+  return is_nearer(depth, other_depth) || (depth == other_depth && id < other_id);
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Pixel
   Polygon polygon = {span.depth, span.first_column, span.last_column, {}, {}, {}, {}, id, tag};
   const SpanDepth& depth = span.depth;
   double left_z = depth(polygon.first_column), right_z = depth(polygon.last_column);
-  const auto is_seen = [&](double z) { return z >= front_ && is_before_rear(z); };
+  const auto is_seen = [&](double z) { return is_drawn(z, front_) && is_before_rear(z); };
   if (!is_seen(left_z) || !is_seen(right_z)) {
     // Each rounding in a SpanDepth is monotone, so the depths as calculated rise or fall along the row and
     // cross a limit once.
@@ -45,11 +45,11 @@ RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Pixel
       return first_column_where(span.first_column, end, is_true);
     };
     if (is_rising) {
-      polygon.first_column = first_where([&](int column) { return depth(column) >= front_; });
+      polygon.first_column = first_where([&](int column) { return is_drawn(depth(column), front_); });
       polygon.last_column = first_where([&](int column) { return !is_before_rear(depth(column)); }) - 1;
     } else {
       polygon.first_column = first_where([&](int column) { return is_before_rear(depth(column)); });
-      polygon.last_column = first_where([&](int column) { return !(depth(column) >= front_); }) - 1;
+      polygon.last_column = first_where([&](int column) { return !is_drawn(depth(column), front_); }) - 1;
     }
     if (polygon.is_empty()) return polygon;
     left_z = depth(polygon.first_column);
@@ -164,7 +164,7 @@ RowPolygon<Depth>* RowSweep<Depth>::nearest_at(int column) {
     if (candidate.nearest > nearest_depth) continue;
     Polygon& polygon = polygons_[candidate.slot];
     const auto depth = format_.store(polygon.depth(column));
-    if (nearest != nullptr && !is_nearer(depth, polygon.id, nearest_depth, nearest->id)) continue;
+    if (nearest != nullptr && !hides(depth, polygon.id, nearest_depth, nearest->id)) continue;
     nearest = &polygon;
     nearest_depth = depth;
   }
@@ -225,7 +225,7 @@ void RowSweep<Depth>::paint_pixel_by_pixel(int column, int end) {
     auto nearest_depth = format_.store(visible_->depth(c));
     for (const Polygon* contender : contenders_) {
       const auto depth = format_.store(contender->depth(c));
-      if (!is_nearer(depth, contender->id, nearest_depth, nearest->id)) continue;
+      if (!hides(depth, contender->id, nearest_depth, nearest->id)) continue;
       nearest = contender;
       nearest_depth = depth;
     }

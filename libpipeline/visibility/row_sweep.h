@@ -69,7 +69,7 @@ class RowSweep {
     std::uint32_t slot;
   };
 
-  [[nodiscard]] bool is_before_rear(double z) const { return format_.store(z) < rear_; }
+  [[nodiscard]] bool is_before_rear(double z) const { return is_nearer(format_.store(z), rear_); }
   [[nodiscard]] Polygon& active(std::size_t i) { return polygons_[active_[i].slot]; }
   void clear_pixels();
   void enter(std::uint32_t slot, int column);

@@ -36,6 +36,12 @@ HWY_INLINE auto store(const DepthU24& format, Vector z) {
   return hn::DemoteTo(StoredDepths<DepthU24>(), in_range);
 }
 
+/// The depth rule (depth_format.h) for some pixels at a time.
+template <typename Vector>
+HWY_INLINE auto are_nearer(Vector stored, Vector of_pixels) {
+  return hn::Lt(stored, of_pixels);
+}
+
 /// The mask of some depths as one of their tags.
 template <typename StoredTag, typename StoredMask>
 HWY_INLINE hn::Mask<decltype(kTags)> mask_of_tags(StoredTag depths, StoredMask mask) {
@@ -67,7 +73,7 @@ class SpanLanes {
     for (; end - first >= kStep; first += kStep, depths += kStep, tags += kStep) {
       const auto stored = stored_at(columns), there = hn::LoadU(kStored, depths);
       columns = columns + all(kStep);
-      const auto is_seen = hn::Lt(stored, there);
+      const auto is_seen = are_nearer(stored, there);
       if (hn::AllFalse(kStored, is_seen)) continue;
       hn::StoreU(hn::IfThenElse(is_seen, stored, there), kStored, depths);
       hn::StoreU(hn::IfThenElse(mask_of_tags(kStored, is_seen), tag, hn::LoadU(kTags, tags)), kTags, tags);
@@ -78,7 +84,7 @@ class SpanLanes {
     } else if (first < end) {
       const auto is_in_span = hn::FirstN(kStored, static_cast<std::size_t>(end - first));
       const auto stored = stored_at(columns), there = hn::MaskedLoad(is_in_span, kStored, depths);
-      const auto is_seen = hn::And(is_in_span, hn::Lt(stored, there));
+      const auto is_seen = hn::And(is_in_span, are_nearer(stored, there));
       hn::BlendedStore(stored, is_seen, kStored, depths);
       hn::BlendedStore(tag, mask_of_tags(kStored, is_seen), kTags, tags);
       is_any_seen |= !hn::AllFalse(kStored, is_seen);
@@ -96,7 +102,7 @@ class SpanLanes {
       const auto columns =
           hn::Iota(kDoubles, block) * all(kBlockColumns) + all(is_rising_ ? 0 : kBlockColumns - 1);
       const auto nearest = stored_at(hn::Min(hn::Max(columns, first_column), last_column));
-      const auto is_near = hn::Lt(nearest, hn::LoadU(kStored, pixels_.farthest + block));
+      const auto is_near = are_nearer(nearest, hn::LoadU(kStored, pixels_.farthest + block));
       const int count = std::min(blocks.last - block + 1, kStep);
       unsigned open = bits_of(kStored, is_near) & ((1u << count) - 1);
       while (open != 0) {
@@ -124,7 +130,7 @@ class SpanLanes {
 
   HWY_INLINE bool draw_pixel(int column, Stored* depth, PixelTag* tag) const {
     const Stored stored = format_.store(depth_(column));
-    if (!(stored < *depth)) return false;
+    if (!is_nearer(stored, *depth)) return false;
     *depth = stored;
     *tag = pixels_.tag;
     return true;

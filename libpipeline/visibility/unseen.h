@@ -9,6 +9,7 @@
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/unseen_places.h"
+#include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/tagged_batch.h"
 
 namespace pipeline {
@@ -67,8 +68,10 @@ class EmptyPicture {
 
   /// Every rounding in a SpanDepth is monotone, so depths rise or fall along the row and cross a limit once.
   void add(const Span& span, FragmentDepths& found) const {
-    const auto is_behind_front = [&](int column) { return span.depth(column) >= screen_.front; };
-    const auto is_before_rear = [&](int column) { return format_.store(span.depth(column)) < rear_; };
+    const auto is_behind_front = [&](int column) { return is_drawn(span.depth(column), screen_.front); };
+    const auto is_before_rear = [&](int column) {
+      return is_nearer(format_.store(span.depth(column)), rear_);
+    };
     const auto add_pixel = [&](int column) {
       found.before_front |= !is_behind_front(column);
       found.beyond_rear |= !is_before_rear(column);

@@ -24,10 +24,11 @@ void draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, do
   for (int column = span.first_column; column <= last_column; ++column) {
     const double z = depth(column);
     const typename Depth::Stored stored = format.store(z);
-    if (!(z >= front)) continue;
+    if (!is_drawn(z, front)) continue;
     const typename Depth::Stored old = depths[column];
-    depths[column] = stored < old ? stored : old;
-    tags[column] = select(stored < old, tag, tags[column]);
+    const bool is_won = is_nearer(stored, old);
+    depths[column] = is_won ? stored : old;
+    tags[column] = select(is_won, tag, tags[column]);
   }
 }
 
@@ -67,11 +68,10 @@ void ZBuffer<Depth>::draw(const Span& span, PixelTag tag, HierarchicalDepth<Dept
   draw_in_filled_row(span, tag, farthest);
 }
 
-// Z8
 template <typename Depth>
 void ZBuffer<Depth>::draw_in_filled_row(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest) {
   assert(span.first_column >= 0 && span.last_column < depths_.columns());
-  if (!(span.depth(span.first_column) >= front_ && span.depth(span.last_column) >= front_)) {
+  if (!is_drawn(span.depth(span.first_column), front_) || !is_drawn(span.depth(span.last_column), front_)) {
     const Span part = part_behind_front(span);
     if (part.first_column <= part.last_column) draw_in_filled_row(part, tag, farthest);
     return;
@@ -115,7 +115,7 @@ template <typename Depth>
 Span ZBuffer<Depth>::part_behind_front(const Span& span) const {
   Span part = span;
   const int end = span.last_column + 1;
-  const auto is_behind_front = [&](int column) { return span.depth(column) >= front_; };
+  const auto is_behind_front = [&](int column) { return is_drawn(span.depth(column), front_); };
   if (is_behind_front(span.last_column))
     part.first_column = first_column_where(span.first_column, end, is_behind_front);
   else
@@ -131,9 +131,9 @@ void ZBuffer<Depth>::draw_what_is_nearer_by_epsilon(const Span& span, PixelTag t
     const auto at = static_cast<std::size_t>(column);
     const Stored stored = format_.store(span.depth(column));
     const bool is_empty = !(depths[at] < rear_);
-    const bool is_nearer =
-        is_empty ? stored < rear_ : format_.depth(depths[at]) - format_.depth(stored) > depth_epsilon_;
-    if (!is_nearer) continue;
+    const bool is_won = is_empty ? is_nearer(stored, rear_)
+                                 : format_.depth(depths[at]) - format_.depth(stored) > depth_epsilon_;
+    if (!is_won) continue;
     depths[at] = stored;
     tags[at] = tag;
   }
