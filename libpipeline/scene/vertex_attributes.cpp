@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "libpipeline/scene/header_line.h"
+#include "libpipeline/text/fixed_text.h"
 
 namespace pipeline {
 namespace {

@@ -7,11 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/text_reader.h"
 #include "libpipeline/text/vertex_columns.h"
 
 namespace pipeline {
+
+struct FixedTextPart;
+enum class TriangleFrame;
 
 /// The line of a header that names attributes: "attributes w color".
 std::string attributes_line(const AttributeSet& attributes);

@@ -9,6 +9,7 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/text/fixed_text.h"
 
 namespace pipeline {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/source_location.h"
+#include "libpipeline/text/vertex_columns.h"
 
 namespace pipeline {
 
@@ -45,10 +45,10 @@ class TriangleTexts {
     lines_ += '\n';
     ends_.push_back(lines_.size());
   }
-  /// Adds triangles in fixed form (fixed_text.h) with that many decimals.
-  void add_fixed_form(std::string_view triangles, int decimals) {
+  /// Adds triangles in fixed form (fixed_text.h), none of them shorter than `min_length`.
+  void add_fixed_form(std::string_view triangles, std::size_t min_length) {
     constexpr std::string_view kTriangleEnd = "\n\n";
-    const std::size_t min_length = min_fixed_triangle_length(decimals) - kTriangleEnd.size();
+    min_length -= kTriangleEnd.size();
     const std::size_t offset = lines_.size();
     lines_ += triangles;
     for (std::size_t end = 0; end < triangles.size();) {

@@ -83,7 +83,8 @@ void TriangleReader::consume_fixed_form(const FixedTextPart& part, TriangleBatch
   const std::size_t old_size = batch.numbers.size();
   batch.complete(next_number_, text_.line_number() + 1);
   next_number_ += part.triangle_count;
-  if (keeps_text_) batch.texts.add_fixed_form(text_.buffered().substr(0, part.length), decimals);
+  if (keeps_text_)
+    batch.texts.add_fixed_form(text_.buffered().substr(0, part.length), min_fixed_triangle_length(decimals));
   text_.skip(part.length, part.triangle_count * kLinesPerTriangle);
   // With at most seven decimals and eight digits before the point, every coordinate is exactly its decimal.
   if (marks_decimals_) {

@@ -136,9 +136,6 @@ constexpr std::size_t kMaxFixedColumnsLength = kMaxGroups * kMaxFixedTriangleLen
 // decimals of their own, as `--digits exact` and people write them: without exponents, and with single blanks
 // between them.
 
-/// Which of a triangle's coordinates have at most kExactDecimals (number_parser.h): bit 3 * vertex + axis.
-using DecimalMarks = std::uint16_t;
-
 /// Reads triangles with these columns from the beginning of `text` as long as they have the form of the
 /// first: the fixed form, or numbers that read_decimal_number reads. Of the latter, it reads as many as
 /// `marks` has entries, and sets these. What it stops before is left to the general reader.

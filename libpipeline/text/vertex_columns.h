@@ -105,6 +105,9 @@ constexpr void for_each_attribute(Visit visit) {
   std::apply([&](const auto&... attributes) { (visit(attributes), ...); }, kAttributes);
 }
 
+/// Which of a triangle's coordinates have at most kExactDecimals (number_parser.h): bit 3 * vertex + axis.
+using DecimalMarks = std::uint16_t;
+
 /// How many attributes have such values.
 template <typename Value, typename... All>
 constexpr std::size_t attribute_count(const std::tuple<VertexAttribute<All>...>&) {

@@ -9,6 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "libpipeline/picture/surface_shader.h"
+#include "libpipeline/raytracing/ray_log.h"
+#include "libpipeline/scene/appearance.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/error.h"
 
 namespace pipeline {

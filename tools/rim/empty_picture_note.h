@@ -4,15 +4,16 @@
 #include <optional>
 #include <string>
 
-#include "libpipeline/picture/surface_shader.h"
-#include "libpipeline/raytracing/ray_log.h"
-#include "libpipeline/scene/appearance.h"
-#include "libpipeline/scene/color.h"
-#include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/unseen_places.h"
 #include "libpipeline/text/source_location.h"
 
 namespace pipeline {
+
+struct Appearance;
+class Color;
+struct ShownLight;
+class SurfaceShader;
+struct Viewport;
 
 // The words with which a stage notes why the picture is empty, or far from what was meant.
 
