@@ -10,6 +10,9 @@ import sys
 import tempfile
 import unittest
 
+from lib.maths.matrices import TRANSFORMS
+from lib.text.scene import ARGUMENT_LINES, SETTINGS
+
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else sys.exit(__doc__)
 LIBRARY = SOURCE / "libpipeline"
 MAP = (LIBRARY / "README.md").read_text()
@@ -198,6 +201,16 @@ class Invariants(unittest.TestCase):
         self.assert_only_in(
             r"\b(?:from_chars|to_chars|strto\w+|ato[fil]|s\w*scanf|iostream|sstream|setlocale)\b",
             [f"libpipeline/{room}" for room in arrows_of(MAP) if room != "text"], [])
+
+    def test_commands_of_scenes_are_the_same_everywhere(self):
+        table = (LIBRARY / "scene/scene_commands.h").read_text()
+        rows = re.findall(r'^ *{"(\w+)", CommandKind::\w+, (\d)', table, re.MULTILINE)
+        self.assertEqual({word: int(lines) for word, lines in rows}, ARGUMENT_LINES)
+        settings = re.findall(r'"(\w+)", CommandKind::(?:setting|of_material)', table)
+        self.assertEqual(set(settings), set(SETTINGS))
+        self.assertEqual(set(re.findall(r'"(\w+)", CommandKind::transform', table)), set(TRANSFORMS))
+        dictionary = re.findall(r'^"(\w+)"', (SOURCE / "tests/fuzz/dictionary.txt").read_text(), re.MULTILINE)
+        self.assertLessEqual(set(ARGUMENT_LINES), set(dictionary))
 
 
 class Promises(unittest.TestCase):

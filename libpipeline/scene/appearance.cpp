@@ -1,7 +1,5 @@
 #include "libpipeline/scene/appearance.h"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
 
 #include "libpipeline/scene/spelling.h"
@@ -100,16 +98,6 @@ void set_once(std::optional<Located<T>>& part, std::string_view keyword,
 }
 
 }  // namespace
-
-std::span<const std::string_view> appearance_keywords() {
-  static constexpr std::array<std::string_view, 8> kKeywords = {
-      "attributes", "background", "ambient", "material", "absorption", "paint", "attenuation", "light"};
-  return kKeywords;
-}
-
-bool is_appearance_keyword(std::string_view keyword) {
-  return std::ranges::find(appearance_keywords(), keyword) != appearance_keywords().end();
-}
 
 void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                           AttributeSource source, Appearance& appearance) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -76,14 +75,10 @@ struct Appearance {
 /// Where a line `attributes` stands: a scene names neither w, which `project` adds, nor material.
 enum class AttributeSource { scene, stage_text };
 
-/// `attributes`, `background`, `ambient`, `material`, `absorption`, `paint`, `attenuation` and `light`.
-std::span<const std::string_view> appearance_keywords();
-bool is_appearance_keyword(std::string_view keyword);
-
-/// Reads the arguments of such a keyword, to the end of the line, and adds them to `appearance`. An
-/// InputError if a number is missing or out of range, and, at `keyword_location`, if the part was given
-/// before; only lights and materials may be given more than once, and an absorption and a paint for each
-/// material.
+/// Reads the arguments of a setting (scene_commands.h), to the end of the line, and adds them to
+/// `appearance`. An InputError if a number is missing or out of range, and, at `keyword_location`, if the
+/// part was given before; only lights and materials may be given more than once, and an absorption and a
+/// paint for each material.
 void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                           AttributeSource source, Appearance& appearance);
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
+#include "libpipeline/scene/scene_commands.h"
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/number_parser.h"
@@ -12,10 +14,15 @@
 namespace pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 18> kCommands = {
-    "triangle", "sphere",   "translate",  "scale",      "rotate",      "push",
-    "pop",      "end",      "color",      "attributes", "background",  "light",
-    "ambient",  "material", "absorption", "paint",      "attenuation", "use"};
+/// "a, b or c": the words of the rows for which `is_wanted(row)`.
+template <typename IsWanted>
+std::string alternatives(IsWanted&& is_wanted) {
+  const std::vector<std::string_view> words = scene_words(is_wanted);
+  std::string text(words.front());
+  for (std::size_t i = 1; i < words.size(); ++i)
+    text.append(i + 1 < words.size() ? ", " : " or ").append(words[i]);
+  return text;
+}
 
 }  // namespace
 
@@ -43,9 +50,11 @@ Located<Projection> SceneReader::read_camera_projection() {
 }
 
 /// Moves on to the next line that is not blank, unless a word is left on the command's own line.
-void SceneReader::next_argument_line(std::string_view expected) {
+void SceneReader::next_argument_line(std::string_view expected, std::string_view of) {
   if (line_.at_end() && !text_.next_filled_line(line_))
-    throw InputError(text_.end_location(), expected_but_found(std::string(expected), "the end of the input"));
+    throw InputError(
+        text_.end_location(),
+        expected_but_found(std::string(expected) + (of.empty() ? "" : quoted(of)), "the end of the input"));
 }
 
 std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>& p_model,
@@ -75,75 +84,89 @@ Command SceneReader::next() {
     throw InputError(text_.end_location(),
                      expected_but_found("'end', which closes a scene", "the end of the input"));
   location_ = line_.location();
-  const std::string_view keyword = line_.peek();
-  const auto takes_no_arguments = [&] {
-    line_.word();
-    line_.expect_end(quoted(keyword));
-  };
-  if (keyword == "triangle") return read_triangle();
-  if (keyword == "translate" || keyword == "scale") {
-    const bool is_scale = keyword == "scale";
-    line_.word();
-    next_argument_line(is_scale ? "three factors" : "three distances");
-    if (is_scale) return ScaleCommand{line_.vec3("the scale")};
-    return TranslateCommand{line_.vec3("the translation")};
+  const SceneCommand* command = find_scene_command(line_.peek());
+  if (command == nullptr || !is_allowed(*command)) refuse(command);
+  const auto& [word, kind, argument_lines, arguments] = *command;
+  line_.word();
+  if (argument_lines == 0)
+    line_.expect_end(quoted(word));
+  else if (argument_lines == 1)  // those of a triangle have names of their own
+    arguments.empty() ? next_argument_line("the arguments of ", word) : next_argument_line(arguments);
+  switch (kind) {
+    case CommandKind::object:
+      if (word == "sphere") return read_sphere();
+      return read_triangle();
+    case CommandKind::transform:
+      if (word == "translate") return TranslateCommand{line_.vec3("the translation")};
+      if (word == "scale") return ScaleCommand{line_.vec3("the scale")};
+      return read_rotation();
+    case CommandKind::stack:
+      if (word == "push") return PushCommand{};
+      return PopCommand{};
+    case CommandKind::end:
+      if (text_.next_filled_line(line_)) line_.fail("nothing after 'end'");
+      return EndCommand{};
+    case CommandKind::color:
+      return read_current_color();
+    case CommandKind::use:
+      return read_use();
+    default:
+      return read_setting(word);
   }
-  if (keyword == "rotate") return read_rotation();
-  if (keyword == "sphere") return read_sphere();
-  if (keyword == "use") return read_use();
-  if (keyword == "push") return takes_no_arguments(), PushCommand{};
-  if (keyword == "pop") return takes_no_arguments(), PopCommand{};
-  if (keyword == "end") {
-    takes_no_arguments();
-    if (text_.next_filled_line(line_)) line_.fail("nothing after 'end'");
-    return EndCommand{};
+}
+
+bool SceneReader::is_allowed(const SceneCommand& command) const {
+  if (!has_triangle_ || command.kind <= CommandKind::end || command.kind == CommandKind::use) return true;
+  return command.kind == CommandKind::color && appearance_.columns().color;
+}
+
+/// Refuses the word that comes next: a command that may not stand here, or, if null, none.
+void SceneReader::refuse(const SceneCommand* command) const {
+  const std::string_view word = line_.peek();
+  if (command == nullptr) {
+    const bool is_vertex = has_triangle_ && begins_like_number(word);
+    const bool is_normal = word == "normal" || word == "vn";
+    const auto any = scene_words([](const SceneCommand&) { return true; });
+    line_.fail(expected_commands(), is_vertex ? " (a triangle has three vertices)"
+                                    : is_normal
+                                        ? " (normals are columns of vertex lines, after 'attributes normal')"
+                                        : spelling_hint(word, any));
   }
-  if (keyword == "color" || is_appearance_keyword(keyword)) return read_appearance(keyword);
-  const bool is_vertex = has_triangle_ && begins_like_number(keyword);
-  const bool is_normal = keyword == "normal" || keyword == "vn";
-  line_.fail(expected_commands(), is_vertex ? " (a triangle has three vertices)"
-                                  : is_normal
-                                      ? " (normals are columns of vertex lines, after 'attributes normal')"
-                                      : spelling_hint(keyword, kCommands));
+  const std::string expected = command->kind == CommandKind::color
+                                   ? "'color' or 'attributes color' before the first triangle, too"
+                                   : quoted(word) + " before the first triangle";
+  throw InputError(location_, expected_but_found(expected, quoted(word) + " after it"));
 }
 
 /// The commands that are allowed here.
 std::string SceneReader::expected_commands() const {
-  std::string commands = "a command (triangle, sphere, translate, scale, rotate, push, pop or end";
-  if (!has_triangle_)
-    commands +=
-        "; before the first triangle also color, attributes, background, light, ambient, material or "
-        "attenuation";
-  std::string others;
-  const auto add = [&](const char* command) {
-    others += (others.empty() ? "; also " : " and ") + std::string(command);
+  const auto is_of_all = [](const SceneCommand& command) { return command.kind <= CommandKind::end; };
+  const auto comes_first = [](const SceneCommand& command) {
+    return command.kind == CommandKind::color || command.kind == CommandKind::setting;
   };
-  if (has_triangle_ && appearance_.columns().color) add("color");
-  if (!has_triangle_ && !appearance_.materials.empty()) add("absorption and paint");
-  if (appearance_.materials.size() > 1) add("use");
-  return commands + others + ")";
+  const std::vector<std::string_view> others = scene_words([&](const SceneCommand& command) {
+    if (command.kind == CommandKind::color) return has_triangle_ && appearance_.columns().color;
+    if (command.kind == CommandKind::of_material) return !has_triangle_ && !appearance_.materials.empty();
+    return command.kind == CommandKind::use && appearance_.materials.size() > 1;
+  });
+  std::string commands = "a command (" + alternatives(is_of_all);
+  if (!has_triangle_) commands += "; before the first triangle also " + alternatives(comes_first);
+  for (const std::string_view word : others)
+    commands.append(word == others.front() ? "; also " : " and ").append(word);
+  return commands + ")";
 }
 
-/// Reads a color or light command. All but `color` must come before the first triangle.
-Command SceneReader::read_appearance(std::string_view keyword) {
-  const bool is_color = keyword == "color";
-  if (has_triangle_ && !(is_color && appearance_.columns().color)) {
-    const std::string expected = is_color ? "'color' or 'attributes color' before the first triangle, too"
-                                          : quoted(keyword) + " before the first triangle";
-    throw InputError(location_, expected_but_found(expected, quoted(keyword) + " after it"));
-  }
-  const std::string name(line_.word());
-  next_argument_line("the arguments of " + quoted(name));
-  if (is_color) return read_current_color(), AppearanceCommand{};
+/// Reads a color or light command.
+Command SceneReader::read_setting(std::string_view word) {
   const AttributeSet had = appearance_.columns();
-  if (name == "attributes" && !vertex_line_.attributes().any()) appearance_.attributes.reset();
-  read_appearance_part(name, location_, line_, AttributeSource::scene, appearance_);
-  if (name == "light") {
+  if (word == "attributes" && !vertex_line_.attributes().any()) appearance_.attributes.reset();
+  read_appearance_part(word, location_, line_, AttributeSource::scene, appearance_);
+  if (word == "light") {
     const LightCommand command{appearance_.lights.back()};
     appearance_.lights.clear();
     return command;
   }
-  if (name == "attributes") {
+  if (word == "attributes") {
     vertex_line_ = VertexLineReader(appearance_.columns());
     appearance_.attributes->value.color |= had.color;
     appearance_.attributes->value.material = had.material;
@@ -155,19 +178,18 @@ Command SceneReader::read_appearance(std::string_view keyword) {
   return AppearanceCommand{};
 }
 
-void SceneReader::read_current_color() {
+AppearanceCommand SceneReader::read_current_color() {
   current_color_ = read_color(line_, "the color");
   has_current_color_ = true;
   line_.expect_end("the blue of the color");
   if (!appearance_.attributes) appearance_.attributes = {{}, location_};
   appearance_.attributes->value.color = true;
+  return {};
 }
 
 /// Reads `use K`; material 0 is there without a line, too.
 // S23
-Command SceneReader::read_use() {
-  line_.word();
-  next_argument_line("the arguments of 'use'");
+AppearanceCommand SceneReader::read_use() {
   const std::size_t count = std::max<std::size_t>(appearance_.materials.size(), 1);
   const LineScanner at_number = line_;
   const std::string expected =
@@ -176,7 +198,7 @@ Command SceneReader::read_use() {
   if (material >= count) at_number.fail(expected);
   line_.expect_end("the number of a material");
   lines_.material = static_cast<std::uint32_t>(material);
-  return AppearanceCommand{};
+  return {};
 }
 
 /// Takes a vertex line of a scene with attributes; a color without columns is the current one.
@@ -195,7 +217,6 @@ void SceneReader::read_vertex(std::size_t index) {
 
 // S11
 TriangleCommand SceneReader::read_triangle() {
-  line_.word();
   has_triangle_ = true;
   const bool has_attributes = appearance_.attributes.has_value();
   TriangleCommand command;
@@ -212,12 +233,10 @@ TriangleCommand SceneReader::read_triangle() {
   return command;
 }
 
-/// Reads `sphere` and its center and radius. The points of its surface that stage texts carry have to be
+/// Reads a sphere's center and radius. The points of its surface that stage texts carry have to be
 /// numbers, and not the center.
 // S24
 SphereCommand SceneReader::read_sphere() {
-  line_.word();
-  next_argument_line("a center and a radius (four numbers)");
   has_triangle_ = true;
   const AttributeSet& columns = appearance_.columns();
   if (columns.color && vertex_line_.attributes().color && !has_current_color_)
@@ -245,8 +264,6 @@ SphereCommand SceneReader::read_sphere() {
 
 // S12
 RotateCommand SceneReader::read_rotation() {
-  line_.word();
-  next_argument_line("an angle and an axis (four numbers)");
   RotateCommand command;
   command.angle_degrees = line_.number("an angle in degrees");
   const SourceLocation axis_location = line_.location();

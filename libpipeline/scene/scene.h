@@ -12,6 +12,8 @@
 
 namespace pipeline {
 
+struct SceneCommand;
+
 // The commands of a scene as they are written: angles in degrees, before any arithmetic.
 struct TriangleCommand {
   Triangle p_model;
@@ -93,13 +95,15 @@ class SceneReader {
  private:
   Located<Vec3> read_camera_vec3(const std::string& name);
   Located<Projection> read_camera_projection();
-  void next_argument_line(std::string_view expected);
+  void next_argument_line(std::string_view expected, std::string_view of = {});
   TriangleCommand read_triangle();
   void read_vertex(std::size_t index);
+  [[nodiscard]] bool is_allowed(const SceneCommand& command) const;
+  [[noreturn]] void refuse(const SceneCommand* command) const;
   [[nodiscard]] std::string expected_commands() const;
-  Command read_appearance(std::string_view keyword);
-  void read_current_color();
-  Command read_use();
+  AppearanceCommand read_current_color();
+  Command read_setting(std::string_view word);
+  AppearanceCommand read_use();
   RotateCommand read_rotation();
   SphereCommand read_sphere();
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "libpipeline/scene/appearance.h"
+#include "libpipeline/scene/scene_commands.h"
 #include "libpipeline/text/error.h"
 
 namespace pipeline {
@@ -23,8 +23,9 @@ std::size_t length_of_triangle(std::string_view text) {
   return end;
 }
 
-bool is_transform(std::string_view keyword) {
-  return keyword == "translate" || keyword == "scale" || keyword == "rotate";
+bool is_object(std::string_view word) {
+  const SceneCommand* command = find_scene_command(word);
+  return command != nullptr && command->kind == CommandKind::object;
 }
 
 void write_repeated(TextWriter& part, std::string_view command, std::uint64_t count) {
@@ -95,7 +96,7 @@ void SceneCutter::find_triangle(TextWriter* part) {
     if (!text_.next_filled_line(line_))
       throw InputError(text_.end_location(),
                        expected_but_found("'end', which closes a scene", "the end of the input"));
-    line_is_pending_ = line_.peek() == "triangle" || line_.peek() == "sphere";
+    line_is_pending_ = is_object(line_.peek());
     if (line_is_pending_) return;
     if (line_.peek() == "end") {
       line_.word();
@@ -111,7 +112,7 @@ void SceneCutter::find_triangle(TextWriter* part) {
 /// Copies the command that begins on this line, which is no triangle, to `part`, or, if null, the preamble.
 void SceneCutter::carry_out(TextWriter* part) {
   const LineScanner at_keyword = line_;
-  expect_allowed(at_keyword);
+  const CommandKind kind = expect_allowed(at_keyword).kind;
   const std::string keyword(line_.word());
   std::string command = keyword + "\n";
   if (keyword == "push") {
@@ -124,13 +125,13 @@ void SceneCutter::carry_out(TextWriter* part) {
   } else {
     next_argument_line(text_, line_, keyword);
     (command += line_.rest()) += '\n';
-    if (is_transform(keyword))
+    if (kind == CommandKind::transform)
       levels_.back().text += command;
-    else if (keyword == "color" && !is_in_preamble_)
+    else if (kind == CommandKind::color && !is_in_preamble_)
       color_ = command;
-    else if (keyword == "use" && !is_in_preamble_)
+    else if (kind == CommandKind::use && !is_in_preamble_)
       material_ = command;
-    has_color_ |= keyword == "color" ||
+    has_color_ |= kind == CommandKind::color ||
                   (keyword == "attributes" && line_.rest().find("color") != std::string_view::npos);
   }
   if (part != nullptr)
@@ -151,14 +152,14 @@ void SceneCutter::pop(const LineScanner& at_pop) {
 }
 
 /// Settings must precede the first triangle; otherwise they would apply to some parts only.
-void SceneCutter::expect_allowed(const LineScanner& at_keyword) const {
-  const std::string_view keyword = at_keyword.peek();
-  if (is_transform(keyword) || keyword == "push" || keyword == "pop" || keyword == "use") return;
-  const bool is_setting = keyword == "color" || is_appearance_keyword(keyword);
-  if (!is_setting) at_keyword.fail("a command of a scene");
-  if (is_in_preamble_ || (keyword == "color" && has_color_)) return;
-  throw InputError(at_keyword.location(), expected_but_found(quoted(keyword) + " before the first triangle",
-                                                             quoted(keyword) + " after it"));
+const SceneCommand& SceneCutter::expect_allowed(const LineScanner& at_keyword) const {
+  const SceneCommand* command = find_scene_command(at_keyword.peek());
+  if (command == nullptr) at_keyword.fail("a command of a scene");
+  const bool is_color = command->kind == CommandKind::color;
+  if (is_in_preamble_ || !(is_color || command->is_setting()) || (is_color && has_color_)) return *command;
+  throw InputError(at_keyword.location(),
+                   expected_but_found(quoted(command->word) + " before the first triangle",
+                                      quoted(command->word) + " after it"));
 }
 
 /// Copies the triangle or sphere whose first line is `line_`.
@@ -166,7 +167,7 @@ void SceneCutter::copy_triangle(TextWriter& part) {
   line_is_pending_ = false;
   const std::string keyword(line_.word());
   part.append(keyword + "\n");
-  for (int count = keyword == "sphere" ? 1 : 3; count > 0; --count) {
+  for (int count = find_scene_command(keyword)->argument_lines; count > 0; --count) {
     next_argument_line(text_, line_, keyword);
     part.append(line_.rest());
     part.append("\n");

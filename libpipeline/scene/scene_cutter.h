@@ -10,6 +10,8 @@
 
 namespace pipeline {
 
+struct SceneCommand;
+
 /// Cuts a scene into parts that are scenes themselves and hold its triangles one after the other. ("Triangle"
 /// includes spheres here.) A part begins with camera and settings, goes on with the transforms, the color and
 /// the material in force, and then has commands of the scene as they stand there, without comments. The parts
@@ -44,7 +46,7 @@ class SceneCutter {
   void find_triangle(TextWriter* part);
   void carry_out(TextWriter* part);
   void pop(const LineScanner& at_pop);
-  void expect_allowed(const LineScanner& at_keyword) const;
+  const SceneCommand& expect_allowed(const LineScanner& at_keyword) const;
   void copy_triangle(TextWriter& part);
   void copy_buffered(TextWriter& part, std::size_t end);
   [[nodiscard]] std::size_t position() const { return text_.bytes_read() - text_.buffered().size(); }

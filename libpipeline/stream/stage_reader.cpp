@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libpipeline/scene/header_line.h"
+#include "libpipeline/scene/scene_commands.h"
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/number_parser.h"
 
@@ -17,13 +18,13 @@ constexpr std::array<std::string_view, 9> kKeywords = {
     "framed", "eye", "look", "up", "perspective", "frustum", "ortho", "projected", "bounds"};
 
 bool is_header_keyword(std::string_view word) {
-  return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end() ||
-         is_appearance_keyword(word);
+  return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end() || is_setting(word);
 }
 
 std::string keyword_hint(std::string_view word) {
   std::vector<std::string_view> known(kKeywords.begin(), kKeywords.end());
-  known.insert(known.end(), appearance_keywords().begin(), appearance_keywords().end());
+  const auto settings = scene_words(&SceneCommand::is_setting);
+  known.insert(known.end(), settings.begin(), settings.end());
   known.insert(known.end(), {"triangle", "sphere", "clipped"});
   return spelling_hint(word, known);
 }
@@ -72,7 +73,7 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
 bool StageReader::read_header_line(LineScanner& line) {
   const SourceLocation location = line.location();
   const std::string_view keyword = line.word();
-  if (is_appearance_keyword(keyword)) {
+  if (is_setting(keyword)) {
     read_appearance_part(keyword, location, line, AttributeSource::stage_text, header_.appearance);
     return true;
   }

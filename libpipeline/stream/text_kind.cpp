@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "libpipeline/scene/scene_commands.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/number_parser.h"
 
@@ -43,7 +44,9 @@ bool is_size(std::string_view word) {
 /// True for a line that only scenes have: a command, but not the `triangle N` of a stage text.
 bool is_command(const Words& line) {
   if (line.front() == "triangle") return line.size() != 2;
-  return is_one_of(line.front(), {"translate", "scale", "rotate", "push", "pop", "color"});
+  const SceneCommand* command = find_scene_command(line.front());
+  return command != nullptr && (command->kind == CommandKind::transform ||
+                                command->kind == CommandKind::stack || command->kind == CommandKind::color);
 }
 
 bool is_scene(const std::vector<Words>& lines) {
@@ -80,7 +83,7 @@ TextKind kind_by_header(const std::vector<Words>& lines) {
     if (is_position(keyword)) return TextKind::world;
     if (is_one_of(keyword, {"perspective", "frustum", "ortho"}))
       kind = TextKind::view;
-    else if (keyword != "framed" && !is_appearance_keyword(keyword))
+    else if (keyword != "framed" && !is_setting(keyword))
       break;
   }
   return kind;

@@ -13,12 +13,13 @@ const {build} = createRequire(path.resolve(npmFolder, "package.json"))("esbuild"
 const TITLE = "<title>Pipeline playground</title>";
 const read = (...parts) => fs.readFileSync(path.join(...parts), "utf8");
 const hashOf = script => `'sha256-${crypto.createHash("sha256").update(script).digest("base64")}'`;
+const sceneWords = [...read(root, "libpipeline/scene/scene_commands.h").matchAll(/^ *\{"(\w+)", CommandKind::/gm)].map(([, word]) => word);
 const packed = data => zlib.deflateSync(data, {level: 9}).toString("base64");
 
 async function bundled(entry, resources, format = "esm") {
   const {outputFiles} = await build({
     entryPoints: [path.join(here, entry)], bundle: true, minify: true, write: false, format, target: "es2022", legalComments: "none", charset: "utf8",
-    nodePaths: [path.resolve(npmFolder, "node_modules")], define: {PIPELINE_VERSION: JSON.stringify(version)},
+    nodePaths: [path.resolve(npmFolder, "node_modules")], define: {PIPELINE_VERSION: JSON.stringify(version), SCENE_WORDS: JSON.stringify(sceneWords)},
     external: ["module", "node:*"], logOverride: {"empty-import-meta": "silent"},
     alias: {resources: path.join(here, resources), "all-tools": path.resolve(toolsFolder, "all-tools.js"), mesh2scene: path.resolve(toolsFolder, "mesh2scene.js")},
   });

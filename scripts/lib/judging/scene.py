@@ -7,7 +7,7 @@ from lib.judging import model_habits
 from lib.judging.matrices import (
     image, negative, perspective_matrix, projection_matrix, scaling, slack, transposed, translation,
     view_matrix)
-from lib.maths.matrices import Projection
+from lib.maths.matrices import TRANSFORMS, Projection
 from lib.maths.vectors import cross, normalized
 from lib.text.scene import commands
 
@@ -33,7 +33,7 @@ class Scene:
         stack, turn = model_habits.Stack(habit.stack), habit.turn
         for command in self.commands:
             keyword = command.keyword
-            if keyword in ("translate", "scale", "rotate"):
+            if keyword in TRANSFORMS:
                 numbers = tuple(map(float, command.arguments[0]))
                 made = turn(numbers[0], numbers[1:]) if keyword == "rotate" else (
                     translation if keyword == "translate" else scaling)(numbers)

@@ -2,11 +2,11 @@
 named."""
 from lib.rim.command import shown
 from lib.text.plain_stage_text import KEYWORD, NO_KEYWORDS, real
+from lib.text.scene import SETTINGS
 
 WORDS = {
-    "eye", "look", "up", "perspective", "ortho", "frustum", "projected", "attributes", "background", "light",
-    "ambient", "material", "absorption", "paint", "attenuation", "framed", "end", "triangle", "clipped",
-    "error", "sphere"}
+    "eye", "look", "up", "perspective", "ortho", "frustum", "projected", "framed", "end", "triangle",
+    "clipped", "error", "sphere", *SETTINGS}
 LONGEST = 40  # characters of a line, as shown
 
 

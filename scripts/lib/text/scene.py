@@ -9,7 +9,12 @@ from lib.maths.matrices import IDENTITY, TRANSFORMS, product
 from lib.text.projection import with_keyword
 
 CAMERA_LINES = 4
-ARGUMENT_LINES = {"triangle": 3, "push": 0, "pop": 0, "end": 0}  # others have one
+SETTINGS = (
+    "attributes", "background", "light", "ambient", "material", "absorption", "paint", "attenuation")
+# The words of commands and their lines of arguments, as in libpipeline/scene/scene_commands.h.
+ARGUMENT_LINES = {
+    "triangle": 3, "push": 0, "pop": 0, "end": 0,
+    **dict.fromkeys(("sphere", *TRANSFORMS, "color", "use", *SETTINGS), 1)}
 
 
 @dataclasses.dataclass
@@ -60,7 +65,7 @@ def commands(text):
     for _ in range(CAMERA_LINES):
         next(filled)
     for number, (keyword, *rest) in filled:
-        count = ARGUMENT_LINES.get(keyword, 1)
+        count = ARGUMENT_LINES[keyword]
         arguments = [rest] if rest else []  # the first line of arguments may begin beside the keyword
         while len(arguments) < count:
             arguments.append(next(filled)[1])

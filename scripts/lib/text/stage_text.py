@@ -4,13 +4,14 @@ import io
 import itertools
 import re
 
+from lib.maths.matrices import TRANSFORMS
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import name_of
 from lib.text import plain_stage_text
 
 # Beginnings of lines of a scene, not of a stage text, in which the word triangle is followed by one number.
 SCENE_COMMAND = re.compile(
-    r"^[ \t]*(?:(?:translate|scale|rotate|push|pop)\b|triangle[ \t\r]*(?:#|$)|triangle[ \t]+[^\s#]+[ "
+    rf"^[ \t]*(?:(?:{'|'.join(TRANSFORMS)}|push|pop)\b|triangle[ \t\r]*(?:#|$)|triangle[ \t]+[^\s#]+[ "
     r"\t]+[^\s#])",
     re.M)
 NUMBER = re.compile(r"[-+]?\.?[0-9]")
