@@ -23,19 +23,20 @@ CertaintyReport::CertaintyReport(const StageReader& reader, const Viewport& scre
     : pixels_(certain_pixels(reader, screen)), row_(screen.drawn_rows().first) {}
 
 void CertaintyReport::add_row(std::span<const PixelTag> tags, const TriangleStore& store) {
-  std::uint64_t uncertain_count = 0;
-  const auto number_of = [&](PixelTag tag) { return store.shown_number(tag); };
-  pixels_.for_each_uncertain(row_, tags, number_of, [&](int column) {
-    ++uncertain_count;
-    if (uncertain_.size() < kMaxLines) uncertain_.emplace_back(row_, column);
-  });
-  uncertain_count_ += uncertain_count;
-  certain_count_ += tags.size() - uncertain_count;
+  const std::span<const PixelDepths> pixels = pixels_.row(row_);
+  PixelTag tag = tags[0];
+  std::int64_t number = store.shown_number(tag);
+  for (std::size_t column = 0; column < tags.size(); ++column) {
+    if (tags[column] != tag) number = store.shown_number(tag = tags[column]);
+    if (pixels[column].certainly_shows(number)) continue;
+    if (++uncertain_count_ <= kMaxLines) uncertain_.emplace_back(row_, static_cast<int>(column));
+  }
+  pixel_count_ += tags.size();
   ++row_;
 }
 
 void CertaintyReport::write(TextWriter& text) const {
-  text.append("certain " + std::to_string(certain_count_) + "\nuncertain " +
+  text.append("certain " + std::to_string(pixel_count_ - uncertain_count_) + "\nuncertain " +
               std::to_string(uncertain_count_) + "\n");
   for (const auto& [row, column] : uncertain_)
     text.append(std::to_string(row) + " " + std::to_string(column) + "\n");

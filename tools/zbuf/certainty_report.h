@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/picture/certain_pixels.h"
+#include "libpipeline/certainty/certain_pixels.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/text_writer.h"
 #include "tools/zbuf/triangle_store.h"
@@ -30,7 +30,7 @@ class CertaintyReport {
  private:
   CertainPixels pixels_;
   int row_;
-  std::uint64_t certain_count_ = 0, uncertain_count_ = 0;
+  std::uint64_t pixel_count_ = 0, uncertain_count_ = 0;
   std::vector<std::pair<int, int>> uncertain_;
 };
 
