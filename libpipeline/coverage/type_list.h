@@ -21,8 +21,13 @@ struct TypeChoiceOf;
 template <typename... Types>
 struct TypeChoiceOf<TypeList<Types...>> {
   using Choice = std::variant<TypeValue<Types>...>;
+  using Any = std::variant<Types...>;
 };
 template <typename List>
 using TypeChoice = typename TypeChoiceOf<List>::Choice;
+
+/// An object of one type of a TypeList.
+template <typename List>
+using AnyOf = typename TypeChoiceOf<List>::Any;
 
 }  // namespace pipeline

@@ -22,7 +22,7 @@ void write_depth_row(TextWriter& text, std::span<const double> depths, double re
     text.commit(end + 1);
   }
   if (!exact.empty()) depths = {};
-  constexpr std::size_t kAtOnce = 64;
+  constexpr std::size_t kAtOnce = 256;
   while (!depths.empty()) {
     const auto next = depths.first(std::min(kAtOnce, depths.size()));
     char* out = text.reserve(next.size() * (kMaxNumberLength + 1));

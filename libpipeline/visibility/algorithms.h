@@ -109,11 +109,11 @@ class ZBufferAlgorithm {
     SpanQueue queue_;
   };
 
-  /// Calls `visit(tag)`, which may change it, for every pixel of the rows in which something has been drawn.
-  /// No drawer may be in use.
+  /// Calls `visit(tags)`, which may change them, for every row in which something has been drawn. No drawer
+  /// may be in use.
   template <typename Visitor>
-  void for_each_drawn_tag(Visitor&& visit) {
-    buffer_.for_each_drawn_tag(visit);
+  void for_each_drawn_row(Visitor&& visit) {
+    buffer_.for_each_drawn_row(visit);
   }
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {

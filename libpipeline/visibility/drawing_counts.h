@@ -28,15 +28,13 @@ struct DrawingCounts {
 };
 
 /// Counts by drawing the triangles of a stream once more, pixel by pixel and in order, so that no count
-/// depends on the visibility algorithm, its kernels or its threads. A template of the coverage rule and the
-/// depth format in use; it keeps a depth and a number per pixel.
-template <typename Coverage, typename Depth>
+/// depends on the visibility algorithm, its kernels or its threads. Keeps a depth and a number per pixel.
 class DrawingCounter {
  public:
-  explicit DrawingCounter(const Viewport& screen, double epsilon = 0)
+  DrawingCounter(const PixelRules& rules, const Viewport& screen)
       : screen_(screen),
-        coverage_(screen),
-        test_(screen, epsilon),
+        coverage_(rules, screen),
+        test_(rules, screen),
         visible_(screen.drawn_rows(), screen.columns, test_.nothing()) {}
 
   void add(const TriangleBatch& p_ndc) {
@@ -63,13 +61,14 @@ class DrawingCounter {
   void add(const ExactTriangle& triangle) {
     FragmentDepths found;
     bool is_in_other_rows = false;
-    for_each_span(coverage_.rows(triangle), [&](const Span& span) {
+    const auto add_span = [&](const Span& span) {
       const RowRange& drawn = visible_.row_range();
       if (drawn.first <= span.row && span.row < drawn.end)
         add(span, found);
       else
         is_in_other_rows = true;
-    });
+    };
+    coverage_.visit([&](const auto& rule) { for_each_span(rule.rows(triangle), add_span); });
     const BoundingBox extent(triangle.p_ndc);
     counts_.extent.add(extent);
     ++counts_.triangles;
@@ -98,9 +97,9 @@ class DrawingCounter {
   }
 
   Viewport screen_;
-  Coverage coverage_;
-  FragmentTest<Depth> test_;
-  Raster<typename FragmentTest<Depth>::Seen> visible_;  // `triangle` counts those of the stream
+  AnyCoverage coverage_;
+  FragmentTest test_;
+  Raster<FragmentTest::Seen> visible_;  // `triangle` counts those of the stream
   DrawingCounts counts_;
 };
 

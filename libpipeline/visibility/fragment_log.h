@@ -8,31 +8,32 @@
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/fragment.h"
+#include "libpipeline/visibility/pixel_rules.h"
 #include "libpipeline/visibility/raster.h"
 
 namespace pipeline {
 
 /// The depth test of the visibility algorithms, one fragment at a time and with the reason for its result.
-/// `Depth` is a depth format.
-template <typename Depth>
 class FragmentTest {
  public:
   /// The fragment visible at a pixel so far.
   struct Seen {
-    typename Depth::Stored depth;
+    double depth;  // as the format stores it
     std::uint64_t triangle;
   };
 
-  /// Where a triangle is visible, a fragment wins only if it is nearer by more than `epsilon`, at least 0.
-  explicit FragmentTest(const Viewport& screen, double epsilon = 0)
-      : format_(screen), front_(screen.front), rear_(format_.store(screen.rear)), epsilon_(epsilon) {}
+  FragmentTest(const PixelRules& rules, const Viewport& screen)
+      : format_(rules, screen),
+        front_(screen.front),
+        rear_(format_.store(screen.rear)),
+        epsilon_(rules.depth_epsilon) {}
 
   /// A pixel that shows no triangle.
   [[nodiscard]] Seen nothing() const { return {rear_, 0}; }
 
   /// Tests the next triangle's fragment of depth z at a pixel and updates `seen`.
   Fragment judge(Seen& seen, const Pixel& pixel, std::uint64_t triangle, double z) const {
-    const typename Depth::Stored stored = format_.store(z);
+    const double stored = format_.store(z);
     if (z < front_) return {pixel, triangle, z, DepthTestResult::before_front, 0};
     if (!is_nearer(stored, rear_)) return {pixel, triangle, z, DepthTestResult::beyond_rear, 0};
     const double depth = format_.depth(stored);
@@ -46,47 +47,46 @@ class FragmentTest {
   }
 
  private:
-  Depth format_;
+  AnyDepth format_;
   double front_;
-  typename Depth::Stored rear_;
+  double rear_;
   double epsilon_;
 };
 
 /// Reports every fragment of the picture, or of one pixel, triangle by triangle in the order of the stream
-/// and each from the top left. A template of the coverage rule and the depth format in use; it keeps a depth
-/// and a number per pixel.
-template <typename Coverage, typename Depth>
+/// and each from the top left. Keeps a depth and a number per pixel.
 class FragmentLog {
  public:
-  explicit FragmentLog(const Viewport& screen, double epsilon = 0)
-      : FragmentLog(screen, screen.drawn_rows(), {0, screen.columns}, epsilon) {}
+  FragmentLog(const PixelRules& rules, const Viewport& screen)
+      : FragmentLog(rules, screen, screen.drawn_rows(), {0, screen.columns}) {}
   /// For one pixel of the screen.
-  FragmentLog(const Viewport& screen, const Pixel& pixel, double epsilon = 0)
-      : FragmentLog(screen, {pixel.row, pixel.row + 1}, {pixel.column, pixel.column + 1}, epsilon) {}
+  FragmentLog(const PixelRules& rules, const Viewport& screen, const Pixel& pixel)
+      : FragmentLog(rules, screen, {pixel.row, pixel.row + 1}, {pixel.column, pixel.column + 1}) {}
 
   /// Calls `visit(fragment)` for every one of these pixels that the next triangle covers.
   template <typename Visitor>
   void add(const ExactTriangle& p_ndc, std::uint64_t triangle, Visitor&& visit) {
-    for_each_span(coverage_.rows(p_ndc), seen_.row_range(), [&](const Span& span) {
+    const auto add_span = [&](const Span& span) {
       const auto row = seen_.row(span.row);
       const int end = std::min(span.last_column + 1, columns_.end);
       for (int column = std::max(span.first_column, columns_.first); column < end; ++column)
         visit(test_.judge(row[static_cast<std::size_t>(column - columns_.first)], {column, span.row},
                           triangle, span.depth(column)));
-    });
+    };
+    coverage_.visit([&](const auto& rule) { for_each_span(rule.rows(p_ndc), seen_.row_range(), add_span); });
   }
 
  private:
-  FragmentLog(const Viewport& screen, const RowRange& rows, const RowRange& columns, double epsilon)
-      : coverage_(screen),
-        test_(screen, epsilon),
+  FragmentLog(const PixelRules& rules, const Viewport& screen, const RowRange& rows, const RowRange& columns)
+      : coverage_(rules, screen),
+        test_(rules, screen),
         columns_(columns),
         seen_(rows, columns.end - columns.first, test_.nothing()) {}
 
-  Coverage coverage_;
-  FragmentTest<Depth> test_;
+  AnyCoverage coverage_;
+  FragmentTest test_;
   RowRange columns_;
-  Raster<typename FragmentTest<Depth>::Seen> seen_;
+  Raster<FragmentTest::Seen> seen_;
 };
 
 }  // namespace pipeline

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <optional>
 
@@ -30,16 +31,16 @@ class TriangleDrawing {
     if (pool.size() == 1) picture_.emplace(visible, screen.drawn_rows());
   }
 
-  /// Where to put the next batch.
-  [[nodiscard]] TriangleBatch& next_batch() { return next_.batch; }
-  /// Draws that batch, each triangle with the tag `tag_of(batch, index)`, which is called at once and in
-  /// order. The drawing itself may be deferred, but not beyond finish().
-  template <typename TagOf>
-  void draw_batch(TagOf&& tag_of) {
-    if (picture_ && has_small_triangles(next_.batch)) return draw_at_once(tag_of);
-    next_.tags.resize(next_.batch.size());
-    for (std::size_t i = 0; i < next_.batch.size(); ++i) next_.tags[i] = tag_of(next_.batch, i);
-    bands_.draw(next_);
+  /// Where to put the next batch, with a tag for each triangle.
+  [[nodiscard]] TaggedBatch& next() { return next_; }
+  /// Draws that batch now or later, at the latest in finish().
+  void draw_next() {
+    assert(next_.tags.size() == next_.batch.size());
+    if (!picture_ || !has_small_triangles(next_.batch)) return bands_.draw(next_);
+    bands_.finish();
+    for (std::size_t i = 0; i < next_.batch.size(); ++i)
+      picture_->draw(exact_triangle(next_.batch, i), next_.tags[i]);
+    picture_->finish();
   }
   /// Draws the batches still waiting.
   void finish() { bands_.finish(); }
@@ -56,14 +57,6 @@ class TriangleDrawing {
       height += std::max({p[0].y, p[1].y, p[2].y}) - std::min({p[0].y, p[1].y, p[2].y});
     }
     return width / grid_.dx + height / grid_.dy < kSmall * count;
-  }
-
-  template <typename TagOf>
-  void draw_at_once(TagOf& tag_of) {
-    bands_.finish();
-    for (std::size_t i = 0; i < next_.batch.size(); ++i)
-      picture_->draw(exact_triangle(next_.batch, i), tag_of(next_.batch, i));
-    picture_->finish();
   }
 
   PixelGrid grid_;

@@ -9,7 +9,7 @@
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/unseen_places.h"
-#include "libpipeline/visibility/depth_format.h"
+#include "libpipeline/visibility/pixel_rules.h"
 #include "libpipeline/visibility/tagged_batch.h"
 
 namespace pipeline {
@@ -31,12 +31,14 @@ UnseenPlace unseen_place(const Triangle& p_ndc, const BoundingBox& extent, const
 bool may_be_visible(const Triangle& p_ndc, const BoundingBox& extent, const Viewport& screen);
 
 /// Watches the triangles of a stream until the first that shows at a pixel; if none does, the picture is
-/// empty. A template of the coverage rule and the depth format in use.
-template <typename Coverage, typename Depth>
+/// empty.
 class EmptyPicture {
  public:
-  explicit EmptyPicture(const Viewport& screen)
-      : screen_(screen), coverage_(screen), format_(screen), rear_(format_.store(screen.rear)) {}
+  EmptyPicture(const PixelRules& rules, const Viewport& screen)
+      : screen_(screen),
+        coverage_(rules, screen),
+        format_(rules, screen),
+        rear_(format_.store(screen.rear)) {}
 
   /// Looks at the next triangles, unless one before them shows.
   void add(const TriangleBatch& p_ndc) {
@@ -60,9 +62,11 @@ class EmptyPicture {
   /// The depths of a triangle's fragments, as far as the first visible one.
   [[nodiscard]] FragmentDepths fragments(const ExactTriangle& triangle) const {
     FragmentDepths found;
-    const auto rows = coverage_.rows(triangle);
-    for (int row = rows.first_row(); row <= rows.last_row() && !found.visible; ++row)
-      if (const auto span = rows.span(row)) add(*span, found);
+    coverage_.visit([&](const auto& rule) {
+      const auto rows = rule.rows(triangle);
+      for (int row = rows.first_row(); row <= rows.last_row() && !found.visible; ++row)
+        if (const auto span = rows.span(row)) add(*span, found);
+    });
     return found;
   }
 
@@ -88,9 +92,9 @@ class EmptyPicture {
   }
 
   Viewport screen_;
-  Coverage coverage_;
-  Depth format_;
-  typename Depth::Stored rear_;
+  AnyCoverage coverage_;
+  AnyDepth format_;
+  double rear_;
   bool is_empty_ = true;
   UnseenPlaces triangles_;
 };

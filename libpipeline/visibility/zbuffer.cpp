@@ -15,10 +15,10 @@ PixelTag select(bool takes_a, PixelTag a, PixelTag b) {
   return (a & mask) | (b & ~mask);
 }
 
-/// Into a row whose first pixel is at `depths` and `tags`.
+/// Into a row whose first pixel is at `depths` and `tags`. Not inlined, so that its callers are.
 template <typename Depth>
-void draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, double front,
-                         typename Depth::Stored* depths, PixelTag* tags) {
+[[gnu::noinline]] void draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, double front,
+                                           typename Depth::Stored* depths, PixelTag* tags) {
   const SpanDepth depth = span.depth;
   const int last_column = span.last_column;
   for (int column = span.first_column; column <= last_column; ++column) {
@@ -26,9 +26,8 @@ void draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, do
     const typename Depth::Stored stored = format.store(z);
     if (!is_drawn(z, front)) continue;
     const typename Depth::Stored old = depths[column];
-    const bool is_won = is_nearer(stored, old);
-    depths[column] = is_won ? stored : old;
-    tags[column] = select(is_won, tag, tags[column]);
+    depths[column] = is_nearer(stored, old) ? stored : old;
+    tags[column] = select(is_nearer(stored, old), tag, tags[column]);
   }
 }
 
@@ -71,7 +70,7 @@ void ZBuffer<Depth>::draw(const Span& span, PixelTag tag, HierarchicalDepth<Dept
 template <typename Depth>
 void ZBuffer<Depth>::draw_in_filled_row(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest) {
   assert(span.first_column >= 0 && span.last_column < depths_.columns());
-  if (!is_drawn(span.depth(span.first_column), front_) || !is_drawn(span.depth(span.last_column), front_)) {
+  if (!(is_drawn(span.depth(span.first_column), front_) && is_drawn(span.depth(span.last_column), front_))) {
     const Span part = part_behind_front(span);
     if (part.first_column <= part.last_column) draw_in_filled_row(part, tag, farthest);
     return;

@@ -51,13 +51,11 @@ class ZBuffer {
     return {rows, depths_.columns()};
   }
 
-  /// Calls `visit(tag)`, which may change it, for every pixel of the rows in which something has been drawn.
+  /// Calls `visit(tags)`, which may change them, for every row in which something has been drawn.
   template <typename Visitor>
-  void for_each_drawn_tag(Visitor&& visit) {
-    for (int row = rows_.first; row < rows_.end; ++row) {
-      if (is_filled_[index_of(row)] == 0) continue;
-      for (PixelTag& tag : tags_.row(row)) visit(tag);
-    }
+  void for_each_drawn_row(Visitor&& visit) {
+    for (int row = rows_.first; row < rows_.end; ++row)
+      if (is_filled_[index_of(row)] != 0) visit(tags_.row(row));
   }
   /// Calls `visit(VisibleRow)` for every row that is drawn, from the top.
   template <typename Visitor>
@@ -71,8 +69,10 @@ class ZBuffer {
         visit(VisibleRow{no_depths, no_tags});
         continue;
       }
-      const auto is_seen = [&](Stored stored) { return stored < rear_; };
-      const auto depth = [&](Stored stored) { return is_seen(stored) ? format_.depth(stored) : rear_limit_; };
+      // Copies of members, which writing to `depths` cannot change: the compiler makes vectors of the loop.
+      const auto depth = [format = format_, rear = rear_, limit = rear_limit_](Stored stored) {
+        return stored < rear ? format.depth(stored) : limit;
+      };
       std::transform(depths_.row(row).begin(), depths_.row(row).end(), depths.begin(), depth);
       visit(VisibleRow{depths, tags_.row(row)});
     }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr Viewport kFewPixels = {4, 4, -1, -1, 0, 2};
 constexpr Pixel kPixel = {1, 2};
+constexpr PixelRules kByCenters = {TypeValue<CenterCoverage>(), {}, 0};
 
 /// A triangle of constant depth that covers the whole screen.
 Triangle wall(double z) {
@@ -21,7 +22,7 @@ Triangle wall(double z) {
 
 template <typename Depth = DepthF64>
 std::vector<Fragment> judged(const std::vector<double>& depths) {
-  const FragmentTest<Depth> test(kFewPixels);
+  const FragmentTest test({{}, TypeValue<Depth>(), 0}, kFewPixels);
   auto seen = test.nothing();
   std::vector<Fragment> fragments;
   for (const double z : depths) fragments.push_back(test.judge(seen, kPixel, 10 + fragments.size(), z));
@@ -60,7 +61,7 @@ TEST(FragmentTest, DepthsAFormatCannotTellApartAreEqual) {
 }
 
 TEST(FragmentTest, WithAnEpsilonAFragmentHasToBeNearerByMore) {
-  const FragmentTest<DepthF64> test(kFewPixels, 0.25);
+  const FragmentTest test({{}, {}, 0.25}, kFewPixels);
   auto seen = test.nothing();
   EXPECT_EQ(test.judge(seen, kPixel, 0, 1.875).result,
             DepthTestResult::kept);  // the rear limit is not a triangle
@@ -75,14 +76,14 @@ TEST(FragmentTest, InfiniteDepthsLieOutsideTheLimits) {
 }
 
 TEST(FragmentLog, TellsOfEveryPixelFromTheTopLeft) {
-  FragmentLog<CenterCoverage, DepthF64> log(Viewport{2, 2, -1, -1, 0, 2});
+  FragmentLog log(kByCenters, Viewport{2, 2, -1, -1, 0, 2});
   std::vector<Pixel> locations;
   log.add({wall(1)}, 0, [&](const Fragment& fragment) { locations.push_back(fragment.pixel); });
   EXPECT_EQ(locations, (std::vector<Pixel>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
 }
 
 TEST(FragmentLog, PixelsDoNotKnowOfEachOther) {
-  FragmentLog<CenterCoverage, DepthF64> log(Viewport{2, 1, -1, -1, 0, 2});
+  FragmentLog log(kByCenters, Viewport{2, 1, -1, -1, 0, 2});
   const Triangle on_the_left = {{{-9, -9, 0.5}, {0, -9, 0.5}, {0, 99, 0.5}}};
   std::vector<DepthTestResult> results;
   const auto visit = [&](const Fragment& fragment) { results.push_back(fragment.result); };
@@ -93,7 +94,7 @@ TEST(FragmentLog, PixelsDoNotKnowOfEachOther) {
 }
 
 TEST(FragmentLog, OfOnePixelTellsOfItAlone) {
-  FragmentLog<NearestCoverage, DepthF64> probe(kFewPixels, kPixel);
+  FragmentLog probe({}, kFewPixels, kPixel);
   std::vector<Fragment> fragments;
   const auto visit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
   const Triangle above = {{{-1, 1, 0.5}, {1, 1, 0.5}, {0, 0.5, 0.5}}};

@@ -66,10 +66,14 @@ void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const
   ThreadPool pool(thread_count);
   TriangleDrawing drawing(visible, screen, pool);
   for (std::size_t i = 0; i < scene.size();) {
-    TriangleBatch& batch = drawing.next_batch();
-    batch.clear();
-    for (; batch.size() < batch_size && i < scene.size(); ++i) batch.add(scene[i], i, {});
-    drawing.draw_batch([&](const TriangleBatch& of, std::size_t k) { return high_tag_of(of.numbers[k]); });
+    TaggedBatch& next = drawing.next();
+    next.batch.clear();
+    next.tags.clear();
+    for (; next.tags.size() < batch_size && i < scene.size(); ++i) {
+      next.batch.add(scene[i], i, {});
+      next.tags.push_back(high_tag_of(i));
+    }
+    drawing.draw_next();
   }
   drawing.finish();
 }
@@ -165,8 +169,9 @@ TEST(TriangleDrawing, MayBeGivenUpInTheMiddle) {
   ThreadPool pool(3);
   TriangleDrawing drawing(visible, kScreen, pool);
   for (int i = 0; i < 5; ++i) {
-    drawing.next_batch().add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
-    drawing.draw_batch([](const TriangleBatch&, std::size_t) { return PixelTag(); });
+    drawing.next().batch.add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
+    drawing.next().tags.resize(drawing.next().batch.size());
+    drawing.draw_next();
   }
 }
 

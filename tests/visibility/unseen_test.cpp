@@ -26,8 +26,8 @@ TriangleBatch batch_of(const std::vector<Triangle>& triangles) {
 }
 
 template <typename Coverage = NearestCoverage, typename Depth = DepthF64>
-EmptyPicture<Coverage, Depth> watched(const std::vector<Triangle>& triangles) {
-  EmptyPicture<Coverage, Depth> picture(kFourByFour);
+EmptyPicture watched(const std::vector<Triangle>& triangles) {
+  EmptyPicture picture({TypeValue<Coverage>(), TypeValue<Depth>(), 0}, kFourByFour);
   picture.add(batch_of(triangles));
   return picture;
 }

@@ -52,12 +52,12 @@ TEST(ZBuffer, ARowWithoutTrianglesIsBackgroundBesideOneWithATriangle) {
 TEST(ZBuffer, TagsChangeInTheRowsDrawnInto) {
   ZBuffer<> buffer(kSixByTwo, kGreen);
   buffer.draw(span_at(1, 0, 2, 0.5), kRed);
-  int visited = 0;
-  buffer.for_each_drawn_tag([&](PixelTag& tag) {
-    ++visited;
-    tag += 1;
+  std::size_t visited = 0;
+  buffer.for_each_drawn_row([&](std::span<PixelTag> tags) {
+    visited += tags.size();
+    for (PixelTag& tag : tags) tag += 1;
   });
-  EXPECT_EQ(visited, 6);
+  EXPECT_EQ(visited, 6u);
   EXPECT_EQ(tags_of(buffer, 0), std::vector<PixelTag>(6, kGreen));
   EXPECT_EQ(tags_of(buffer, 1),
             (std::vector<PixelTag>{kRed + 1, kRed + 1, kRed + 1, kGreen + 1, kGreen + 1, kGreen + 1}));

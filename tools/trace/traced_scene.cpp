@@ -36,8 +36,7 @@ TracedScene::TracedScene(Tool& tool, const TraceOptions& chosen, const Viewport&
       header_(projected_header(reader_.header(), given_, projection_)),
       exact_(projection_, tool.input().file(), header_.projected.has_value()),
       view_(exact_.stage(), ViewVolume(projection_), counts),
-      drawing_(drawing_report({.coverage = TypeValue<CenterCoverage>(), .depth = {}}, screen,
-                              chosen.sample_count, false)),
+      drawing_({.coverage = TypeValue<CenterCoverage>(), .depth = {}}, screen, chosen.sample_count, false),
       spheres_(projection_, screen) {
   view_.suspect_radians(given_);
 }
@@ -51,7 +50,7 @@ void TracedScene::read(bool keeps_dropped) {
     spheres_.add(p_view);
     triangles_.add(p_view, exact_, [&](const TriangleBatch& part, const TriangleBatch& p_ndc) {
       view_.add(part, p_ndc);
-      drawing_->add(p_ndc);
+      drawing_.add(p_ndc);
     });
     expect_room(triangles_);
   }

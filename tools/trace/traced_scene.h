@@ -35,7 +35,7 @@ class TracedScene {
   [[nodiscard]] const TracedTriangles& triangles() const { return triangles_; }
   [[nodiscard]] ExactProjection& exact() { return exact_; }
   [[nodiscard]] const ViewReport& view() const { return view_; }
-  [[nodiscard]] const DrawingReport& drawing() const { return *drawing_; }
+  [[nodiscard]] const DrawingReport& drawing() const { return drawing_; }
   [[nodiscard]] const UnseenSpheres& spheres() const { return spheres_.spheres(); }
 
  private:
@@ -47,7 +47,7 @@ class TracedScene {
   ExactProjection exact_;
   TracedTriangles triangles_;
   ViewReport view_;
-  std::unique_ptr<DrawingReport> drawing_;
+  DrawingReport drawing_;
   SphereReport spheres_;
 };
 

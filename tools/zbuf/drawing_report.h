@@ -1,13 +1,14 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/visibility/drawing_counts.h"
+#include "libpipeline/visibility/pixel_rules.h"
+#include "libpipeline/visibility/unseen.h"
 #include "tools/rim/statistics.h"
-#include "tools/zbuf/zbuf_options.h"
 
 namespace pipeline {
 
@@ -16,17 +17,20 @@ namespace pipeline {
 /// on the threads that draw.
 class DrawingReport {
  public:
-  virtual ~DrawingReport() = default;
-  /// Takes the next triangles.
-  virtual void add(const TriangleBatch& p_ndc) = 0;
-  /// Why no triangle shows; none if one does.
-  [[nodiscard]] virtual std::optional<std::string> empty_picture_note() const = 0;
-  /// Adds the counts and extents, if the report counts.
-  virtual void add_to(Statistics& statistics) const = 0;
-};
+  DrawingReport(const PixelRules& rules, const Viewport& screen, int sample_count, bool counts);
 
-/// The report for these rules; it counts if `counts` is true.
-std::unique_ptr<DrawingReport> drawing_report(const PixelRules& rules, const Viewport& screen,
-                                              int sample_count, bool counts);
+  /// Takes the next triangles.
+  void add(const TriangleBatch& p_ndc);
+  /// Why no triangle shows; none if one does.
+  [[nodiscard]] std::optional<std::string> empty_picture_note() const;
+  /// Adds the counts and extents, if the report counts.
+  void add_to(Statistics& statistics) const;
+
+ private:
+  Viewport screen_;
+  EmptyPicture at_centers_;
+  std::optional<EmptyPicture> at_samples_;
+  std::optional<DrawingCounter> counter_;
+};
 
 }  // namespace pipeline

@@ -1,14 +1,10 @@
 #include "tools/zbuf/fragment_report.h"
 
 #include <cstdio>
-#include <optional>
 #include <string_view>
 
-#include "libpipeline/coverage/rules.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
-#include "libpipeline/visibility/depth_format.h"
-#include "libpipeline/visibility/fragment_log.h"
 #include "libpipeline/visibility/tagged_batch.h"
 
 namespace pipeline {
@@ -32,50 +28,6 @@ Pixel parsed_pixel(const std::string& word, const Viewport& screen) {
                                       pipeline::quoted(word)));
 }
 
-template <typename CoverageRule, typename Depth>
-class FragmentReportOf final : public FragmentReport {
- public:
-  FragmentReportOf(const std::vector<Pixel>& probed, const Viewport& screen, double epsilon, TextWriter* log)
-      : log_(log) {
-    for (const Pixel& pixel : probed) probes_.emplace_back(screen, pixel, epsilon);
-    if (log != nullptr) all_.emplace(screen, epsilon);
-  }
-
-  void add(const TriangleBatch& p_ndc, std::size_t index) override {
-    const ExactTriangle triangle = exact_triangle(p_ndc, index);
-    const std::uint64_t number = p_ndc.numbers[index];
-    for (Probe& probe : probes_)
-      probe.test.add(triangle, number, [&](const Fragment& fragment) { probe.found.push_back(fragment); });
-    if (all_)
-      all_->add(triangle, number, [&](const Fragment& fragment) { log_->append(to_text(fragment) + "\n"); });
-  }
-
-  void finish() const override {
-    for (const Probe& probe : probes_) say(probe);
-  }
-
- private:
-  struct Probe {
-    Probe(const Viewport& screen, const Pixel& location, double epsilon)
-        : pixel(location), test(screen, location, epsilon) {}
-
-    Pixel pixel;
-    FragmentLog<CoverageRule, Depth> test;
-    std::vector<Fragment> found;
-  };
-
-  static void say(const Probe& probe) {
-    for (const Fragment& fragment : probe.found)
-      std::fprintf(stderr, "zbuf: %s\n", to_text(fragment).c_str());
-    if (probe.found.empty())
-      std::fprintf(stderr, "zbuf: %d,%d: no fragment\n", probe.pixel.column, probe.pixel.row);
-  }
-
-  std::vector<Probe> probes_;
-  std::optional<FragmentLog<CoverageRule, Depth>> all_;
-  TextWriter* log_;  // null without `all_`
-};
-
 }  // namespace
 
 std::vector<Pixel> probed_pixels(const PictureOptions& chosen, const Viewport& screen) {
@@ -84,11 +36,27 @@ std::vector<Pixel> probed_pixels(const PictureOptions& chosen, const Viewport& s
   return pixels;
 }
 
-std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen,
-                                                TextWriter* log) {
-  if (chosen.probes.empty() && log == nullptr) return nullptr;
-  return made_for<FragmentReport, FragmentReportOf>(chosen.rules, probed_pixels(chosen, screen), screen,
-                                                    chosen.rules.depth_epsilon, log);
+FragmentReport::FragmentReport(const ZbufOptions& chosen, const Viewport& screen, TextWriter* log)
+    : log_(log) {
+  for (const Pixel& pixel : probed_pixels(chosen, screen))
+    probes_.push_back({pixel, FragmentLog(chosen.rules, screen, pixel), {}});
+  if (log != nullptr) all_.emplace(chosen.rules, screen);
+}
+
+void FragmentReport::add(const TriangleBatch& p_ndc, std::size_t index) {
+  const ExactTriangle triangle = exact_triangle(p_ndc, index);
+  const std::uint64_t number = p_ndc.numbers[index];
+  for (Probe& probe : probes_)
+    probe.test.add(triangle, number, [&](const Fragment& fragment) { probe.found.push_back(fragment); });
+  if (all_)
+    all_->add(triangle, number, [&](const Fragment& fragment) { log_->append(to_text(fragment) + "\n"); });
+}
+
+void FragmentReport::finish() const {
+  for (const auto& [pixel, test, found] : probes_) {
+    for (const Fragment& fragment : found) std::fprintf(stderr, "zbuf: %s\n", to_text(fragment).c_str());
+    if (found.empty()) std::fprintf(stderr, "zbuf: %d,%d: no fragment\n", pixel.column, pixel.row);
+  }
 }
 
 }  // namespace pipeline

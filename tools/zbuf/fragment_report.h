@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/text_writer.h"
 #include "libpipeline/visibility/fragment.h"
+#include "libpipeline/visibility/fragment_log.h"
 #include "tools/zbuf/zbuf_options.h"
 
 namespace pipeline {
@@ -19,16 +20,27 @@ std::vector<Pixel> probed_pixels(const PictureOptions& chosen, const Viewport& s
 /// the report does not depend on the threads that draw them.
 class FragmentReport {
  public:
-  virtual ~FragmentReport() = default;
-  /// Takes the next triangle.
-  virtual void add(const TriangleBatch& p_ndc, std::size_t index) = 0;
-  /// Prints the fragments of the probes on stderr.
-  virtual void finish() const = 0;
-};
+  /// Reports on the chosen probes and, unless it is null, to `log` on the whole picture. A UsageError if a
+  /// probe is not on the screen.
+  FragmentReport(const ZbufOptions& chosen, const Viewport& screen, TextWriter* log);
 
-/// The report on the chosen probes and, unless it is null, to `log` on the whole picture; null if neither is
-/// requested. A UsageError if a probe is not on the screen.
-std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen,
-                                                TextWriter* log);
+  /// True if anything is requested.
+  [[nodiscard]] bool is_wanted() const { return !probes_.empty() || all_; }
+  /// Takes the next triangle.
+  void add(const TriangleBatch& p_ndc, std::size_t index);
+  /// Prints the fragments of the probes on stderr.
+  void finish() const;
+
+ private:
+  struct Probe {
+    Pixel pixel;
+    FragmentLog test;
+    std::vector<Fragment> found;
+  };
+
+  std::vector<Probe> probes_;
+  std::optional<FragmentLog> all_;
+  TextWriter* log_;  // null without `all_`
+};
 
 }  // namespace pipeline

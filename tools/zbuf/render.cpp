@@ -4,15 +4,21 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "libpipeline/coverage/exact_depth.h"
 #include "libpipeline/coverage/rules.h"
+#include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/read_ahead.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/text_kind.h"
+#include "libpipeline/stream/thread_pool.h"
+#include "libpipeline/visibility/fragment_log.h"
 #include "tools/rim/empty_picture_note.h"
 #include "tools/rim/progress.h"
 #include "tools/zbuf/all_edges.h"
@@ -35,124 +41,118 @@ std::size_t pixel_count(const Viewport& screen) {
   return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.drawn_row_count());
 }
 
-/// Who takes every batch before it is drawn.
+/// Whatever receives every batch before it is drawn.
 struct Reports {
-  std::unique_ptr<DrawingReport> drawing;
-  std::optional<CertaintyReport> certainty;  // as far as it is requested
+  Reports(const ZbufOptions& chosen, const Viewport& screen, bool counts, TextWriter* fragment_log)
+      : drawing(chosen.rules, screen, chosen.sample_count, counts), fragments(chosen, screen, fragment_log) {}
+
+  DrawingReport drawing;
+  FragmentReport fragments;
+  std::unique_ptr<CertaintyReport> certainty;  // null unless it is requested
 
   void add(const TriangleBatch& p_ndc) {
-    drawing->add(p_ndc);
+    drawing.add(p_ndc);
     if (certainty) certainty->add(p_ndc);
   }
 };
 
-/// Reads the triangles into `batch()`, batch by batch, hands each to the reports and calls `draw()`.
-template <typename Source, typename Batch, typename Draw>
-void for_each_batch(Tool& tool, Source& source, const Appearance& appearance, Reports& reports, Batch&& batch,
-                    Draw&& draw) {
-  Progress progress("zbuf");
+/// Whether each triangle of a stream is nearer than all before it at any pixel or sample. Under a depth
+/// epsilon any other may be left out of the text that `--seen` writes: a fragment that is drawn over one of
+/// depth c is nearer than c by more than epsilon, and none before it is.
+class NearestSoFar {
+ public:
+  NearestSoFar(PixelRules rules, const Viewport& of_centers, int sample_count) {
+    rules.depth_epsilon = 0;
+    logs_.emplace_back(rules, of_centers);
+    if (sample_count > 1) logs_.emplace_back(rules, sample_screen(of_centers, sample_count));
+  }
+
+  bool operator()(const ExactTriangle& p_ndc) {
+    bool is_nearest = false;
+    for (FragmentLog& log : logs_)
+      log.add(p_ndc, 0, [&](const Fragment& f) { is_nearest |= f.result == DepthTestResult::kept; });
+    return is_nearest;
+  }
+
+ private:
+  std::vector<FragmentLog> logs_;
+};
+
+/// Reads the triangles batch by batch, hands each to the reports, and draws it.
+void draw_all(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, StageReader& reader,
+              ThreadPool& pool, Reports& reports, TriangleStore& store, SampledDrawing& drawing) {
+  const Appearance& appearance = reader.header().appearance;
   const bool is_painted = appearance.is_painted();
-  while (source.read(batch())) {
-    if (is_painted) add_material_colors(appearance, batch());
-    tool.timing().triangle_count += batch().size();
+  Progress progress("zbuf");
+  if (store.keeps_text() && chosen.rules.depth_epsilon > 0)
+    store.keep_where(NearestSoFar(chosen.rules, screen, chosen.sample_count));
+  ReadAhead ahead(reader, pool);  // its end cancels what the pool has not drawn yet
+  while (ahead.read(drawing.next().batch)) {
+    auto& [batch, tags] = drawing.next();
+    if (is_painted) add_material_colors(appearance, batch);
+    tool.timing().triangle_count += batch.size();
     tool.timing().lap(&Timing::read_seconds);
-    reports.add(batch());
-    draw();
+    reports.add(batch);
+    store.set_tags(batch, tags);
+    drawing.draw_next();
+    if (chosen.algorithm != Algorithm::scanline && store.is_full()) {
+      drawing.finish();
+      store.keep_seen(drawing);
+    }
     tool.timing().lap(&Timing::work_seconds);
     progress.show(tool.timing().triangle_count);
   }
-}
-
-// Not inlined: in a function of their own, the compiler inlines more of what the loops call.
-template <typename CoverageRule, typename Depth>
-[[gnu::noinline]] void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader,
-                                TriangleStore& store, Reports& reports,
-                                SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
-  visible.set_depth_epsilon(chosen.rules.depth_epsilon);
-  ThreadPool pool(chosen.threads_for(pixel_count(visible.screen)));
-  SampledDrawing drawing(visible, store, pool);
-  if (store.keeps_text() && chosen.rules.depth_epsilon > 0)
-    store.keep_where(NearestSoFar<CoverageRule, Depth>(visible));
-  const auto draw = [&] {
-    drawing.draw_batch();
-    if (!store.is_full()) return;
-    drawing.finish();
-    store.keep_seen([&](const auto& visit) {
-      visible.centers.for_each_drawn_tag(visit);
-      if (visible.samples) visible.samples->for_each_drawn_tag(visit);
-    });
-  };
-  ReadAhead ahead(reader, pool);
-  for_each_batch(
-      tool, ahead, reader.header().appearance, reports,
-      [&]() -> TriangleBatch& { return drawing.next_batch(); }, draw);
   drawing.finish();
 }
 
-template <typename CoverageRule, typename Depth>
-[[gnu::noinline]] void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore& store,
-                                Reports& reports,
-                                SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
-  TriangleBatch p_ndc;
-  const auto draw = [&] {
-    for (std::size_t i = 0; i < p_ndc.size(); ++i) {
-      const PixelTag tag = store.tag_of(p_ndc, i);
-      visible.centers.draw(exact_triangle(p_ndc, i), tag);
-      if (visible.samples) visible.samples->draw(exact_triangle(p_ndc, i), tag);
-    }
-  };
-  for_each_batch(
-      tool, reader, reader.header().appearance, reports, [&]() -> TriangleBatch& { return p_ndc; }, draw);
-}
-
 /// The depths of a row exactly; meaningless where no triangle is seen.
-template <typename Coverage>
-void set_exact_depths(const Coverage& rule, const TriangleStore& store, int row,
+void set_exact_depths(const AnyCoverage& coverage, const TriangleStore& store, int row,
                       std::span<const PixelTag> ids, std::vector<Ball>& depths) {
   depths.resize(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (ids[i] == KeptIds::kNoTriangle) continue;
     const auto& [p, low_parts, marks] = store.corners(ids[i]);
     const bool is_flat = p[0].z == p[1].z && p[0].z == p[2].z;
-    depths[i] = is_flat ? Ball(p[0].z) : exact_depth(rule, {p, &low_parts, marks}, row, static_cast<int>(i));
+    depths[i] =
+        is_flat ? Ball(p[0].z) : coverage.visit([&, &p = p, &low = low_parts, m = marks](const auto& rule) {
+          return exact_depth(rule, {p, &low, m}, row, static_cast<int>(i));
+        });
   }
 }
 
-template <VisibilityAlgorithm Visible>
-[[gnu::noinline]] void write_all(PictureOutputs& outputs, const ZbufOptions& chosen,
-                                 const SampledVisible<Visible>& visible, const StageReader& reader,
-                                 TriangleStore& store, std::optional<SurfaceShader>& shader, AllEdges* edges,
-                                 std::optional<CertaintyReport>& certainty) {
-  const Viewport& screen = visible.center_screen;
+void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewport& screen,
+               const SampledDrawing& drawing, const StageReader& reader, TriangleStore& store,
+               std::optional<SurfaceShader>& shader, AllEdges* edges, CertaintyReport* certainty) {
   // To light a sample by one light takes as long as to draw four.
   const std::size_t cost = shader ? 1 + 4 * shader->setup().lighting.lights.size() : 0;
   outputs.open(screen, chosen.sample_count, store.background_color());
   TextWriter* const seen_text = outputs.open_text(chosen.seen_path);
   TextWriter* const certainty_text = outputs.open_text(chosen.certainty_path);
+  const Viewport of_samples = sample_screen(screen, chosen.sample_count);
   ColoredRows colors(store, shader, edges, chosen.sample_count * screen.drawn_rows().first,
-                     chosen.threads_for(cost * pixel_count(visible.screen)), outputs);
+                     chosen.threads_for(cost * pixel_count(of_samples)), outputs);
   std::vector<std::int64_t> numbers;
   KeptIds seen(store.id_count());
   const auto mark = [&](std::span<const PixelTag> tags) {
     if (seen_text != nullptr) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
   };
   std::uint64_t covered_count = 0;
-  const typename Visible::CoverageRule rule(screen);
+  const AnyCoverage coverage(chosen.rules, screen);
   int number = screen.drawn_rows().first;
   std::vector<Ball> exact;
-  visible.centers.for_each_row([&](const VisibleRow& row) {
+  drawing.centers().for_each_row([&](const VisibleRow& row) {
     mark(row.tags);
-    if (store.keeps_corners()) set_exact_depths(rule, store, number++, row.tags, exact);
+    if (store.keeps_corners()) set_exact_depths(coverage, store, number++, row.tags, exact);
     outputs.write_depths(row.depths, exact);
     if (outputs.wants_triangles()) outputs.write_triangles(store.numbers_of(row.tags, numbers));
     if (certainty) certainty->add_row(row.tags, store);
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
-    if (!visible.samples && outputs.wants_colors()) colors.add(row.tags);
+    if (drawing.samples() == nullptr && outputs.wants_colors()) colors.add(row.tags);
   });
-  if (visible.samples) {
-    visible.samples->for_each_row([&](const VisibleRow& row) {
+  if (drawing.samples() != nullptr) {
+    drawing.samples()->for_each_row([&](const VisibleRow& row) {
       mark(row.tags);
       if (outputs.wants_colors()) colors.add(row.tags);
     });
@@ -202,43 +202,37 @@ TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, 
           .edges = edges};
 }
 
-template <VisibilityAlgorithm Visible>
-void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
+}  // namespace
+
+void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
   PictureOutputs outputs(tool, chosen, statistics);
-  StageReader reader = opened(tool, chosen, Visible::CoverageRule::kUsesDecimals);
+  const bool uses_decimals =
+      std::visit([]<typename Rule>(TypeValue<Rule>) { return Rule::kUsesDecimals; }, chosen.rules.coverage);
+  StageReader reader = opened(tool, chosen, uses_decimals);
   const Viewport of_samples = sample_screen(screen, chosen.sample_count);
   SurfaceOptions surfaces = surface_options(chosen);
   if (chosen.wireframe) surfaces.wireframe = {screen.dx(), screen.dy()};
   std::optional<SurfaceShader> shader;
   if (chosen.has_image()) shader = surface_shader(reader.header(), reader.header_end(), of_samples, surfaces);
   tool.timing().lap(&Timing::read_seconds);
-  const auto fragments = fragment_report(chosen, screen, outputs.open_fragments(chosen.fragments_path));
-  Reports reports = {drawing_report(chosen.rules, screen, chosen.sample_count, statistics.is_wanted()), {}};
-  if (!chosen.certainty_path.empty()) reports.certainty.emplace(reader, screen);
-  const std::unique_ptr<AllEdges> edges = all_edges(chosen, of_samples);
-  TriangleStore store(kept(chosen, reader, of_samples, edges.get()), shader, fragments.get());
-  SampledVisible<Visible> visible(screen, chosen.sample_count, store.background());
+  Reports reports(chosen, screen, statistics.is_wanted(), outputs.open_fragments(chosen.fragments_path));
+  if (!chosen.certainty_path.empty()) reports.certainty = std::make_unique<CertaintyReport>(reader, screen);
+  std::optional<AllEdges> all_edges;
+  if (chosen.has_all_edges && chosen.has_image()) all_edges.emplace(chosen.rules, of_samples);
+  AllEdges* const edges = all_edges ? &*all_edges : nullptr;
+  TriangleStore store(kept(chosen, reader, of_samples, edges), shader,
+                      reports.fragments.is_wanted() ? &reports.fragments : nullptr);
+  const bool is_one_by_one = chosen.algorithm == Algorithm::scanline;
+  ThreadPool pool(is_one_by_one ? 1 : chosen.threads_for(pixel_count(of_samples)));
+  SampledDrawing drawing(chosen, screen, store.background(), pool);
   tool.timing().lap(&Timing::work_seconds);
-  draw_all(tool, chosen, reader, store, reports, visible);
-  if (fragments) fragments->finish();
-  reports.drawing->add_to(statistics);
+  draw_all(tool, chosen, screen, reader, pool, reports, store, drawing);
+  reports.fragments.finish();
+  reports.drawing.add_to(statistics);
   outputs.close_reports();
   tool.timing().lap(&Timing::work_seconds);
-  write_all(outputs, chosen, visible, reader, store, shader, edges.get(), reports.certainty);
-  if (chosen.has_image()) note_odd_picture(tool, *reports.drawing, screen, shader, reader.header());
-}
-
-}  // namespace
-
-void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
-  dispatch(chosen.rules, [&]<typename Rule, typename Depth>() {
-    switch (chosen.algorithm) {
-      case Algorithm::zbuffer:
-        return render_with<ZBufferAlgorithm<Rule, Depth>>(tool, chosen, screen, statistics);
-      case Algorithm::scanline:
-        return render_with<ScanlineAlgorithm<Rule, Depth>>(tool, chosen, screen, statistics);
-    }
-  });
+  write_all(outputs, chosen, screen, drawing, reader, store, shader, edges, reports.certainty.get());
+  if (chosen.has_image()) note_odd_picture(tool, reports.drawing, screen, shader, reader.header());
 }
 
 }  // namespace pipeline

@@ -1,6 +1,7 @@
 #include "tools/zbuf/triangle_store.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace pipeline {
 namespace {
@@ -45,7 +46,8 @@ std::span<const std::int64_t> TriangleStore::numbers_of(std::span<const PixelTag
 }
 
 void TriangleStore::add_text(const TriangleBatch& p_ndc, std::size_t index) {
-  texts_.push_back(std::string(p_ndc.texts[index]));
+  texts_.append(p_ndc.texts[index]);
+  text_ends_.push_back(texts_.size());
   if (is_needed_) are_needed_.push_back(is_needed_(exact_triangle(p_ndc, index)) ? 1 : 0);
 }
 
@@ -53,9 +55,9 @@ void TriangleStore::add_text(const TriangleBatch& p_ndc, std::size_t index) {
 /// one number: a wireframe asks a piece's neighbors which of its edges are cuts. With `may_go_on`, more
 /// pieces of the last triangle may follow, so it is kept.
 void TriangleStore::complete(KeptIds& kept, bool may_go_on) const {
-  for (std::size_t begin = 0, end = 0; begin < texts_.size(); begin = end) {
-    for (end = begin + 1; end < texts_.size() && numbers_[end] == numbers_[begin];) ++end;
-    bool is_any_kept = may_go_on && end == texts_.size();
+  for (std::size_t begin = 0, end = 0; begin < text_ends_.size(); begin = end) {
+    for (end = begin + 1; end < text_ends_.size() && numbers_[end] == numbers_[begin];) ++end;
+    bool is_any_kept = may_go_on && end == text_ends_.size();
     for (std::size_t i = begin; i < end; ++i)
       is_any_kept |= kept.is_kept(static_cast<KeptIds::Id>(i)) || (is_needed_ && are_needed_[i] != 0);
     for (std::size_t i = begin; is_any_kept && i < end; ++i) kept.keep(static_cast<KeptIds::Id>(i));
@@ -66,13 +68,26 @@ void TriangleStore::write_seen(TextWriter& text, const StageReader& reader, Kept
   text.append(reader.header_text());
   complete(seen, false);
   std::uint64_t next_number = 0;
-  for (std::size_t i = 0; i < texts_.size(); ++i) {
+  for (std::size_t i = 0; i < text_ends_.size(); ++i) {
     if (!seen.is_kept(static_cast<KeptIds::Id>(i))) continue;
     if (numbers_[i] != next_number) text.append("triangle " + std::to_string(numbers_[i]) + "\n");
-    text.append(texts_[i]);
+    text.append(this->text(i));
     next_number = numbers_[i] + 1;
   }
   if (reader.header().framed) text.append("end\n");
+}
+
+void TriangleStore::keep_texts(const KeptIds& kept) {
+  std::size_t length = 0, count = 0;
+  for (std::size_t id = 0; id < text_ends_.size(); ++id) {
+    if (!kept.is_kept(static_cast<KeptIds::Id>(id))) continue;
+    const std::string_view moved = text(id);
+    std::memmove(texts_.data() + length, moved.data(), moved.size());
+    length += moved.size();
+    text_ends_[count++] = length;
+  }
+  texts_.resize(length);
+  text_ends_.resize(count);
 }
 
 /// Keeps the last triangle, too: the next may be another piece of it.
@@ -83,7 +98,7 @@ void TriangleStore::let_go(KeptIds& kept) {
   capacity_ = std::max(2 * count, min_capacity_);
   next_id_ = static_cast<KeptIds::Id>(count);
   if (shader_) shader_->keep(kept);
-  texts_.keep(kept);
+  keep_texts(kept);
   are_needed_.keep(kept);
   if (keeps_numbers()) numbers_.keep(kept);
   if (keeps_corners()) corners_.keep(kept);

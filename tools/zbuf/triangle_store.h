@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "libpipeline/visibility/tagged_batch.h"
 #include "tools/zbuf/all_edges.h"
 #include "tools/zbuf/fragment_report.h"
+#include "tools/zbuf/sampled_drawing.h"
 
 namespace pipeline {
 
@@ -55,22 +58,13 @@ class TriangleStore {
   [[nodiscard]] Color background_color() const { return setup_.background; }
   /// From now on keeps the texts of triangles for which `is_needed` is true, seen or not.
   void keep_where(std::function<bool(const ExactTriangle&)> is_needed) { is_needed_ = std::move(is_needed); }
-  /// The tag of the next triangle.
-  PixelTag tag_of(const TriangleBatch& p_ndc, std::size_t index) {
-    if (tags_are_colors_) return colors_.of(p_ndc.numbers[index]).rgb();
-    if (report_ != nullptr) report_->add(p_ndc, index);
-    if (keeps_numbers()) numbers_.push_back(p_ndc.numbers[index]);
-    if (keeps_text()) add_text(p_ndc, index);
-    if (keeps_corners()) {
-      const auto [corners, low_parts, marks] = exact_triangle(p_ndc, index);
-      corners_.push_back({corners, low_parts == nullptr ? Triangle() : *low_parts, marks});
-    }
-    if (has_ids() && !shader_) return next_id_++;
-    const Color color = colors_.of(p_ndc.numbers[index]);
-    if (!shader_) return color.rgb();
-    shader_->add(p_ndc, index, color);
-    if (setup_.edges != nullptr) setup_.edges->add(p_ndc, index, next_id_, *shader_->setup().wireframe);
-    return next_id_++;
+  /// The tags of the next triangles.
+  void set_tags(const TriangleBatch& p_ndc, std::vector<PixelTag>& tags) {
+    tags.resize(p_ndc.size());
+    if (tags_are_colors_)
+      for (std::size_t i = 0; i < tags.size(); ++i) tags[i] = colors_.of(p_ndc.numbers[i]).rgb();
+    else
+      for (std::size_t i = 0; i < tags.size(); ++i) tags[i] = tag_of(p_ndc, i);
   }
   /// The colors of pixels with these tags, unless there is a shader.
   void color(std::span<const PixelTag> tags, std::span<Color> colors);
@@ -94,13 +88,11 @@ class TriangleStore {
 
   /// True if it is time to let go of triangles.
   [[nodiscard]] bool is_full() const { return has_ids() && next_id_ >= capacity_; }
-  /// Lets go of the triangles that no pixel shows. `for_each_drawn_tag(visit)` calls visit(tag), which
-  /// changes it, for every pixel of the rows drawn into; all triangles so far are drawn.
-  template <typename ForEachDrawnTag>
-  void keep_seen(const ForEachDrawnTag& for_each_drawn_tag) {
+  /// Lets go of the triangles that no pixel of the drawing shows, in which all triangles so far are drawn.
+  void keep_seen(SampledDrawing& drawing) {
     KeptIds kept(id_count());
     const auto for_each_tag = [&](const auto& visit) {
-      for_each_drawn_tag(visit);
+      drawing.for_each_drawn_row([&](std::span<PixelTag> tags) { std::ranges::for_each(tags, visit); });
       if (setup_.edges != nullptr) setup_.edges->for_each_id(visit);
     };
     for_each_tag([&](PixelTag& tag) { kept.keep(tag); });
@@ -109,6 +101,21 @@ class TriangleStore {
   }
 
  private:
+  PixelTag tag_of(const TriangleBatch& p_ndc, std::size_t index) {
+    if (report_ != nullptr) report_->add(p_ndc, index);
+    if (keeps_numbers()) numbers_.push_back(p_ndc.numbers[index]);
+    if (keeps_text()) add_text(p_ndc, index);
+    if (keeps_corners()) {
+      const auto [corners, low_parts, marks] = exact_triangle(p_ndc, index);
+      corners_.push_back({corners, low_parts == nullptr ? Triangle() : *low_parts, marks});
+    }
+    if (has_ids() && !shader_) return next_id_++;
+    const Color color = colors_.of(p_ndc.numbers[index]);
+    if (!shader_) return color.rgb();
+    shader_->add(p_ndc, index, color);
+    if (setup_.edges != nullptr) setup_.edges->add(p_ndc, index, next_id_, *shader_->setup().wireframe);
+    return next_id_++;
+  }
   [[nodiscard]] bool has_ids() const { return shader_ || keeps_numbers() || keeps_corners(); }
   /// Shaders keep colors, which are by the numbers.
   [[nodiscard]] bool keeps_numbers() const {
@@ -116,11 +123,17 @@ class TriangleStore {
   }
   void add_text(const TriangleBatch& p_ndc, std::size_t index);
   void complete(KeptIds& kept, bool may_go_on) const;
+  [[nodiscard]] std::string_view text(std::size_t id) const {
+    const std::size_t begin = id == 0 ? 0 : text_ends_[id - 1];
+    return std::string_view(texts_).substr(begin, text_ends_[id] - begin);
+  }
+  void keep_texts(const KeptIds& kept);
   void let_go(KeptIds& kept);
 
   Setup setup_;
   std::optional<SurfaceShader>& shader_;
-  ChunkedArray<std::string> texts_;
+  std::string texts_;  // one after the other
+  std::vector<std::size_t> text_ends_;
   std::function<bool(const ExactTriangle&)> is_needed_;
   ChunkedArray<std::uint8_t> are_needed_;  // of texts, 0 or 1; empty without is_needed_
   ChunkedArray<std::uint64_t> numbers_;

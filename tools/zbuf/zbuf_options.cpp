@@ -130,13 +130,14 @@ Viewport ZbufOptions::drawn_part(Viewport screen) const {
 }
 
 void ZbufOptions::check_limits(const Viewport& screen) const {
-  dispatch(rules, [&]<typename Rule, typename Depth>() {
+  const auto check = [&]<typename Depth>(TypeValue<Depth>) {
     const std::string_view needed = Depth::needed_limits(screen);
     if (needed.empty()) return;
     throw UsageError("--depth " + std::string(Depth::kName) + ": " +
                      expected_but_found("limits of Z " + std::string(needed),
                                         shortest_text(screen.front) + " and " + shortest_text(screen.rear)));
-  });
+  };
+  std::visit(check, rules.depth);
 }
 
 std::vector<NamedFile> ZbufOptions::outputs(const Statistics& statistics) const {

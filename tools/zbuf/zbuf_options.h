@@ -1,27 +1,14 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "libpipeline/coverage/rules.h"
-#include "libpipeline/coverage/type_list.h"
 #include "libpipeline/scene/viewport.h"
-#include "libpipeline/visibility/depth_format.h"
+#include "libpipeline/visibility/drawing.h"
 #include "tools/zbuf/picture_options.h"
 
 namespace pipeline {
-
-enum class Algorithm { zbuffer, scanline };
-
-/// Which pixels a triangle covers, and which of its depths are kept.
-struct PixelRules {
-  TypeChoice<CoverageRules> coverage;
-  TypeChoice<DepthFormats> depth;
-  double depth_epsilon = 0;
-};
 
 /// The options of `zbuf`, as members with their defaults.
 struct ZbufOptions : PictureOptions {
@@ -50,29 +37,5 @@ struct ZbufOptions : PictureOptions {
  private:
   void add_pixels(CommandLine& options);
 };
-
-/// Calls visit<Rule, Depth>() for the coverage rule and the depth format chosen.
-template <typename Visitor>
-decltype(auto) dispatch(const PixelRules& chosen, Visitor&& visit) {
-  return std::visit(
-      [&]<typename Rule, typename Depth>(TypeValue<Rule>, TypeValue<Depth>) -> decltype(auto) {
-        return visit.template operator()<Rule, Depth>();
-      },
-      chosen.coverage, chosen.depth);
-}
-
-template <typename Interface, template <typename, typename> typename Of, typename Rule, typename Depth,
-          typename... Arguments>
-std::unique_ptr<Interface> made(const Arguments&... arguments) {
-  return std::make_unique<Of<Rule, Depth>>(arguments...);
-}
-/// The Of<Rule, Depth> for the coverage rule and the depth format chosen: made in a function of its own, as
-/// clang 14 loses members of a class that is first named in a visitor.
-template <typename Interface, template <typename, typename> typename Of, typename... Arguments>
-std::unique_ptr<Interface> made_for(const PixelRules& chosen, const Arguments&... arguments) {
-  return dispatch(chosen, [&]<typename Rule, typename Depth>() {
-    return made<Interface, Of, Rule, Depth>(arguments...);
-  });
-}
 
 }  // namespace pipeline

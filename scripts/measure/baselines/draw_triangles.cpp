@@ -39,9 +39,11 @@ double seconds_for(std::vector<TriangleBatch> batches, const pipeline::Viewport&
   pipeline::ThreadPool pool(thread_count);
   pipeline::TriangleDrawing<Visible> drawing(visible, screen, pool);
   for (TriangleBatch& batch : batches) {
-    std::swap(drawing.next_batch(), batch);
-    drawing.draw_batch(
-        [&](const TriangleBatch& of, std::size_t i) { return colors.of(of.numbers[i]).rgb(); });
+    pipeline::TaggedBatch& next = drawing.next();
+    std::swap(next.batch, batch);
+    next.tags.clear();
+    for (const std::uint64_t number : next.batch.numbers) next.tags.push_back(colors.of(number).rgb());
+    drawing.draw_next();
   }
   drawing.finish();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

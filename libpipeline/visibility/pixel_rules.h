@@ -1,0 +1,62 @@
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+#include "libpipeline/coverage/rules.h"
+#include "libpipeline/coverage/type_list.h"
+#include "libpipeline/scene/viewport.h"
+#include "libpipeline/visibility/depth_format.h"
+
+namespace pipeline {
+
+/// Which pixels a triangle covers, how its depths are stored, and which of them are kept.
+struct PixelRules {
+  TypeChoice<CoverageRules> coverage;
+  TypeChoice<DepthFormats> depth;
+  /// Where a triangle is visible, a fragment wins only if it is nearer by more than this, at least 0.
+  double depth_epsilon = 0;
+};
+
+/// A coverage rule that is chosen at run time, for code that is not worth compiling for each.
+class AnyCoverage {
+ public:
+  AnyCoverage(const PixelRules& chosen, const Viewport& screen)
+      : rule_(std::visit([&]<typename Rule>(TypeValue<Rule>) -> AnyOf<CoverageRules> { return Rule(screen); },
+                         chosen.coverage)) {}
+
+  /// Calls visit(rule) with the rule in use.
+  template <typename Visitor>
+  decltype(auto) visit(Visitor&& visitor) const {
+    return std::visit(visitor, rule_);
+  }
+
+ private:
+  AnyOf<CoverageRules> rule_;
+};
+
+/// A depth format that is chosen at run time, likewise. Stored depths are doubles, which hold those of every
+/// format.
+class AnyDepth {
+ public:
+  AnyDepth(const PixelRules& chosen, const Viewport& screen)
+      : format_(
+            std::visit([&]<typename Depth>(TypeValue<Depth>) -> AnyOf<DepthFormats> { return Depth(screen); },
+                       chosen.depth)) {}
+
+  [[nodiscard]] double store(double z) const {
+    return std::visit([z](const auto& format) { return static_cast<double>(format.store(z)); }, format_);
+  }
+  [[nodiscard]] double depth(double stored) const {
+    return std::visit(
+        [stored]<typename Depth>(const Depth& format) {
+          return static_cast<double>(format.depth(static_cast<typename Depth::Stored>(stored)));
+        },
+        format_);
+  }
+
+ private:
+  AnyOf<DepthFormats> format_;
+};
+
+}  // namespace pipeline
