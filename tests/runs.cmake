@@ -18,6 +18,6 @@ function(set_runs)
 endfunction()
 
 # Empty while CMake configures.
-foreach(room IN ITEMS text numbers scene stream vertex coverage visibility picture raytracing)
+foreach(room IN ITEMS text numbers scene stream vertex coverage visibility certainty picture raytracing)
   set_runs(${${room}_tests_TESTS})
 endforeach()

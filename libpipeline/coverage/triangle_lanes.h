@@ -7,7 +7,11 @@
 
 #include "libpipeline/coverage/kernel.h"
 // With AVX-512, masks would be converted to vectors and back all the time, which takes up to a tenth longer.
+#ifdef PIPELINE_ALL_KERNELS
 #define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4 | HWY_AVX2)
+#else
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_AVX2)
+#endif
 #include "libpipeline/numbers/lanes.h"
 
 PIPELINE_BEGIN_KERNELS();

@@ -6,10 +6,15 @@
 
 #ifndef PIPELINE_VECTOR_TARGETS
 #define PIPELINE_VECTOR_TARGETS
-// The targets of kernel_choice.h, each of them always compiled, because the tests compare them. A source may
-// define fewer.
+// Targets of kernel_choice.h: all of them in packages, and where the tests compare them. A source may define
+// fewer.
+#ifdef PIPELINE_ALL_KERNELS
+#define PIPELINE_MORE_TARGETS (HWY_SSE4 | HWY_AVX3)
+#else
+#define PIPELINE_MORE_TARGETS 0
+#endif
 #ifndef PIPELINE_TARGETS
-#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4 | HWY_AVX2 | HWY_AVX3)
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_AVX2 | PIPELINE_MORE_TARGETS)
 #endif
 #define HWY_DISABLED_TARGETS (~PIPELINE_TARGETS)
 #define HWY_COMPILE_ALL_ATTAINABLE

@@ -10,7 +10,7 @@ cd /build
 configure() {
   arch=$1
   shift
-  cmake -S /src -B "$arch" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPIPELINE_TESTS=OFF -DPIPELINE_STATIC_TOOLS=ON -DPIPELINE_STATIC_TOOLS_RUN=ON \
+  cmake -S /src -B "$arch" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPIPELINE_TESTS=OFF -DPIPELINE_ALL_KERNELS=ON -DPIPELINE_STATIC_TOOLS=ON -DPIPELINE_STATIC_TOOLS_RUN=ON \
     -Dassimp_DIR="$(dirname "$(find "/usr/local/assimp-$arch" -name assimpConfig.cmake)")" \
     -DPIPELINE_STATIC_PNG="/usr/lib/$arch-linux-gnu/libpng.a" -DPIPELINE_STATIC_ZLIB="/usr/lib/$arch-linux-gnu/libz.a" "$@"
 }

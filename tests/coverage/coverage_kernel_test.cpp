@@ -198,6 +198,16 @@ TEST_P(CoverageKernelTest, TheSmallestTrianglesOwnACenterAtTheirTopLeftCornerAlo
   EXPECT_EQ(spans[1].tag, 4u);
 }
 
+// In every room, the same targets are left out.
+TEST(Kernels, AreCompiledForEveryProcessor) {
+  const auto is_family = [](std::string_view target) { return target == "avx2"; };
+  const auto avx2 = static_cast<std::size_t>(std::ranges::find_if(kTargets, is_family) - kTargets.begin());
+  if (nearest_kernels()[avx2] == nullptr) GTEST_SKIP() << "not a processor with several kinds of vectors";
+  if (nearest_kernels()[avx2 - 1] == nullptr)
+    GTEST_SKIP() << "the kernels for sse4 and avx512 are left out (PIPELINE_ALL_KERNELS)";
+  for (std::size_t target = avx2 - 1; target <= avx2; ++target) EXPECT_NE(center_kernels()[target], nullptr);
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, CoverageKernelTest, testing::ValuesIn(testable_targets(nearest_kernels())),
                          name_of_target);
 

@@ -41,6 +41,12 @@ def processor_flags():
     return next((set(line.split(":", 1)[1].split()) for line in lines if line.startswith("flags")), set())
 
 
+def lacks_kernels(tools):
+    """Whether the build left out the kernels of some processors."""
+    cache = tools.parent / "CMakeCache.txt"
+    return cache.exists() and "PIPELINE_ALL_KERNELS:BOOL=ON" not in cache.read_text()
+
+
 def no_count_at_all():
     """The reason why nothing can be counted here, or None."""
     if platform.machine() != "x86_64":
@@ -183,6 +189,8 @@ def hold(tools, path, accept=False, rows=ROWS):
                 comparison.skip(row, "mesh2scene is not built, as assimp is missing")
             elif lacking := sorted(FLAGS[row.kernel] - flags):
                 comparison.skip(row, f"this processor has no {', '.join(lacking)}")
+            elif row.kernel == "sse4" and lacks_kernels(tools):
+                comparison.skip(row, "this build has no kernels for it (PIPELINE_ALL_KERNELS)")
             else:
                 comparison.compare(row, compilers[row.tool], folder)
     if accept and comparison.counted:
