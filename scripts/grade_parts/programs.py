@@ -74,8 +74,8 @@ def expect_protection(hidden):
     what is not held without a sandbox."""
     box = protection(["true"], (), hidden)
     if box.user is not None:
-        print(f"no sandbox ({box.reason}): each program runs as a user of its own, with network and sockets",
-              flush=True)
+        print(f"no sandbox ({box.reason}): each program runs as a user of its own, with network, abstract "
+              "sockets and System V segments, which are removed after its run", flush=True)
         if tempfile.tempdir:  # the command's own folder, in which they are to work
             os.chmod(tempfile.tempdir, 0o711)
 

@@ -325,7 +325,8 @@ class Judges(KitTest):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             first, second, header, *left = done.stdout.splitlines()
             for line in (first, second):
-                self.assertRegex(line, r"no sandbox \(.*\): each program runs as a user of its own, with net")
+                self.assertRegex(line, r"^no sandbox \(.*\): each program runs as a user of its own, with "
+                                 "network, abstract sockets and System V segments, which are removed after ")
             self.assertEqual(left, [])
             for name, expected in (("right", 1.0), (hostile, 0.0)):
                 result = json.loads((top / f"{name}.out/results.json").read_text())
