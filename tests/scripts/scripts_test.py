@@ -67,7 +67,6 @@ class Writing(ToolTest):
         "lib/running/pipe_tools.py": "in the temporary folder of trade, and the null device",
         "lib/running/pipe.py": "in its temporary folder",
         "fly_parts/pipe.py": "in its temporary folder",
-        "lib/judging/reference.py": "in the temporary folder",
         "lib/judging/program.py": "in the temporary folder of check-stage and grade",
         "grade_parts/kit_classroom50.py": "a result that was handed in, by the name of its own",
         "grade_parts/programs.py": "in the temporary folder of grade",

@@ -40,15 +40,13 @@ class Borders:
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = corners
         area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
         box = [(min(values), max(values)) for values in zip(*corners)]
-        longest = max(
-            math.hypot(qx - px, qy - py)
-            for (px, py, _), (qx, qy, _) in zip(corners, corners[1:] + corners[:1]))
-        if not self.triangles.has_area(t) or abs(area) < REACH * longest:
+        sides = [(px, py, qx - px, qy - py, math.hypot(qx - px, qy - py))
+                 for (px, py, _), (qx, qy, _) in zip(corners, corners[1:] + corners[:1])]
+        if not self.triangles.has_area(t) or abs(area) < REACH * max(side[-1] for side in sides):
             return None, None, box
         sign, edges = math.copysign(1.0, area), []
-        for (px, py, _), (qx, qy, _) in zip(corners, corners[1:] + corners[:1]):
-            length = math.hypot(qx - px, qy - py)
-            a, b = -sign * (qy - py) / length, sign * (qx - px) / length
+        for px, py, dx, dy, length in sides:
+            a, b = -sign * dy / length, sign * dx / length
             edges.append((a, b, -(a * px + b * py)))
         per_column = ((bz - az) * (cy - ay) - (cz - az) * (by - ay)) / area
         per_row = ((cz - az) * (bx - ax) - (bz - az) * (cx - ax)) / area
@@ -61,14 +59,14 @@ class Borders:
         if not (left - REACH <= column <= right + REACH and top - REACH <= row <= bottom + REACH):
             return None
         if edges is None:
-            return (t, nearest - tolerance,
-                    farthest + tolerance), False  # thinner than a pixel: open where it is drawn
+            # Thinner than a pixel: open where it is drawn.
+            return (t, nearest - tolerance, farthest + tolerance), False
         inside = min(a * column + b * row + c for a, b, c in edges)
         if inside < -REACH:
             return None
         per_column, per_row, at_0 = depth
-        z, slack = per_column * column + per_row * row + at_0, (abs(per_column) +
-                                                                abs(per_row)) * REACH + tolerance
+        z = per_column * column + per_row * row + at_0
+        slack = (abs(per_column) + abs(per_row)) * REACH + tolerance
         low, high = z - slack, z + slack
         return (t, low, high), inside >= REACH and low >= self.front and high < self.rear
 

@@ -1,7 +1,6 @@
 """What our own tools make of a scene and a config, once for all hand-ins that are judged by them."""
 import functools
 import math
-import os
 import re
 
 from lib.judging.hand_in import KINDS
@@ -121,11 +120,8 @@ class Reference:
         try:
             with self.tools.file(self.config) as config, self.tools.file(b"") as image:
                 self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image",
-                               image + ".ppm", *opaque_background(stage3), stdin=stage3)
-                try:
-                    return read_picture(image + ".ppm")[2]
-                finally:
-                    os.unlink(image + ".ppm")
+                               f"ppm:{image}", *opaque_background(stage3), stdin=stage3)
+                return read_picture(image)[2]
         except ToolFailure:
             return None
 

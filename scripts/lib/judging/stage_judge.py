@@ -1,5 +1,6 @@
 """Stages 1 to 3 of a hand-in: right, or with the mistake that reproduces their numbers."""
 import dataclasses
+import itertools
 import math
 
 from lib.judging import matching
@@ -116,25 +117,27 @@ def count_verdict(ways, name, theirs, expected, digits):
     count = len(theirs) // 3
     verdict = FileVerdict(ways.stage, name, WRONG,
                           remarks=[f"{count} triangle{'' if count == 1 else 's'} in place of {len(ours[0])}"])
-    written, lines = triangles_of(theirs.points), theirs.lines[::3]
-
-    def is_same(triangle, right):
-        return not differs(triangle, digits, right)
-
+    written, lines, is_same = triangles_of(theirs.points), theirs.lines[::3], same_to(digits)
     texts = (matching.missing(written, triangles, is_same, ways.scene_lines) if count < len(triangles)
              else matching.added(written, triangles, is_same, lines) for triangles in ours)
-    verdict.causes = [Cause("", text) for text in [next(filter(None, texts), "")] if text]
+    verdict.causes = first_cause(texts)
     return verdict
+
+
+def same_to(digits):
+    return lambda triangle, right: not differs(triangle, digits, right)
+
+
+def first_cause(texts):
+    """The Cause with the first text that is not empty; a list of at most one."""
+    return [Cause("", text) for text in itertools.islice(filter(None, texts), 1)]
 
 
 def causes_of_order(theirs, expected, digits):
     """The cause if a text has the right triangles in another order; a list of at most one."""
-    def is_same(triangle, right):
-        return not differs(triangle, digits, right)
-
-    texts = (matching.reordered(triangles_of(theirs.points), triangles_of(points), is_same)
-             for points in expected)
-    return [Cause("", text) for text in [next(filter(None, texts), "")] if text]
+    written = triangles_of(theirs.points)
+    return first_cause(
+        matching.reordered(written, triangles_of(points), same_to(digits)) for points in expected)
 
 
 def triangles_of(points):
