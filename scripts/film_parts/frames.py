@@ -24,8 +24,8 @@ TRACED = "stage trace config.txt --expect-framed $projection"
 DRAW = r'''draw() {
   picture=$1 camera=$2 projection=$3; shift 3
   [ ! -e "$picture" ] || return 0
-  if { stage view $camera world.txt | DRAWING --z-buffer none "$@" --image "$picture"; } 2> "$picture.log"
-  then done=yes; else done=no failed=yes; fi
+  { stage view $camera world.txt | DRAWING --z-buffer none "$@" --image "$picture"; } 2> "$picture.log" ||
+    failed=yes
   sed "s|^|${picture%.png} ($camera): |" "$picture.log" >&2
   rm -f "$picture.log"
 }'''

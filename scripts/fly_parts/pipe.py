@@ -82,13 +82,10 @@ class FramePipe:
         self.config = pathlib.Path(self.folder.name, "config.txt")
         self.config_text = self.frame_image = self.found_ball = None
         self.stages = {name: Stage() for name in self.names}
-        # The output does not depend on threads.
-        self.threads = {"zbuf": ["--threads", "2"]
-                        } if not is_traced and tools.has_option("zbuf", "--threads") else {}
         self.run([("model", ["--framed", str(scene)])], None)
-        self.light = self.first_light()
-        self.opaque = opaque_background(
-            self.stages["model"].output.read())  # the window has nothing behind it
+        self.light = self.header("light")  # the first one
+        # The window has nothing behind it.
+        self.opaque = opaque_background(self.stages["model"].output.read())
         keyword, *words = line_of(self.header)
         self.projection = {keyword: words}
 
@@ -97,8 +94,8 @@ class FramePipe:
 
     def run(self, calls, source):
         """Runs the stages, pairs of a name and its words, as a pipe. The first reads `source`."""
-        # Two stages already share the processors.
-        threads = self.threads if len(calls) == 1 else {}
+        # Two stages already share the processors. The output does not depend on threads.
+        threads = {"zbuf": ["--threads", "2"]} if len(calls) == 1 else {}
         copies, last = [], MemoryFile()
 
         def tee(output):
@@ -132,9 +129,6 @@ class FramePipe:
             self.found_ball = (Ball.around(self.stages["model"].output.read()),)
         return self.found_ball[0]
 
-    def first_light(self):
-        return self.header("light")
-
     def put_light(self, words):
         """Moves the first light without running stage 1 again."""
         old = self.stages["model"]
@@ -160,9 +154,9 @@ class FramePipe:
         source = self.stages["model"].output
         for stage in self.stages.values():
             stage.seconds = None
-        while calls and self.stages[calls[0]
-                                    [0]].words == calls[0][1] and self.stages[calls[0][0]].source is source:
-            source = self.stages[calls.pop(0)[0]].output
+        while calls and (stage := self.stages[calls[0][0]]).words == calls[0][1] and stage.source is source:
+            source = stage.output
+            calls.pop(0)
         if calls:
             self.run(calls, source)
             self.frame_image = self.image.read_bytes()

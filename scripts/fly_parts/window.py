@@ -112,7 +112,6 @@ class FlyWindow:
             line.split("#")[0].split() for line in config.split("\n") if line.split("#")[0].strip()]
         self.whole = tuple(map(int, size))
         self.least_width = least_width
-        self.has_wireframe = not self.is_traced and tools.has_option("zbuf", "--wireframe")
         self.settings = self.start = Settings(
             Camera.of(*(self.pipe.header(name) for name in ("eye", "look", "up"))))
         self.start_light = self.pipe.light
@@ -244,9 +243,7 @@ class FlyWindow:
         if name == "b":
             return dataclasses.replace(now, culls=not now.culls)
         if name == "f":
-            if self.has_wireframe:
-                return dataclasses.replace(now, wireframe=not now.wireframe)
-            self.say("this zbuf has no --wireframe")
+            return dataclasses.replace(now, wireframe=not now.wireframe)
         return None
 
     def move_light(self, steps):

@@ -82,8 +82,7 @@ class Pipe:
         self.of_project, self.of_camera = of_project, of_camera
         self.folder = pathlib.Path(folder)
         self.texts = {}  # by Setting.of_texts: (the path of project's text, bytes in the pipes, notes)
-        self.opaque = [
-        ]  # what zbuf needs to write a BMP in spite of a background with an alpha; of the first text()
+        self.opaque = []  # words for zbuf to write a BMP of a background with an alpha; of the first text()
 
     def words(self, tool, setting):
         """The options of a tool."""

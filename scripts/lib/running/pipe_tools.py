@@ -23,7 +23,6 @@ class ToolKilled(CommandFailure):
     """A signal ended a tool. No ToolFailure, since it tells nothing of the input."""
 
 
-
 def default_folder():
     """Where an installed command, or one called through `pipeline`, has the tools beside it; else
     build/release/bin of this source tree."""
@@ -41,8 +40,8 @@ def without_inner_location(note, folder):
                                          note[found.end():]) if found else note
 
 
-TRANSPARENT = re.compile(rb"^(background (\S+) (\S+) (\S+)) \S+$",
-                         re.M)  # the header line of a background with an alpha
+# The header line of a background with an alpha.
+TRANSPARENT = re.compile(rb"^(background (\S+) (\S+) (\S+)) \S+$", re.M)
 OPAQUE_NOTE = "the scene's background is drawn opaque: a BMP has no alpha"
 
 
@@ -50,9 +49,8 @@ def opaque_background(text):
     """Words for zbuf that show the background of a tool's stage text in full, if it has an alpha, which only
     PNG holds."""
     found = TRANSPARENT.search(text[:1 << 16].split(b"\n\n")[0])
-    return [
-        "--background", "".join(
-            f"{math.floor(float(channel) + 0.5):02x}" for channel in found.groups()[1:])] if found else []
+    channels = map(float, found.groups()[1:]) if found else ()
+    return ["--background", "".join(f"{math.floor(x + 0.5):02x}" for x in channels)] if found else []
 
 
 def with_opaque_background(text):
@@ -167,9 +165,8 @@ class Tools:
     def write(self, path, tool, *words):
         """Runs a tool with its stdout in a file; its notes."""
         with open(path, "wb") as file:
-            done = subprocess.run(self.command(tool, words), stdin=subprocess.DEVNULL, stdout=file,
-                                  stderr=subprocess.PIPE)
-        return checked(done, tool).stderr.decode(errors="replace").splitlines()
+            [done] = self.pipe([tool, *words], stdout=file)
+        return done.notes
 
     @staticmethod
     @contextlib.contextmanager
@@ -179,7 +176,3 @@ class Tools:
             file.write(data)
             file.flush()
             yield file.name
-
-    def has_option(self, tool, option):
-        """Whether the tool's --help lists the option."""
-        return re.search(rf"(?<![\w-]){option}(?![\w-])", self.output(tool, "--help").decode()) is not None
