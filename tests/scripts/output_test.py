@@ -19,7 +19,7 @@ import time
 import unittest
 
 from devices import IS_ROOT, full_device, null_device
-from toolbox import BIN, SCENE, SOURCE, ToolTest, end_by_signal, expect_mesh2scene, heed_signals
+from toolbox import BIN, SCENE, SOURCE, ToolTest, end_by_signal, heed_signals
 
 SCRIPTS = SOURCE / "scripts"
 PLAIN = {"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
@@ -549,6 +549,8 @@ class Endings(ToolTest):
         ("trade", "scene.txt config.txt", "model", []),
         ("explain", "scene.txt config.txt --triangle 0", "view", []),
         ("compare", "--hand-in five scene.txt config.txt", "model", []),
+        ("picture", "scene.txt config.txt -o x.png", "project", []),
+        ("picture", "scene.txt config.txt -o x.png --stages kept", "project", []),
     )
 
     def test_all_ends(self):
@@ -562,17 +564,6 @@ class Endings(ToolTest):
                 continue
             with self.subTest(command, words=words, number=number.name):
                 self.end_one(command, words.split(), tool, stays, number)
-
-    def test_a_pipe_of_tools_ends(self):
-        expect_mesh2scene()
-        model = script("make-model", "vase", "--format", "stl", "--detail", "1").stdout
-        pathlib.Path("a.stl").write_bytes(model)
-        os.mkdir("tmp")
-        for words, number in (
-            (["a.stl", "-o", "x.png"], signal.SIGTERM),
-            (["a.stl", "-o", "x.png", "--stages", "kept"], signal.SIGHUP),
-        ):
-            self.end_one("picture", words, "project", [], number)
 
     def end_one(self, command, words, tool, stays, number):
         slow = pathlib.Path("slow").absolute()
