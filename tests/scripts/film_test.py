@@ -192,30 +192,6 @@ class Interruptions(FilmTest):
         self.make("--turn", "12", "-o", "whole")
         self.assertEqual(frames("out"), frames("whole"))
 
-    def test_a_job_that_is_killed_is_made_up_for(self):
-        """The second zbuf kills the job that it is part of: kill -9, as a machine out of memory does."""
-        real = pathlib.Path("bin").absolute()
-        real.mkdir()
-        for tool in ("model", "view", "project"):
-            os.symlink(BIN / tool, real / tool)
-        (real / "zbuf").write_text(
-            f"#!/bin/sh\nif [ -e started ] && [ ! -e killed ]; then touch killed; kill -9 $PPID; exit 1; fi\n"
-            f"touch started\nexec {BIN}/zbuf \"$@\"\n")
-        (real / "zbuf").chmod(0o755)
-        words = [
-            FILM, "scene.txt", "config.txt", "--turn", "1", "--fps", "20", "-o", "out", "--", "--jobs", "1"]
-        done = subprocess.run(words, env={**ENVIRONMENT, "BIN": str(real)}, capture_output=True, text=True,
-                              timeout=240)
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertRegex(done.stderr,
-                         r"film: \d+ of 20 frames have not been drawn, the first is 00001.png \(--eye ")
-        before = frames("out")
-        self.assertTrue(0 < len(before) < 20)
-        self.make("--turn", "1", "--fps", "20", "-o", "out")
-        self.make("--turn", "1", "--fps", "20", "-o", "whole")
-        self.assertEqual(len(frames("out")), 20)
-        self.assertEqual(frames("out"), frames("whole"))
-
     def test_frames_of_another_scene_or_way_are_drawn_anew(self):
         self.make("--turn", "1", "--fps", "4", "-o", "out")
         first = frames("out")
