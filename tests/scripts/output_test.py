@@ -572,7 +572,7 @@ class Endings(ToolTest):
             (slow / path.name).symlink_to(path)
         (slow / tool).unlink()
         (slow / tool).write_text(
-            f'#!/bin/sh\ncase "$*" in *--help* | *--seen*/dev/null*) exec {BIN}/{tool} "$@" ;; esac\n'
+            f'#!/bin/sh\ncase "$*" in *--help* | */dev/null*) exec {BIN}/{tool} "$@" ;; esac\n'
             f"echo $$ >> {slow}/started\nexec sleep 1000\n"
         )
         (slow / tool).chmod(0o755)
