@@ -24,6 +24,8 @@ from certain_test import BIN, FIRST, SCENES, SOURCE
 from lib.maths import exact
 from lib.maths.balls import Ball, Undecided
 from lib.showing.pictures import picture_of, read_picture
+
+sys.path.append(str(SOURCE / "scripts/measure"))
 from parts.extremes_scenes import SIZE, Case, scene_text
 from parts.extremes_truth import true_owners, true_vertices
 from picture_parts.certain import DIGITS, MOST_LISTED
@@ -244,7 +246,7 @@ class CertainPictures(unittest.TestCase):
         pathlib.Path("scene.txt").write_text(scene_text(Case("angle", 1e-9)))
         done = self.picture("scene.txt", "--size", f"{SIZE}x{SIZE}", "--certain", "-o", "out.ppm")
         self.assertEqual(done.stdout, "9,216 of 9,216 pixels are what exact arithmetic shows\n")
-        self.assertRegex(done.stderr, "picture: note: no more digits than 12: view: <stdin>:96:1: expected a "
+        self.assertRegex(done.stderr, "picture: note: no more digits than 12: view: <stdin>:97:1: expected a "
                          "vertex within bounds, found numbers that cancel beyond 31 digits, or overflow\n$")
 
     def test_all_formats_have_the_same_pixels(self):

@@ -230,7 +230,7 @@ class Ci(Tree):
         done = self.ci("--matrix")
         self.assert_ends(done, 1, "failed: gcc, release: all tests: A.B",
                          "skipped: gcc, release: all tests: C.D: no moon",
-                         "failed: gcc, ASan and UBSan: all tests: Overflows.Here",
+                         "failed: gcc, ASan and UBSan: modules: Overflows.Here",
                          "failed: clang, ASan and UBSan: modules: Ends.Early",
                          "skipped: clang, ASan and UBSan: modules: A.B: no moon tonight",
                          done.stdout.splitlines()[-1])
@@ -250,7 +250,7 @@ class Ci(Tree):
         self.put("bin/cmake", "#!/bin/sh\ncase $* in *asan*) echo no compiler; exit 1 ;; esac\n")
         done = self.ci()
         self.assert_ends(done, 1, "failed: gcc, release: all tests", "failed: gcc, release: instructions",
-                         "failed: gcc, ASan and UBSan: all tests", done.stdout.splitlines()[-1])
+                         "failed: gcc, ASan and UBSan: modules", done.stdout.splitlines()[-1])
         self.assertIn("no compiler\n", done.stdout)
 
 
