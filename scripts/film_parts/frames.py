@@ -7,6 +7,7 @@ import subprocess
 
 from film_parts.scene import number
 from lib.rim.command import CommandFailure, shown
+from lib.rim.input_file import read_input
 from lib.rim.output_file import OutputFile
 from lib.rim.parallel import Job, run_parallel
 from lib.rim.work_folder import WorkFolder
@@ -14,6 +15,7 @@ from lib.running.pipe_tools import STAGE_IN_SHELL
 
 FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999
+GIF_FPS = 100  # a GIF's times are in hundredths of a second; of equal ones, ffmpeg tells as of an error
 TEXTS = ("world.txt", "config.txt", "frames.txt", "draw.sh")
 # What draws the text of view; $projection is split into words.
 RASTERIZED = "stage project $projection | stage zbuf config.txt --expect-framed"
@@ -29,6 +31,19 @@ DRAW = r'''draw() {
   sed "s|^|${picture%.png} ($camera): |" "$picture.log" >&2
   rm -f "$picture.log"
 }'''
+
+
+PNG_BEGINS, PNG_ENDS = b"\x89PNG\r\n\x1a\n", b"\0\0\0\0IEND\xaeB`\x82"
+
+
+def is_whole(path):
+    """Whether it is a PNG file that nobody has cut short, by its beginning and its end."""
+    if not os.path.isfile(path) or os.path.getsize(path) < len(PNG_BEGINS + PNG_ENDS):
+        return False
+    with open(path, "rb") as file:
+        begins = file.read(len(PNG_BEGINS)) == PNG_BEGINS
+        file.seek(-len(PNG_ENDS), os.SEEK_END)
+        return begins and file.read() == PNG_ENDS
 
 
 def words_of(vector):
@@ -47,28 +62,31 @@ class Frames:
         self.projections = [" ".join(scene.projection_words(c)) for c in cameras]
 
     def prepare(self):
-        """Writes what frames are drawn from. Those that film has drawn from something else are removed."""
+        """Writes what frames are drawn from. Those that film has drawn from something else, and those that
+        are not whole, are removed."""
         self.folder.take()
         source = hashlib.sha256(self.scene.world + b"\0" + self.scene.config + b"\0" +
                                 " ".join([self.drawing, *self.drawing_words]).encode()).hexdigest()
         lines = zip(self.names, self.views, self.projections)
         cameras = {words[0]: " ".join(words).strip() for words in lines}
         list_file = self.folder / "frames.txt"
-        former_source, *former = list_file.read_text().splitlines() if list_file.exists() else [""]
+        former = read_input(list_file, only_regular=True) if list_file.exists() else b""
+        former_source, *former = former.decode(errors="replace").splitlines() or [""]
         drawn = {line.split(" ", 1)[0]: line for line in former}
         foreign = [name for name in self.names if name not in drawn and os.path.lexists(self.folder / name)]
         if foreign:
             where = shown(self.folder.path)
             raise CommandFailure(f"expected no {foreign[0]} in {where} that film has not drawn")
         self.folder.remove_links({*self.names, *(f"{name}.log" for name in self.names)}.__contains__)
-        stale = {name for name, line in drawn.items() if former_source != source or cameras.get(name) != line}
+        stale = {name for name, line in drawn.items() if former_source != source or
+                 cameras.get(name) != line or not is_whole(self.folder / name)}
         self.folder.remove_files(stale.__contains__)
         self.folder.write("world.txt", self.scene.world)
         self.folder.write("config.txt", self.scene.config)
         self.folder.write("frames.txt", "".join(line + "\n" for line in [source, *cameras.values()]).encode())
 
     def missing(self):
-        return [i for i, name in enumerate(self.names) if not (self.folder / name).exists()]
+        return [i for i, name in enumerate(self.names) if not is_whole(self.folder / name)]
 
     def job(self, frames):
         """A line of shell that draws some frames."""
@@ -99,11 +117,16 @@ class Frames:
             raise CommandFailure(f"parallel ended with status {status}, though all frames are there")
 
     def make_film(self, path, fps):
-        """Frames of an odd size get a column or a row more, which the pixel format asks for."""
+        """Frames of an odd size get a column or a row more, which the pixel format asks for. Pictures of the
+        user behind the last frame are not taken; a frame that ffmpeg cannot decode ends it."""
         made = "film" + pathlib.Path(path).suffix
         self.folder.remove_links(made.__eq__)
-        words = ["ffmpeg", "-loglevel", "error", "-y", "-framerate", number(fps), "-i", "%05d.png"]
-        if not path.lower().endswith(".gif"):
+        words = ["ffmpeg", "-loglevel", "error", "-y", "-err_detect", "crccheck+explode", "-framerate",
+                 number(fps), "-i", "%05d.png", "-frames:v", str(len(self.names))]
+        is_gif = path.lower().endswith(".gif")
+        if not is_gif or fps <= GIF_FPS:
+            words += ["-xerror"]
+        if not is_gif:
             words += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
         done = subprocess.run([*words, made], cwd=self.folder.path, stdin=subprocess.DEVNULL,
                               capture_output=True, text=True)

@@ -202,6 +202,26 @@ class Interruptions(FilmTest):
         self.make("--turn", "1", "--fps", "2", "-o", "out")
         self.assertEqual(list(frames("out").values()), [second["00000.png"], second["00002.png"]])
 
+    def test_a_frame_that_is_cut_short_is_drawn_again(self):
+        self.make("--turn", "1", "--fps", "4", "-o", "out")
+        first = frames("out")
+        os.truncate("out/00001.png", 60)
+        os.truncate("out/00002.png", 0)
+        self.make("--turn", "1", "--fps", "4", "-o", "out")
+        self.assertEqual(frames("out"), first)
+
+    def test_a_list_of_frames_that_is_none_is_told_in_a_line(self):
+        self.make("--turn", "1", "--fps", "2", "-o", "out")
+        listed = pathlib.Path("out/frames.txt")
+        for make, reason in ((lambda: listed.write_bytes(b""), "expected no 00000.png in "),
+                             (lambda: listed.write_bytes(b"\xff"), "expected no 00000.png in "),
+                             (lambda: os.mkfifo(listed), "cannot read ")):
+            listed.unlink()
+            make()
+            done = film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out")
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
+            self.assertTrue(done.stderr.startswith("film: " + reason), done.stderr)
+
     def test_a_frame_that_fails_names_its_camera(self):
         done = film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out")
         self.assertEqual(done.returncode, 0)
@@ -223,16 +243,38 @@ class Interruptions(FilmTest):
 
 
 class Outputs(FilmTest):
-    def test_a_film(self):
-        if not shutil.which("ffmpeg"):
-            self.skipTest("ffmpeg is missing")
-        self.make("--turn", "1", "--fps", "10", "-o", "turn.mp4")
+    def assert_film(self, path, expected):
         words = [
             "ffprobe", "-v", "error", "-count_frames", "-show_entries",
-            "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", "turn.mp4"]
+            "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", path]
         self.assertEqual(
-            subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip(), "50,40,10/1,10")
-        self.assertFalse(pathlib.Path("turn.mp4.frames").exists())
+            subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip(), expected)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is missing")
+    def test_a_film(self):
+        for fps in (10, 200):
+            for path in ("turn.mp4", "turn.gif"):
+                self.make("--turn", str(10 / fps), "--fps", str(fps), "-o", path)
+                self.assertFalse(pathlib.Path(path + ".frames").exists())
+                if path.endswith("mp4"):
+                    self.assert_film(path, f"50,40,{fps}/1,10")
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is missing")
+    def test_a_film_has_its_own_frames_whole_or_is_none(self):
+        words = ["--turn", "1", "--fps", "2"]
+        self.make(*words, "-o", "turn.mp4.frames")
+        shutil.copy("turn.mp4.frames/00000.png", "turn.mp4.frames/00002.png")
+        frame = pathlib.Path("turn.mp4.frames/00001.png")
+        data = frame.read_bytes()
+        frame.write_bytes(data[:-20] + bytes(4) + data[-16:])  # another checksum of the pixels
+        done = film("scene.txt", "config.txt", *words, "-o", "turn.mp4")
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
+        self.assertTrue(done.stderr.startswith("film: ffmpeg: "), done.stderr)
+        self.assertFalse(pathlib.Path("turn.mp4").exists())
+        frame.unlink()
+        self.make(*words, "-o", "turn.mp4")
+        self.assert_film("turn.mp4", "50,40,2/1,2")
+        self.assertEqual(list(frames("turn.mp4.frames")), ["00002.png"])  # the user's
 
     def test_other_machines(self):
         """Over a real sshd on this machine, under two names; bytes as without."""
