@@ -223,6 +223,18 @@ class Picture(ToolTest):
         self.assertEqual(pathlib.Path("scene.txt").read_text(), text)
         self.assertEqual(pathlib.Path("stage1.txt").read_bytes(), run("model", "scene.txt").stdout)
 
+    def test_a_stage_that_cannot_be_read_back_is_refused(self):
+        pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n")
+        os.makedirs("kept")
+        for make in (lambda: os.symlink(os.devnull, "kept/stage3.txt"), lambda: os.mkfifo("kept/stage3.txt")):
+            make()
+            done = picture("scene.txt", "--size", "60x60", "--stages", "kept", "-o", "one.png")
+            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertEqual(done.stderr, "picture: expected a regular file, which the next tool reads, "
+                             "found kept/stage3.txt\n")
+            self.assertEqual((os.listdir("kept"), os.path.exists("one.png")), (["stage3.txt"], False))
+            os.unlink("kept/stage3.txt")
+
     def test_a_scene_keeps_its_camera_and_colors(self):
         pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n")
         for words in (["--zoom", "2"], ["--at", "0", "0", "0"], ["--color", "ff0000"]):
