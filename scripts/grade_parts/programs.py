@@ -5,6 +5,7 @@ import ctypes
 import os
 import pathlib
 import pwd
+import stat
 import subprocess
 import tempfile
 
@@ -34,10 +35,9 @@ def protection(command, read, hidden):
         return box
     user = free_user()
     if os.geteuid() == 0 and succeeds(user, "true"):
-        for path in hidden:
-            if succeeds(user, "test", "-x", path):
-                raise CommandFailure(f"{shown(str(path))} may be read by a program that is handed in, which "
-                                     "root runs as another user: chmod go= it, or install bubblewrap")
+        if names := " ".join(shown(str(path)) for path in hidden if succeeds(user, "test", "-x", path)):
+            raise CommandFailure("a program that is handed in, which root runs as another user, may read "
+                                 f"what it should not: chmod go= {names}, or install bubblewrap")
         return box._replace(user=user)
     raise CommandFailure(f"a program is run only in a sandbox, or by root as another user: {box.reason}")
 
@@ -65,8 +65,7 @@ def succeeds(user, *words):
 
 def right_ones():
     """The folders of what gives the right answer: the tools, and the reference beside the pack."""
-    tools, pack = Tools().folder, place("tests/conformance", "share/pipeline/conformance")
-    return [*([] if (tools / "sh").exists() else [tools]), pack.parent]
+    return [*Tools().hiding_places(), place("tests/conformance", "share/pipeline/conformance").parent]
 
 
 def expect_protection(hidden):
@@ -105,11 +104,14 @@ def unpack(contents, folder):
             raise ProgramError(f"its files have more than {MOST_BYTES >> 20} MiB")
 
 
-def give(folder, user):
-    """Gives a folder and all in it to a user; no link is followed."""
+def give(folder, user, owner=0):
+    """Gives a folder and all in it that belongs to the owner to a user. No link is followed; a file of more
+    names stays: the others may lie anywhere."""
     for place, folders, files in os.walk(folder):
-        for name in (".", *folders, *files):
-            os.chown(os.path.join(place, name), user, user, follow_symlinks=False)
+        for path in (os.path.join(place, name) for name in (".", *folders, *files)):
+            status = os.lstat(path)
+            if status.st_uid == owner and (stat.S_ISDIR(status.st_mode) or status.st_nlink == 1):
+                os.chown(path, user, user, follow_symlinks=False)
 
 
 class Built:
@@ -145,8 +147,8 @@ class Built:
             outcome(words, b"", self.folder, confined.Limits(SECONDS_OF_BUILD, MEMORY, PROCESSES), box)
         finally:
             if self.user is not None:
-                give(self.folder, 0)
                 self.remove_what_is_left()
+                give(self.folder, 0, self.user)
 
     def remove_what_is_left(self):
         """Removes, as its user, what it has made in PLACES since a file was last made in top, and its

@@ -6,6 +6,7 @@ usage: check_stage_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import unittest
@@ -46,6 +47,18 @@ class Program(ToolTest):
     def test_ours_are_right(self):
         for stage in ("model", "view", "project", "zbuf"):
             self.assertEqual(self.told(stage, f'exec "$BIN/{stage}" "$@"', status=0), "scene: right\n")
+
+    @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
+    def test_ours_are_found_only_if_they_are_named(self):
+        os.mkdir("tools")
+        for tool in ("model", "view", "project", "zbuf"):
+            os.symlink(BIN / tool, f"tools/{tool}")
+        environment = {**os.environ, "BIN": os.path.abspath("tools"), "PATH": f"{BIN}:{os.environ['PATH']}"}
+        script("exec view")
+        for words, expected in ((["./mine"], "wrong"), (["view"], "right")):
+            done = run_script("check-stage", "--sandbox", "yes", "view", "--scene", "scene", "--", *words,
+                              env=environment)
+            self.assertRegex(done.stdout, f"^scene: {expected}", done.stderr)
 
     def test_ours_are_right_on_the_six_scenes(self):
         for stage in ("model", "zbuf"):

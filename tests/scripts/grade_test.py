@@ -20,11 +20,12 @@ import unittest
 import zipfile
 from unittest import mock
 
-from grade_parts import graders
+from grade_parts import graders, programs
 from grade_parts.assignment import read_tests
 from grade_parts.contents import contents_of
 from grade_parts.hand_ins import find_hand_ins
 from lib.judging.mistakes import fix, sentences
+from lib.rim.command import CommandFailure
 from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pseudo_terminal, run_script
 
 SAMPLE = SOURCE / "samples/worked-example"
@@ -362,6 +363,44 @@ class Results(ClassTest):
         self.grade()
         self.assertEqual(self.scores(), {"anna": 0.0})
         self.assertIn("Some numbers are random: two runs of the program on the same text", self.page(1))
+
+    @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
+    def test_our_tools_are_not_found_where_links_lead_to_them(self):
+        pathlib.Path("tests/assignment.txt").write_text("program view\nrun python3 view.py\n")
+        for folder in ("tools", "hand-ins/anna"):
+            os.mkdir(folder)
+        for tool in ("model", "view", "project", "zbuf"):
+            os.symlink(BIN / tool, f"tools/{tool}")
+        pathlib.Path("hand-ins/anna/view.py").write_text("import os\nos.execvp('view', ['view'])\n")
+        with mock.patch.dict(os.environ, PATH=f"{BIN}:{os.environ['PATH']}"), \
+                mock.patch("toolbox.BIN", pathlib.Path("tools").resolve()):
+            self.grade()
+        self.assertEqual(self.scores(), {"anna": 0.0})
+
+    @unittest.skipIf(os.geteuid(), "root alone runs programs as others")
+    def test_without_a_sandbox_all_open_folders_are_named_at_once(self):
+        os.chmod(".", 0o711)
+        folders = [os.path.abspath(name) for name in ("hand-ins", "closed", "tests")]
+        os.mkdir("closed", 0o700)
+        none = programs.confined.Sandbox()
+        with mock.patch("grade_parts.programs.confined.sandbox", return_value=none):
+            with self.assertRaisesRegex(CommandFailure, f": chmod go= {folders[0]} {folders[2]}, or "):
+                programs.protection(["true"], (), folders)
+
+    @unittest.skipIf(os.geteuid(), "root alone gives files away")
+    def test_after_a_build_root_takes_what_is_of_the_builder_alone(self):
+        builder, stranger = programs.FIRST_USER, programs.FIRST_USER + 1
+        pathlib.Path("built/inner").mkdir(parents=True)
+        for name, owner in (("built/inner/made", builder), ("other", stranger), ("left", builder)):
+            pathlib.Path(name).touch()
+            os.chown(name, owner, owner)
+        for name in ("other", "left"):
+            os.link(name, f"built/{name}")
+        for name in ("built", "built/inner"):
+            os.chown(name, builder, builder)
+        programs.give("built", 0, builder)
+        names = "built", "built/inner", "built/inner/made", "other", "left"
+        self.assertEqual([os.stat(name).st_uid for name in names], [0, 0, 0, stranger, builder])
 
     def test_each_mistake_has_its_fix(self):
         self.assertEqual([name for name in sentences() if not fix(name)], [])

@@ -113,6 +113,13 @@ class Tools:
         if not os.access(self.folder / "zbuf", os.X_OK):
             raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
 
+    def hiding_places(self):
+        """The folder, and those in which its tools lie if it holds links to them; none that holds the
+        system's programs, too."""
+        tools = "model", "view", "project", "zbuf", "trace"
+        folders = {self.folder.resolve(), *((self.folder / tool).resolve().parent for tool in tools)}
+        return sorted(folder for folder in folders if not (folder / "sh").exists())
+
     def expect(self, *tools, png=False):
         """Raises the ToolFailure of a build that lacks a tool, or PNG where the last one is to write it."""
         for tool in tools:

@@ -25,7 +25,13 @@ def words_for(command, paths, hidden):
              if not name.startswith("..")]  # through links, too
     for path in {*hidden, *below}:
         words += ["--tmpfs", path, "--remount-ro", path]
-    return words
+    folders = [each for each in os.get_exec_path()
+               if not any(is_below(os.path.realpath(each), path) for path in hidden)]
+    return [*words, "--setenv", "PATH", os.pathsep.join(folders)]
+
+
+def is_below(path, folder):
+    return os.path.commonpath((path, folder)) == folder
 
 
 def words_of_folder(folder, words):
