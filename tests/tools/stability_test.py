@@ -1,17 +1,28 @@
 #!/usr/bin/env python3
 """The tools print correctly rounded numbers at the extremes, or report why they cannot.
 
-usage: stability_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: stability_test.py BIN_DIR [--cases FILE] [UNITTEST ARGUMENT...]
 
 Every case runs a real tool; the reference (tests/reference) calculates the expected output at run time,
-exactly.
+exactly. With --cases, the model, view and project cases of a JSON file run as well: {"cases": [{"id",
+"stage", "title", "input", "expect7" or "expect_policy"}]}, expect7 being three numbers with 7 decimals a
+vertex.
 """
+import argparse
+import json
+import re
+import sys
 import unittest
 from decimal import Decimal
 from fractions import Fraction
 
 import reference
 from toolbox import CAMERA, ToolTest, add_claims, run
+
+parser = argparse.ArgumentParser(add_help=False)
+parser.add_argument("--cases")
+options, rest = parser.parse_known_args(sys.argv[1:])
+sys.argv[1:] = rest
 
 PERSPECTIVE = "60 1 1 100"
 
@@ -368,6 +379,58 @@ class ProjectOtherwise(StabilityTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn("<stdin>:1:13: expected fovX = fovY * aspect above 0 and below 180 degrees",
                       done.stderr.decode())
+
+
+# Cases from a file
+
+def expanded(case):
+    """The lines of a model case's scene after the camera. `rotrep N` stands for N rotations; `[repeat N]` in
+    the title repeats each push and pop N times."""
+    repeat = re.search(r"\[repeat (\d+)\]", case["title"])
+    for line in case["input"]:
+        word, *numbers = line.split(None, 1)
+        if word == "triangle":
+            yield "triangle\n" + lines_of(numbers[0].split(";"))
+        elif word == "rotrep":
+            count, rotation = numbers[0].split(None, 1)
+            yield ("rotate\n" + rotation + "\n") * int(count)
+        elif word in ("push", "pop"):
+            yield (word + "\n") * (int(repeat[1]) if repeat else 1)
+        else:
+            yield word + "\n" + numbers[0] + "\n"
+
+
+def case_run(case):
+    """The options and the input of a case, and its number of vertices."""
+    if case["stage"] == "model":
+        count = sum(line.count(";") + 1 for line in case["input"] if line.startswith("triangle"))
+        return ["--bare"], CAMERA + "".join(expanded(case)) + "end\n", count
+    given = case["input"]
+    points = given.get("points", ["0 0 -1"])
+    vertices = lines_of(points + points[-1:] * (-len(points) % 3))
+    if case["stage"] == "view":
+        camera = "".join(f"{name} {given[name]}\n" for name in ("eye", "look", "up"))
+        return ["--bare"], camera + vertices, len(points)
+    perspective = " ".join(given[name] for name in ("fovY", "aspect", "near", "far"))
+    return [], f"perspective {perspective}\n" + vertices, len(points)
+
+
+class Cases(StabilityTest):
+    def check(self, case):
+        tool_options, text, count = case_run(case)
+        done = run(case["stage"], *tool_options, stdin=text)
+        words = self.output(done).split()
+        if "expect7" in case:
+            self.assertEqual(done.returncode, 0, done.stderr.decode())
+            self.assertEqual(words[:3 * count], [word for vertex in case["expect7"] for word in vertex])
+        elif re.match(r"exit!=0(?! \(or)", case["expect_policy"]):
+            self.assertNotEqual(done.returncode, 0)
+
+
+if options.cases:
+    with open(options.cases, encoding="utf-8") as cases_file:
+        add_claims(Cases, [(f"{case['id']} {case['title']}", case) for case in json.load(cases_file)["cases"]
+                           if case["stage"] in ("model", "view", "project")])
 
 
 if __name__ == "__main__":
