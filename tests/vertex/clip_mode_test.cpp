@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "libpipeline/text/error.h"
 #include "tests/vertex/projected.h"
 
 namespace pipeline {
@@ -16,72 +15,9 @@ std::vector<std::uint64_t> numbers_of(const std::vector<Triangle>& triangles, Cl
   return projected(batch, kSimple, clip).p_ndc.numbers;
 }
 
-std::string message_of_clip(const TriangleBatch& p_view, ClipMode clip) {
-  try {
-    projected(p_view, kSimple, clip);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
-TEST(ClipModeAutomatic, LeavesATriangleInFrontOfTheNearPlaneWhole) {
-  const Result result = projected(batch_of({triangle_at(-0.5, -0.5, -0.5)}), kSimple, ClipMode::automatic);
-  EXPECT_EQ(result.p_ndc.size(), 1u);
-  EXPECT_EQ(result.counts.clipped, 0u);
-  EXPECT_LT(result.p_ndc.triangles[0][0].z, -1);
-}
-
-TEST(ClipModeAutomatic, BeginsBelowNearDividedBy1024) {
-  const double limit = 1.0 / 1024;
-  EXPECT_EQ(projected(batch_of({triangle_at(-limit, -2, -2)}), kSimple, ClipMode::automatic).counts.clipped,
-            0u);
-  EXPECT_EQ(
-      projected(batch_of({triangle_at(-std::nextafter(limit, 0), -2, -2)}), kSimple, ClipMode::automatic)
-          .counts.clipped,
-      1u);
-}
-
-TEST(ClipModeAutomatic, CutsOffWhatIsBehindTheEye) {
-  const Result result = projected(batch_of({triangle_at(1, -2, -2)}), kSimple, ClipMode::automatic);
-  EXPECT_EQ(result.counts.clipped, 1u);
-  EXPECT_EQ(result.counts.pieces, 2u);
-  EXPECT_EQ(result.p_ndc.numbers, (std::vector<std::uint64_t>{0, 0}));
-}
-
-TEST(ClipModeAutomatic, DropsATriangleWithoutAPartBehindTheNearPlane) {
-  const Result result = projected(batch_of({triangle_at(1, -0.5, -0.5), triangle_at(-2, -2, -2)}), kSimple,
-                                  ClipMode::automatic);
-  EXPECT_EQ(result.counts.outside, 1u);
-  EXPECT_EQ(result.p_ndc.numbers, std::vector<std::uint64_t>{1});
-}
-
 TEST(ClipModeAutomatic, AVertexOnTheEyePlaneIsCutOffWithTheSmallestNearPlaneToo) {
   const ProjectionTransform tiny = {true, 1, 0, 1, 0, 0x1p-1074, 1};
   EXPECT_EQ(projected(batch_of({triangle_at(0, -0.5, -0.5)}), tiny, ClipMode::automatic).counts.clipped, 1u);
-}
-
-TEST(ClipModeAutomatic, LeavesAParallelProjectionAlone) {
-  const ProjectionTransform parallel = {false, 1, 0, 1, 0, 1, 100};
-  EXPECT_EQ(projected(batch_of({triangle_at(5, 0, -200)}), parallel, ClipMode::automatic).p_ndc.size(), 1u);
-}
-
-TEST(ClipModeNear, CutsEverythingAtTheNearPlane) {
-  const Result result =
-      projected(batch_of({triangle_at(-0.5, -2, -2), triangle_at(-0.5, -0.5, -2), triangle_at(-2, -2, -2)}),
-                kSimple, ClipMode::near);
-  EXPECT_EQ(result.counts.clipped, 2u);
-  EXPECT_EQ(result.counts.pieces, 3u);
-  EXPECT_EQ(result.p_ndc.numbers, (std::vector<std::uint64_t>{0, 0, 1, 2}));
-}
-
-TEST(ClipModeNear, CutsAParallelProjectionAsWell) {
-  const ProjectionTransform parallel = {false, 1, 0, 1, 0, 1, 100};
-  EXPECT_EQ(projected(batch_of({triangle_at(5, -2, -2)}), parallel, ClipMode::near).counts.clipped, 1u);
-}
-
-TEST(ClipModeNear, LeavesTheFarPlaneAlone) {
-  EXPECT_EQ(projected(batch_of({triangle_at(-200, -200, -2)}), kSimple, ClipMode::near).counts.clipped, 0u);
 }
 
 /// Where the edge from `a` to `b` meets the near plane of kSimple, pulled in by `inset`, in NDC.
@@ -113,59 +49,6 @@ TEST(ClipInset, CutsStandWhereExactArithmeticPutsThem) {
         projected(batch_of({p_view}), kSimple, ClipMode::automatic, CullMode::nothing, {17}).p_ndc;
     EXPECT_EQ(printed_vertex(p_ndc, 1, {17}), printed_vertex(whole, 1, {17})) << inset;
   }
-}
-
-TEST(ClipModeFrustum, CutsAtAllSixPlanes) {
-  const Triangle huge = {Vec3{-1000, -1000, -5}, Vec3{1000, -1000, -5}, Vec3{0, 1000, -5}};
-  const Result result = projected(batch_of({huge}), kSimple, ClipMode::frustum);
-  EXPECT_EQ(result.counts.clipped, 1u);
-  for (const Triangle& piece : result.p_ndc.triangles)
-    for (const Vec3& v : piece) EXPECT_LE(std::max(std::fabs(v.x), std::fabs(v.y)), 1);
-}
-
-TEST(ClipModeFrustum, DropsWhatIsOutsideWithoutBeingOutsideOfOnePlane) {
-  // No plane has all its corners outside, yet it misses the upper left corner of the view.
-  const Triangle passing = {Vec3{-5, 0, -1}, Vec3{0, 5, -1}, Vec3{-5, 5, -1}};
-  const Result result = projected(batch_of({passing}), kSimple, ClipMode::frustum);
-  EXPECT_EQ(result.p_ndc.size(), 0u);
-  EXPECT_EQ(result.counts.outside, 1u);
-}
-
-TEST(ClipModeReject, DropsOnlyWhatIsOutsideOfOnePlane) {
-  const Triangle left = {Vec3{-5, 0, -1}, Vec3{-3, 1, -1}, Vec3{-2, 0, -1}};
-  const Triangle passing = {Vec3{-5, 0, -1}, Vec3{0, 5, -1}, Vec3{-5, 5, -1}};
-  const Triangle across = {Vec3{-5, 0, -1}, Vec3{0, 0, -1}, Vec3{0, 1, -1}};
-  const Result result = projected(batch_of({left, passing, across}), kSimple, ClipMode::reject);
-  EXPECT_EQ(result.p_ndc.numbers, (std::vector<std::uint64_t>{1, 2}));
-  EXPECT_EQ(result.counts.outside, 1u);
-  EXPECT_EQ(result.counts.clipped, 0u);
-}
-
-TEST(ClipModeReject, AVertexBehindTheEyeOfWhatIsNotDroppedIsAnError) {
-  EXPECT_EQ(message_of_clip(batch_of({triangle_at(-2, -2, 1)}), ClipMode::reject),
-            "stage2.txt:3:1: expected a vertex in front of the eye (z below 0; --clip auto cuts the others), "
-            "found z = 1");
-}
-
-TEST(ClipModeNone, LeavesEverythingWhole) {
-  EXPECT_EQ(numbers_of({triangle_at(-1e-9, -2, -2), triangle_at(-500, -500, -500)}, ClipMode::none),
-            (std::vector<std::uint64_t>{0, 1}));
-}
-
-TEST(ClipModeNone, AVertexOnOrBehindTheEyePlaneIsAnError) {
-  const std::string expected =
-      "expected a vertex in front of the eye (z below 0; --clip auto cuts the others), found z = ";
-  EXPECT_EQ(message_of_clip(batch_of({triangle_at(-2, 0, -2)}), ClipMode::none),
-            "stage2.txt:2:1: " + expected + "0");
-  EXPECT_EQ(message_of_clip(batch_of({triangle_at(-2, -2, -0.0)}), ClipMode::none),
-            "stage2.txt:3:1: " + expected + "0");
-  EXPECT_EQ(message_of_clip(batch_of({triangle_at(-2, -2, -2), triangle_at(5, -2, -2)}), ClipMode::none),
-            "stage2.txt:5:1: " + expected + "5");
-}
-
-TEST(ClipModeNone, AParallelProjectionHasNoEyePlane) {
-  const ProjectionTransform parallel = {false, 1, 0, 1, 0, 1, 100};
-  EXPECT_EQ(projected(batch_of({triangle_at(5, 0, -2)}), parallel, ClipMode::none).p_ndc.size(), 1u);
 }
 
 // The corner lies beside a plane, by 2^-52 of its distance to 2^-20, or within all of them.
@@ -228,19 +111,6 @@ TEST(ProjectionStage, ACutHasTheLocationOfTheCornerThatWeighsMost) {
   ASSERT_EQ(pieces.size(), 2u);
   EXPECT_EQ(pieces.locations[0], (VertexLocations{1, 2, 3}));
   EXPECT_EQ(pieces.locations[1], (VertexLocations{1, 3, 1}));
-}
-
-TEST(ProjectionStage, ACutTriangleIsThatCutByHand) {
-  // The near plane cuts the edges at x = 3/4 and y = 3/4: few bits, so doubles hold them exactly.
-  const Triangle crossing = {Vec3{0, 0, 2}, Vec3{1, 0, -2}, Vec3{0, 1, -2}};
-  const Vec3 cut_x = {0.75, 0, -1};
-  const Vec3 cut_y = {0, 0.75, -1};
-  const Result clipped = projected(batch_of({crossing}), kSimple, ClipMode::automatic);
-  const Result by_hand = projected(batch_of({{cut_x, crossing[1], crossing[2]}, {cut_x, crossing[2], cut_y}}),
-                                   kSimple, ClipMode::none);
-  ASSERT_EQ(clipped.p_ndc.size(), 2u);
-  for (std::size_t i = 0; i < 6; ++i)
-    EXPECT_EQ(printed_vertex(clipped.p_ndc, i, {7}), printed_vertex(by_hand.p_ndc, i, {7}));
 }
 
 TEST(ProjectionStage, PiecesHaveTheAttributesOfTheirTriangleAndNoOthers) {

@@ -84,32 +84,6 @@ TEST(Outcode, TheLastBitBesideAPlaneCounts) {
   EXPECT_EQ(outcode({1 - 0x1p-53, 0, 0, 1}), 0u);
 }
 
-TEST(ClipPolygon, ATriangleInsideIsUnchanged) {
-  const Polygon triangle = {{0, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, 0.5, 1}};
-  EXPECT_TRUE(is_same(clip_polygon(triangle, kAllClipPlanes), triangle));
-}
-
-TEST(ClipPolygon, OneCornerOutsideOfAnyPlaneLeavesFour) {
-  for (const ClipPlane plane : kAllClipPlanes) {
-    EXPECT_EQ(clipped_at(plane, at_distances(plane, -1, 2, 3)).size(), 4u);
-    EXPECT_EQ(clipped_at(plane, at_distances(plane, 1, -2, 3)).size(), 4u);
-    EXPECT_EQ(clipped_at(plane, at_distances(plane, 1, 2, -3)).size(), 4u);
-  }
-}
-
-TEST(ClipPolygon, TwoCornersOutsideOfAnyPlaneLeaveThree) {
-  for (const ClipPlane plane : kAllClipPlanes) {
-    EXPECT_EQ(clipped_at(plane, at_distances(plane, 1, -2, -3)).size(), 3u);
-    EXPECT_EQ(clipped_at(plane, at_distances(plane, -1, 2, -3)).size(), 3u);
-    EXPECT_EQ(clipped_at(plane, at_distances(plane, -1, -2, 3)).size(), 3u);
-  }
-}
-
-TEST(ClipPolygon, ThreeCornersOutsideOfAnyPlaneLeaveNothing) {
-  for (const ClipPlane plane : kAllClipPlanes)
-    EXPECT_TRUE(clipped_at(plane, at_distances(plane, -1, -2, -3)).empty());
-}
-
 TEST(ClipPolygon, TouchingAPlaneFromOutsideLeavesNothing) {
   for (const ClipPlane plane : kAllClipPlanes) {
     EXPECT_TRUE(clipped_at(plane, at_distances(plane, 0, -2, -3)).empty());
@@ -143,15 +117,6 @@ TEST(ClipPolygon, APlaneThroughACornerCutsTheOppositeEdge) {
   }
 }
 
-TEST(ClipPolygon, CutsAnEdgeWhereItMeetsThePlane) {
-  const Polygon inside = clipped_at(ClipPlane::right, {{0, 0, 0, 1}, {4, 0, 0, 1}, {0, 0.5, 0, 1}});
-  ASSERT_EQ(inside.size(), 4u);
-  EXPECT_EQ(inside[1].x, Ball(1));
-  EXPECT_EQ(inside[1].y, Ball(0));
-  EXPECT_EQ(inside[2].x, Ball(1));
-  EXPECT_EQ(inside[2].y, Ball(0.375));
-}
-
 TEST(ClipPolygon, ACutNextToASmallCornerKeepsItsDigits) {
   // Only (1 2 -4 3) is outside, at distance 1 from the near plane; the others are 10^230 inside.
   const Polygon triangle = {{1, 2, -4, 3}, {1e200, 0, 1e230, 0}, {-1e200, 0, 1e230, 0}};
@@ -168,10 +133,6 @@ TEST(ClipPolygon, ACutNextToASmallCornerKeepsItsDigits) {
     }
     EXPECT_EQ(near_count, 2);
   }
-}
-
-TEST(ClipPolygon, OfNothingIsNothing) {
-  EXPECT_TRUE(clip_polygon({}, kAllClipPlanes).empty());
 }
 
 /// Clips at one plane after another; the projected areas of the parts cut off and of the remaining part must

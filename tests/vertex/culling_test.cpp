@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 
 #include "libpipeline/text/error.h"
 #include "tests/vertex/projected.h"
@@ -27,27 +26,6 @@ void expect_culled_by_winding(const Triangle& t, bool is_perspective, double x_s
   const bool front_dropped = projected(batch_of({t}), projection, clip, CullMode::front).counts.culled == 1;
   ASSERT_EQ(back_dropped, winding < 0) << to_text(t[0]) << to_text(t[1]) << to_text(t[2]);
   ASSERT_EQ(front_dropped, winding > 0) << to_text(t[0]) << to_text(t[1]) << to_text(t[2]);
-}
-
-TEST(Culling, CounterClockwiseIsFront) {
-  const TriangleBatch batch =
-      batch_of({triangle_at(-2, -2, -2), {Vec3{0, 0, -2}, Vec3{0, 1, -2}, Vec3{1, 0, -2}}});
-  EXPECT_EQ(projected(batch, kSimple, ClipMode::automatic, CullMode::back).p_ndc.numbers,
-            std::vector<std::uint64_t>{0});
-  EXPECT_EQ(projected(batch, kSimple, ClipMode::automatic, CullMode::front).p_ndc.numbers,
-            std::vector<std::uint64_t>{1});
-  EXPECT_EQ(projected(batch, kSimple, ClipMode::automatic, CullMode::front).counts.culled, 1u);
-}
-
-TEST(Culling, FollowsTheExactDeterminant) {
-  RandomNumbers random(7);
-  for (int i = 0; i < 3'000 && !HasFatalFailure(); ++i) {
-    Triangle t;
-    for (Vec3& p : t)
-      p = i % 2 == 0 ? random_point(random, 100)
-                     : Vec3{1.0 * random.whole(-3, 3), 1.0 * random.whole(-3, 3), 1.0 * random.whole(-9, 3)};
-    expect_culled_by_winding(t, i % 5 != 0, i % 3 == 0 ? -1 : 1);
-  }
 }
 
 TEST(Culling, FollowsTheExactDeterminantOfTrianglesSeenFromTheEdge) {

@@ -45,14 +45,6 @@ std::string error_of(const std::string& commands) {
   return message_of([&] { triangles_of(commands); });
 }
 
-TEST(ModelStage, ASceneWithoutTrianglesHasNone) {
-  EXPECT_EQ(triangles_of("push\n").size(), 0u);
-}
-
-TEST(ModelStage, WithoutTransformsModelSpaceIsWorldSpace) {
-  EXPECT_EQ(first_vertices_of(kTriangle), (std::vector<Vec3>{{1, 2, 3}}));
-}
-
 // A blank at the end of a line keeps a triangle from the fastest path.
 TEST(ModelStage, AttributesAreTheSameByEveryPath) {
   for (const bool has_columns : {false, true}) {
@@ -104,55 +96,9 @@ TEST(ModelStage, AWrongAttributeAfterFastTrianglesIsAnError) {
             "color') from 0 to 255, found '900'");
 }
 
-TEST(ModelStage, Translates) {
-  EXPECT_EQ(first_vertices_of("translate 10 20 30\n" + kTriangle), (std::vector<Vec3>{{11, 22, 33}}));
-}
-
-TEST(ModelStage, Scales) {
-  EXPECT_EQ(first_vertices_of("scale 2 -1 0.5\n" + kTriangle), (std::vector<Vec3>{{2, -2, 1.5}}));
-}
-
-TEST(ModelStage, RotatesCounterClockwise) {
-  EXPECT_EQ(first_vertices_of("rotate 90 0 0 1\n" + kTriangle), (std::vector<Vec3>{{-2, 1, 3}}));
-}
-
-TEST(ModelStage, TheTransformWrittenLastIsAppliedFirst) {
-  EXPECT_EQ(first_vertices_of("translate 10 0 0\nscale 2 2 2\n" + kTriangle),
-            (std::vector<Vec3>{{12, 4, 6}}));
-}
-
-TEST(ModelStage, TransformsHoldForEveryTriangleAfterThem) {
-  EXPECT_EQ(first_vertices_of(kTriangle + "translate 1 0 0\n" + kTriangle + kTriangle + "translate 1 0 0\n" +
-                              kTriangle),
-            (std::vector<Vec3>{{1, 2, 3}, {2, 2, 3}, {2, 2, 3}, {3, 2, 3}}));
-}
-
-TEST(ModelStage, PopRestoresWhatPushSaved) {
-  EXPECT_EQ(first_vertices_of("translate 1 0 0\npush\ntranslate 0 1 0\n" + kTriangle + "pop\n" + kTriangle),
-            (std::vector<Vec3>{{2, 3, 3}, {2, 2, 3}}));
-}
-
-TEST(ModelStage, APushWithoutPopIsFine) {
-  EXPECT_EQ(first_vertices_of("push\n" + kTriangle), (std::vector<Vec3>{{1, 2, 3}}));
-}
-
-TEST(ModelStage, AScaleByZeroIsFine) {
-  EXPECT_EQ(first_vertices_of("scale 0 0 -0\n" + kTriangle), (std::vector<Vec3>{{0, 0, 0}}));
-}
-
-TEST(ModelStage, NumbersTrianglesFromZero) {
-  EXPECT_EQ(triangles_of(kTriangle + kTriangle).numbers, (std::vector<std::uint64_t>{0, 1}));
-}
-
 TEST(ModelStage, LocatesItsVertices) {
   EXPECT_EQ(triangles_of("triangle\n\n1 2 3\n 0 0 0\n# c\n0 0 0\n").locations[0],
             (VertexLocations{{7, {8, 2}, 10}}));
-}
-
-TEST(ModelStage, ReadsMoreTrianglesThanABatchHolds) {
-  std::string commands;
-  for (std::size_t i = 0; i < 2 * kBatchSize + 1; ++i) commands += kTriangle;
-  EXPECT_EQ(triangles_of(commands).size(), 2 * kBatchSize + 1);
 }
 
 TEST(ModelStage, AMatrixHoldsAcrossBatches) {
@@ -179,23 +125,6 @@ TEST(ModelStage, TrianglesAreTheSameByEveryPath) {
   EXPECT_EQ(fast.triangles, slow.triangles);
   EXPECT_EQ(fast.numbers, slow.numbers);
   EXPECT_EQ(fast.locations, slow.locations);
-}
-
-TEST(ModelStage, PopWithoutPushIsAnErrorAtThePop) {
-  EXPECT_EQ(error_of("push\npop\n  pop\n"),
-            "scene.txt:7:3: expected a matrix that 'push' has saved, found 'pop' without one");
-}
-
-TEST(ModelStage, AnImageBeyondADoublesRangeIsAnErrorAtTheVertex) {
-  EXPECT_EQ(
-      error_of("scale 1e200 1 1\nscale 1e200 1 1\ntriangle\n0 0 0\n1 0 0\n0 0 0\n"),
-      "scene.txt:9:1: expected a vertex whose image is within a double's range, found an overflow of its x");
-}
-
-TEST(ModelStage, ALargeTransformThatIsTakenBackIsFine) {
-  const auto vertices =
-      first_vertices_of("scale 1e200 1 1\nscale 1e200 1 1\nscale 1e-200 1 1\nscale 1e-200 1 1\n" + kTriangle);
-  EXPECT_NEAR(vertices.at(0).x, 1, 1e-15);
 }
 
 TEST(ModelStage, DeliversTheTrianglesBeforeAnError) {

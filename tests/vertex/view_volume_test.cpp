@@ -16,46 +16,10 @@ std::optional<UnseenPlace> place_of(const Triangle& p_view, double clip_inset = 
   return ViewVolume(kSimple, clip_inset).outside(p_view);
 }
 
-TEST(ViewVolume, ATriangleInViewHasNoPartToName) {
-  EXPECT_EQ(place_of(triangle_at(-2, -2, -2)), std::nullopt);
-  EXPECT_EQ(place_of({Vec3{-9, -9, -2}, Vec3{9, -9, -2}, Vec3{0, 99, -2}}), std::nullopt);  // covers it all
-}
-
-TEST(ViewVolume, NamesThePlane) {
-  EXPECT_EQ(place_of(triangle_at(0, 1, 2)), UnseenPlace::behind);
-  EXPECT_EQ(place_of(triangle_at(-0.5, 1, 2)), UnseenPlace::near);
-  EXPECT_EQ(place_of(triangle_at(-101, -102, -103)), UnseenPlace::far);
-  EXPECT_EQ(place_of({Vec3{-3, 0, -2}, Vec3{-4, 0, -2}, Vec3{-3, 1, -2}}), UnseenPlace::left);
-  EXPECT_EQ(place_of({Vec3{3, 0, -2}, Vec3{4, 0, -2}, Vec3{3, 1, -2}}), UnseenPlace::right);
-  EXPECT_EQ(place_of({Vec3{0, -3, -2}, Vec3{1, -3, -2}, Vec3{0, -4, -2}}), UnseenPlace::below);
-  EXPECT_EQ(place_of({Vec3{0, 3, -2}, Vec3{1, 3, -2}, Vec3{0, 4, -2}}), UnseenPlace::above);
-}
-
-TEST(ViewVolume, OfTwoPlanesTheFirstCounts) {
-  EXPECT_EQ(place_of({Vec3{3, 3, -2}, Vec3{4, 3, -2}, Vec3{3, 4, -2}}), UnseenPlace::right);
-  EXPECT_EQ(place_of({Vec3{300, 0, -101}, Vec3{400, 0, -101}, Vec3{300, 1, -101}}), UnseenPlace::far);
-}
-
-TEST(ViewVolume, PastAnEdgeThePlaneThatTakesTheLastOfItCounts) {
-  // Crosses the planes right and top, but not the volume.
-  EXPECT_EQ(place_of({Vec3{0, 5, -2}, Vec3{5, 0, -2}, Vec3{5, 5, -2}}), UnseenPlace::above);
-  EXPECT_EQ(place_of({Vec3{0, 3, -2}, Vec3{3, 0, -2}, Vec3{3, 3, -2}}), std::nullopt);
-}
-
-TEST(ViewVolume, TheBorderIsInside) {
-  EXPECT_EQ(place_of({Vec3{2, 0, -2}, Vec3{2, 1, -2}, Vec3{2, 0, -3}}), std::nullopt);
-}
-
 TEST(ViewVolume, AnInsetPullsInThePlanes) {
   const Triangle at_the_right = {Vec3{1.9, 0, -2}, Vec3{1.95, 0, -2}, Vec3{1.9, 0.1, -2}};
   EXPECT_EQ(place_of(at_the_right), std::nullopt);
   EXPECT_EQ(place_of(at_the_right, 0.1), UnseenPlace::right);
-}
-
-TEST(ViewVolume, AParallelProjectionHasNoBehind) {
-  const ProjectionTransform parallel = {false, 1, 0, 1, 0, -1, 100};
-  EXPECT_EQ(ViewVolume(parallel).outside(triangle_at(0.5, 0.5, 0.5)), std::nullopt);
-  EXPECT_EQ(ViewVolume(parallel).outside(triangle_at(2, 2, 2)), UnseenPlace::near);
 }
 
 TEST(ViewVolume, DropsWhatTheStageDrops) {
