@@ -91,30 +91,40 @@ TEST(Appearance, TheCurrentColorGoesWithNormalsInEitherOrder) {
   }
 }
 
-TEST(Appearance, ColorsLieFrom0To255) {
-  EXPECT_EQ(error_of_appearance("color 0 256 0\n"),
-            "scene.txt:5:9: expected the green of the color from 0 to 255, found '256'");
-  EXPECT_EQ(error_of_appearance("background\n-1 0 0\n"),
-            "scene.txt:6:1: expected the red of the background from 0 to 255, found '-1'");
-  EXPECT_EQ(error_of_appearance("attributes color\ntriangle 0 0 0 0 0 300\n"),
-            "scene.txt:6:20: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes "
-            "color') from 0 to 255, found '300'");
-}
-
-TEST(Appearance, AVertexHasAllColumnsAndNoMore) {
-  EXPECT_EQ(error_of_appearance("attributes normal\ntriangle\n0 0 0\n"),
-            "scene.txt:7:6: expected the normal's x of vertex 1 of 3 (x y z nx ny nz, by the line "
-            "'attributes normal'), found the end of the line");
-  EXPECT_EQ(error_of_appearance("attributes color\ntriangle\n0 0 0 1 2 3\n0 0 0 1 2 3 4\n"),
-            "scene.txt:8:13: expected the end of the line after vertex 2 of 3 (x y z r g b, by the line "
-            "'attributes color'), found '4'");
-  EXPECT_EQ(error_of_appearance("color 1 2 3\ntriangle\n0 0 0 1 2 3\n"),
-            "scene.txt:7:7: expected the end of the line after vertex 1 of 3 (x y z), found '1'");
-}
-
-TEST(Appearance, ANormalIsNotZero) {
-  EXPECT_EQ(error_of_appearance("attributes normal\ntriangle\n0 0 0 0 0 0\n"),
-            "scene.txt:7:7: expected a normal of vertex 1 of 3 other than 0 0 0, found 0 0 0");
+TEST(Appearance, NamesWhatIsWrong) {
+  const Refusal refusals[] = {
+      {"color 0 256 0\n", "5:9: expected the green of the color from 0 to 255, found '256'"},
+      {"background\n-1 0 0\n", "6:1: expected the red of the background from 0 to 255, found '-1'"},
+      {"attributes color\ntriangle 0 0 0 0 0 300\n",
+       "6:20: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes color') from 0 to "
+       "255, found '300'"},
+      {"attributes normal\ntriangle\n0 0 0\n",
+       "7:6: expected the normal's x of vertex 1 of 3 (x y z nx ny nz, by the line 'attributes normal'), "
+       "found the end of the line"},
+      {"attributes color\ntriangle\n0 0 0 1 2 3\n0 0 0 1 2 3 4\n",
+       "8:13: expected the end of the line after vertex 2 of 3 (x y z r g b, by the line 'attributes "
+       "color'), found '4'"},
+      {"color 1 2 3\ntriangle\n0 0 0 1 2 3\n",
+       "7:7: expected the end of the line after vertex 1 of 3 (x y z), found '1'"},
+      {"attributes normal\ntriangle\n0 0 0 0 0 0\n",
+       "7:7: expected a normal of vertex 1 of 3 other than 0 0 0, found 0 0 0"},
+      {"material 1 1 0 1\nuse 1\nmaterial 1 1 0 1\n",
+       "6:5: expected the number of a material above, a whole number below 1, found '1'"},
+      {"use 0\n" + kTriangleLines + "use\n-1\n",
+       "11:1: expected the number of a material above, a whole number below 1, found '-1'"},
+      {"ambient 1 1 1\nambient 1 1 1\n",
+       "6:1: expected one 'ambient', found a second one after scene.txt:5:9"},
+      {"light 0 0 0 1 1 -1\n", "5:17: expected the blue of the light of at least 0, found '-1'"},
+      {"material 1 -1 0 1\n", "5:12: expected the diffuse factor of at least 0, found '-1'"},
+      {"material 1 1 0 1.5\n", "5:16: expected the shininess, a whole number below 2^64, found '1.5'"},
+      {"attenuation 0 0 0\n", "5:13: expected an attenuation other than 0 0 0, found 0 0 0"},
+      {kTriangleLines + "light 0 0 0 1 1 1\n",
+       "9:1: expected 'light' before the first triangle, found 'light' after it"},
+      {kTriangleLines + "color 1 2 3\n",
+       "9:1: expected 'color' or 'attributes color' before the first triangle, too, found 'color' after it"},
+  };
+  for (const auto& [text, error] : refusals)
+    EXPECT_EQ(error_of_appearance(text), "scene.txt:" + error) << text;
 }
 
 TEST(Appearance, ABackgroundMayHaveAnAlpha) {
@@ -173,30 +183,6 @@ TEST(Appearance, AttributesAndMaterialsMayStandInAnyOrder) {
   EXPECT_TRUE(scene_of("attributes normal\n" + materials).appearance.columns() == both);
 }
 
-TEST(Appearance, AMaterialIsUsedBelowItsLine) {
-  EXPECT_EQ(error_of_appearance("material 1 1 0 1\nuse 1\nmaterial 1 1 0 1\n"),
-            "scene.txt:6:5: expected the number of a material above, a whole number below 1, found '1'");
-  EXPECT_EQ(error_of_appearance("use 0\n" + kTriangleLines + "use\n-1\n"),
-            "scene.txt:11:1: expected the number of a material above, a whole number below 1, found '-1'");
-}
-
-TEST(Appearance, OnlyLightsAndMaterialsMayBeMany) {
-  EXPECT_EQ(error_of_appearance("ambient 1 1 1\nambient 1 1 1\n"),
-            "scene.txt:6:1: expected one 'ambient', found a second one after scene.txt:5:9");
-}
-
-TEST(Appearance, IntensitiesAndFactorsAreNotNegative) {
-  EXPECT_EQ(error_of_appearance("light 0 0 0 1 1 -1\n"),
-            "scene.txt:5:17: expected the blue of the light of at least 0, found '-1'");
-  EXPECT_EQ(error_of_appearance("material 1 -1 0 1\n"),
-            "scene.txt:5:12: expected the diffuse factor of at least 0, found '-1'");
-}
-
-TEST(Appearance, TheShininessIsWhole) {
-  EXPECT_EQ(error_of_appearance("material 1 1 0 1.5\n"),
-            "scene.txt:5:16: expected the shininess, a whole number below 2^64, found '1.5'");
-}
-
 TEST(Appearance, AWholeShininessMayBeWrittenWithDecimals) {
   const auto shininess_of = [](const std::string& number) {
     return scene_of("material 1 1 0 " + number + "\n").appearance.materials.at(0).value.shininess;
@@ -211,19 +197,6 @@ TEST(Appearance, AShininessIsBelowTwoToThe64) {
   for (const std::string number : {"18446744073709551616", "1e20", "1e999", "-1.0", "nan", "16.5"})
     EXPECT_EQ(error_of_appearance("material 1 1 0 " + number + "\n"),
               "scene.txt:5:16: expected the shininess, a whole number below 2^64, found '" + number + "'");
-}
-
-TEST(Appearance, AnAttenuationIsNotAllZero) {
-  EXPECT_EQ(error_of_appearance("attenuation 0 0 0\n"),
-            "scene.txt:5:13: expected an attenuation other than 0 0 0, found 0 0 0");
-}
-
-TEST(Appearance, IsFixedByTheFirstTriangle) {
-  EXPECT_EQ(error_of_appearance(kTriangleLines + "light 0 0 0 1 1 1\n"),
-            "scene.txt:9:1: expected 'light' before the first triangle, found 'light' after it");
-  EXPECT_EQ(error_of_appearance(kTriangleLines + "color 1 2 3\n"),
-            "scene.txt:9:1: expected 'color' or 'attributes color' before the first triangle, too, found "
-            "'color' after it");
 }
 
 }  // namespace

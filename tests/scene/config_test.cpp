@@ -64,43 +64,39 @@ TEST(Config, PixelCentersLieHalfAPixelInsideTheLimits) {
   EXPECT_EQ(viewport.top_y(), 0.75);
 }
 
-TEST(Config, AnEmptyFileIsAnError) {
-  EXPECT_EQ(error_of_config(""),
-            "config.txt:1:1: expected the width and height in pixels, found the end of the input");
-  EXPECT_EQ(error_of_config("\n# nothing\n"),
-            "config.txt:3:1: expected the width and height in pixels, found the end of the input");
-}
-
-TEST(Config, SizesAreWholeNumbersFromOneTo65535) {
-  const std::string expected_width = "expected the width in pixels, a whole number from 1 to 65535, found ";
-  const std::string expected_height = "expected the height in pixels, a whole number from 1 to 65535, found ";
-  EXPECT_EQ(error_of_config("0 500"), "config.txt:1:1: " + expected_width + "'0'");
-  EXPECT_EQ(error_of_config(" 65536 500"), "config.txt:1:2: " + expected_width + "'65536'");
-  EXPECT_EQ(error_of_config("99999999999999999999 500"),
-            "config.txt:1:1: " + expected_width + "'99999999999999999999'");
-  EXPECT_EQ(error_of_config("500 0"), "config.txt:1:5: " + expected_height + "'0'");
-  EXPECT_EQ(error_of_config("500 -5"), "config.txt:1:5: " + expected_height + "'-5'");
-  EXPECT_EQ(error_of_config("500 500.0"), "config.txt:1:5: " + expected_height + "'500.0'");
-  EXPECT_EQ(error_of_config("500"), "config.txt:1:4: " + expected_height + "the end of the line");
-  EXPECT_EQ(error_of_config("500 500 500"),
-            "config.txt:1:9: expected the end of the line after the height, found '500'");
-}
-
-TEST(Config, LeftIsANegativeNumber) {
-  const std::string expected = "expected the left limit of X, a negative number, found ";
-  EXPECT_EQ(error_of_config("500 500\n1\n-1\n0 2"), "config.txt:2:1: " + expected + "'1'");
-  EXPECT_EQ(error_of_config("500 500\n0\n-1\n0 2"), "config.txt:2:1: " + expected + "'0'");
-  EXPECT_EQ(error_of_config("500 500\n-0\n-1\n0 2"), "config.txt:2:1: " + expected + "'-0'");
-  EXPECT_EQ(error_of_config("500 500\n -nan\n-1\n0 2"), "config.txt:2:2: " + expected + "'-nan'");
-  EXPECT_EQ(error_of_config("500 500\n-1 -1\n0 2"),
-            "config.txt:2:4: expected the end of the line after the left limit of X, found '-1'");
-}
-
-TEST(Config, BottomIsANegativeNumber) {
-  EXPECT_EQ(error_of_config("500 500\n-1\n0.5\n0 2"),
-            "config.txt:3:1: expected the bottom limit of Y, a negative number, found '0.5'");
-  EXPECT_EQ(error_of_config("500 500\n-1\n"),
-            "config.txt:3:1: expected the bottom limit of Y, found the end of the input");
+TEST(Config, NamesWhatIsWrong) {
+  const Refusal refusals[] = {
+      {"", "1:1: expected the width and height in pixels, found the end of the input"},
+      {"\n# nothing\n", "3:1: expected the width and height in pixels, found the end of the input"},
+      {"0 500", "1:1: expected the width in pixels, a whole number from 1 to 65535, found '0'"},
+      {" 65536 500", "1:2: expected the width in pixels, a whole number from 1 to 65535, found '65536'"},
+      {"99999999999999999999 500",
+       "1:1: expected the width in pixels, a whole number from 1 to 65535, found '99999999999999999999'"},
+      {"500 0", "1:5: expected the height in pixels, a whole number from 1 to 65535, found '0'"},
+      {"500 -5", "1:5: expected the height in pixels, a whole number from 1 to 65535, found '-5'"},
+      {"500 500.0", "1:5: expected the height in pixels, a whole number from 1 to 65535, found '500.0'"},
+      {"500",
+       "1:4: expected the height in pixels, a whole number from 1 to 65535, found the end of the line"},
+      {"500 500 500", "1:9: expected the end of the line after the height, found '500'"},
+      {"500 500\n1\n-1\n0 2", "2:1: expected the left limit of X, a negative number, found '1'"},
+      {"500 500\n0\n-1\n0 2", "2:1: expected the left limit of X, a negative number, found '0'"},
+      {"500 500\n-0\n-1\n0 2", "2:1: expected the left limit of X, a negative number, found '-0'"},
+      {"500 500\n -nan\n-1\n0 2", "2:2: expected the left limit of X, a negative number, found '-nan'"},
+      {"500 500\n-1 -1\n0 2", "2:4: expected the end of the line after the left limit of X, found '-1'"},
+      {"500 500\n-1\n0.5\n0 2", "3:1: expected the bottom limit of Y, a negative number, found '0.5'"},
+      {"500 500\n-1\n", "3:1: expected the bottom limit of Y, found the end of the input"},
+      {"500 500\n-1\n-1\n2 0",
+       "4:3: expected the rear limit of Z, a number greater than the front limit, found '0'"},
+      {"500 500\n-1\n-1\n2 2",
+       "4:3: expected the rear limit of Z, a number greater than the front limit, found '2'"},
+      {"500 500\n-1\n-1\n2",
+       "4:2: expected the rear limit of Z, a number greater than the front limit, found the end of the line"},
+      {"500 500\n-1\n-1\nfront 2", "4:1: expected the front limit of Z, found 'front'"},
+      {"500 500\n-1\n-1\n", "4:1: expected the front and rear limits of Z, found the end of the input"},
+      {"500 500\n-1\n-1\n0 2 4", "4:5: expected the end of the line after the rear limit of Z, found '4'"},
+      {"500 500\n-1\n-1\n0 2\n\n  3", "6:3: expected nothing after the limits of Z, found '3'"},
+  };
+  for (const auto& [text, error] : refusals) EXPECT_EQ(error_of_config(text), "config.txt:" + error) << text;
 }
 
 TEST(Config, LimitsWhosePixelsADoubleCannotTellApartAreErrors) {
@@ -111,24 +107,6 @@ TEST(Config, LimitsWhosePixelsADoubleCannotTellApartAreErrors) {
       "config.txt:3:1: expected the bottom limit of Y, a number from -1e200 to -1e-200, found '-1e-201'");
   EXPECT_EQ(numbers_of("500 500\n-1e200\n-1e-200\n0 2"),
             (std::vector<double>{500, 500, -1e200, -1e-200, 0, 2}));
-}
-
-TEST(Config, FrontLiesBeforeRear) {
-  const std::string expected = "expected the rear limit of Z, a number greater than the front limit, found ";
-  EXPECT_EQ(error_of_config("500 500\n-1\n-1\n2 0"), "config.txt:4:3: " + expected + "'0'");
-  EXPECT_EQ(error_of_config("500 500\n-1\n-1\n2 2"), "config.txt:4:3: " + expected + "'2'");
-  EXPECT_EQ(error_of_config("500 500\n-1\n-1\n2"), "config.txt:4:2: " + expected + "the end of the line");
-  EXPECT_EQ(error_of_config("500 500\n-1\n-1\nfront 2"),
-            "config.txt:4:1: expected the front limit of Z, found 'front'");
-  EXPECT_EQ(error_of_config("500 500\n-1\n-1\n"),
-            "config.txt:4:1: expected the front and rear limits of Z, found the end of the input");
-  EXPECT_EQ(error_of_config("500 500\n-1\n-1\n0 2 4"),
-            "config.txt:4:5: expected the end of the line after the rear limit of Z, found '4'");
-}
-
-TEST(Config, NothingFollowsTheLimits) {
-  EXPECT_EQ(error_of_config("500 500\n-1\n-1\n0 2\n\n  3"),
-            "config.txt:6:3: expected nothing after the limits of Z, found '3'");
 }
 
 TEST(ParseSize, IsAViewportWithoutLimits) {

@@ -12,10 +12,6 @@ namespace {
 
 const std::string kTriangle = "0 0 0\n1 0 0\n0 1 0\n\n";
 
-std::vector<std::uint64_t> numbers_of(const std::string& text) {
-  return triangles_of(text).numbers;
-}
-
 StageHeader header_of(const std::string& text) {
   const TextFile file(text);
   TextReader reader(file.descriptor(), "in.txt");
@@ -24,10 +20,6 @@ StageHeader header_of(const std::string& text) {
 
 std::string error_of(const std::string& text) {
   return message_of([&] { triangles_of(text); });
-}
-
-TEST(StageReader, AnEmptyTextHasNoTriangles) {
-  EXPECT_EQ(triangles_of("").size(), 0u);
 }
 
 TEST(StageReader, AnEmptyTextHasAnEmptyHeader) {
@@ -146,16 +138,27 @@ TEST(StageReader, KeepsTheDigitsADoubleHasNoRoomForOfAnyTriangle) {
   EXPECT_EQ(batch.decimal_marks, (std::vector<std::uint16_t>(3, 0x1ff)));
 }
 
-TEST(StageReader, TheLastTriangleNeedsNoBlankLine) {
-  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 0").size(), 1u);
+TEST(StageReader, TakesTextsWithAndWithoutBlankLinesAndAFrame) {
+  const std::pair<std::string, std::size_t> texts[] = {
+      {"", 0},
+      {"0 0 0\n1 0 0\n0 1 0", 1},
+      {"0 0 0\n1 0 0\n0 1 0\n0 0 0\n1 0 0\n0 1 0\n", 2},
+      {"\n\n" + kTriangle + "\n \t\r\n" + kTriangle + "\n\n", 2},
+      {"framed\nend\n", 0},
+      {"framed\n" + kTriangle + "end\n", 1},
+      {"framed\n" + kTriangle + "end # c\n\n# d\n", 1},
+  };
+  for (const auto& [text, count] : texts) EXPECT_EQ(triangles_of(text).size(), count) << text;
 }
 
-TEST(StageReader, TrianglesNeedNoBlankLineBetweenThem) {
-  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 0\n0 0 0\n1 0 0\n0 1 0\n").size(), 2u);
-}
-
-TEST(StageReader, BlankLinesMayStandBetweenTriangles) {
-  EXPECT_EQ(triangles_of("\n\n" + kTriangle + "\n \t\r\n" + kTriangle + "\n\n").size(), 2u);
+TEST(StageReader, NumbersTrianglesFromZeroOrAsTheTextSays) {
+  const std::pair<std::string, std::vector<std::uint64_t>> texts[] = {
+      {kTriangle + kTriangle + kTriangle, {0, 1, 2}},
+      {kTriangle + "triangle 5\n" + kTriangle + kTriangle + "triangle 2\n" + kTriangle, {0, 5, 6, 2}},
+      {"triangle 5 # c\n\n" + kTriangle, {5}},
+      {"triangle 18446744073709551615\n" + kTriangle, {18446744073709551615u}},
+  };
+  for (const auto& [text, numbers] : texts) EXPECT_EQ(triangles_of(text).numbers, numbers) << text;
 }
 
 TEST(StageReader, CommentsMayStandAnywhere) {
@@ -215,14 +218,11 @@ TEST(StageReader, HeaderLinesStandInAnyOrder) {
   EXPECT_EQ(std::get<Perspective>(header.camera.projection->value).near, 0.5);
 }
 
-TEST(StageReader, HeadersMayHoldAFrustum) {
+TEST(StageReader, HeadersMayHoldAFrustumOrAnOrthographicProjection) {
   const auto frustum = std::get<Frustum>(header_of("frustum -1 2 -3 4 5 6\n").camera.projection->value);
   EXPECT_EQ(
       (std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
       (std::vector<double>{-1, 2, -3, 4, 5, 6}));
-}
-
-TEST(StageReader, HeadersMayHoldAnOrthographicProjection) {
   const auto ortho = std::get<Orthographic>(header_of("ortho -1 2 -3 4 -5 6\n").camera.projection->value);
   EXPECT_EQ((std::vector{ortho.left, ortho.right, ortho.bottom, ortho.top, ortho.near, ortho.far}),
             (std::vector<double>{-1, 2, -3, 4, -5, 6}));
@@ -260,45 +260,83 @@ TEST(StageReader, KnowsWhetherThereIsMoreThanAHeader) {
   }
 }
 
-TEST(StageReader, EachHeaderLineStandsAtMostOnce) {
-  EXPECT_EQ(error_of("eye 0 0 5\n\neye 0 0 5\n"),
-            "in.txt:3:1: expected one eye, found a second one after in.txt:1:5");
-  EXPECT_EQ(error_of("framed\n  framed\n"),
-            "in.txt:2:3: expected one 'framed', found a second one after in.txt:1:1");
-}
-
-TEST(StageReader, AHeaderHoldsOneProjection) {
-  EXPECT_EQ(error_of("perspective 60 1 1 100\northo -1 1 -1 1 1 9\n"),
-            "in.txt:2:1: expected one projection, found a second one after in.txt:1:13");
-}
-
-TEST(StageReader, NamesTheNumberThatIsWrongInAHeaderLine) {
-  EXPECT_EQ(error_of("eye 0 x 5\n"), "in.txt:1:7: expected the y of the eye, found 'x'");
-  EXPECT_EQ(error_of("look 0 0\n"),
-            "in.txt:1:9: expected the z of the point looked at, found the end of the line");
-  EXPECT_EQ(error_of("up 0 1 0 0\n"),
-            "in.txt:1:10: expected the end of the line after the z of the up direction, found '0'");
-  EXPECT_EQ(error_of("perspective 60 1 nan 100\n"), "in.txt:1:18: expected near, found 'nan'");
-  EXPECT_EQ(error_of("framed 1\n"), "in.txt:1:8: expected the end of the line after 'framed', found '1'");
-}
-
-TEST(StageReader, TheCameraInAHeaderMakesSense) {
-  EXPECT_EQ(error_of("look 0 0 5\neye 0 0 5\n"),
-            "in.txt:1:6: expected a point other than the eye to look at, found 0 0 5");
-  EXPECT_EQ(error_of("perspective 60 1 2 1\n"), "in.txt:1:20: expected far beyond near, found '1'");
-}
-
-TEST(StageReader, AHeaderLineBehindTheFirstTriangleIsAnError) {
-  EXPECT_EQ(error_of(kTriangle + "eye 0 0 5\n"),
-            "in.txt:5:1: expected header lines before the first triangle, found 'eye'");
-  EXPECT_EQ(error_of("triangle 1\nframed\n"),
-            "in.txt:2:1: expected header lines before the first triangle, found 'framed'");
-}
-
-TEST(StageReader, NamesAKeywordItDoesNotKnow) {
-  EXPECT_EQ(error_of("eyes 0 0 5\n"),
-            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes' (did you mean eye?)");
-  EXPECT_EQ(error_of(kTriangle + "quad\n"), "in.txt:5:1: expected 'triangle N' or a vertex, found 'quad'");
+TEST(StageReader, NamesWhatIsWrong) {
+  const Refusal refusals[] = {
+      {"eye 0 0 5\n\neye 0 0 5\n", "3:1: expected one eye, found a second one after in.txt:1:5"},
+      {"framed\n  framed\n", "2:3: expected one 'framed', found a second one after in.txt:1:1"},
+      {"perspective 60 1 1 100\northo -1 1 -1 1 1 9\n",
+       "2:1: expected one projection, found a second one after in.txt:1:13"},
+      {"eye 0 x 5\n", "1:7: expected the y of the eye, found 'x'"},
+      {"look 0 0\n", "1:9: expected the z of the point looked at, found the end of the line"},
+      {"up 0 1 0 0\n", "1:10: expected the end of the line after the z of the up direction, found '0'"},
+      {"perspective 60 1 nan 100\n", "1:18: expected near, found 'nan'"},
+      {"framed 1\n", "1:8: expected the end of the line after 'framed', found '1'"},
+      {"look 0 0 5\neye 0 0 5\n", "1:6: expected a point other than the eye to look at, found 0 0 5"},
+      {"perspective 60 1 2 1\n", "1:20: expected far beyond near, found '1'"},
+      {kTriangle + "eye 0 0 5\n", "5:1: expected header lines before the first triangle, found 'eye'"},
+      {"triangle 1\nframed\n", "2:1: expected header lines before the first triangle, found 'framed'"},
+      {"eyes 0 0 5\n",
+       "1:1: expected a header line, 'triangle N' or a vertex, found 'eyes' (did you mean eye?)"},
+      {kTriangle + "quad\n", "5:1: expected 'triangle N' or a vertex, found 'quad'"},
+      {"triangle -1\n" + kTriangle,
+       "1:10: expected the number of a triangle, a whole number below 2^64, found '-1'"},
+      {"triangle\n" + kTriangle,
+       "1:9: expected the number of a triangle, a whole number below 2^64, found the end of the line"},
+      {"triangle 18446744073709551616\n",
+       "1:10: expected the number of a triangle, a whole number below 2^64, found '18446744073709551616'"},
+      {"triangle 1 2\n", "1:12: expected the end of the line after the number of a triangle, found '2'"},
+      {"0 0 0\ntriangle 1\n1 0 0\n0 1 0\n", "2:1: expected the x of vertex 2 of 3, found 'triangle'"},
+      {"0 0 0\n\n1 0 0\n0 1 0\n", "2:1: expected vertex 2 of 3, found a blank line inside a triangle"},
+      {"0 0 0\n1 0 0\n \t\r\n0 1 0\n", "3:1: expected vertex 3 of 3, found a blank line inside a triangle"},
+      {"0 0 0\n", "2:1: expected vertex 2 of 3, found the end of the input inside a triangle"},
+      {kTriangle + "0 0 0\n1 0 0\n# c",
+       "8:1: expected vertex 3 of 3, found the end of the input inside a triangle"},
+      {"0 0 0\n1 0,5 0\n0 1 0\n",
+       "2:3: expected the y of vertex 2 of 3, found '0,5' (decimals have a point, and blanks stand between "
+       "numbers)"},
+      {"-nan 0 0\n", "1:1: expected the x of vertex 1 of 3, found '-nan'"},
+      {"0 0 0\n1 0 0\n0 1\n", "3:4: expected the z of vertex 3 of 3, found the end of the line"},
+      {"0 0 0\n1 0 0\n0 1 1e309\n",
+       "3:5: expected the z of vertex 3 of 3 within a double's range, found '1e309'"},
+      {"0 0 0 1\n", "1:7: expected the end of the line after the z of vertex 1 of 3, found '1'"},
+      {"0 0 0\n1 0 0\nend\n", "3:1: expected the x of vertex 3 of 3, found 'end'"},
+      {"0 0 0\nnan 0 0\n", "2:1: expected the x of vertex 2 of 3, found 'nan'"},
+      {"inf 0 0\n", "1:1: expected a header line, 'triangle N' or a vertex, found 'inf'"},
+      {"eye 0 0 5\nerror model: scene.txt:7:1: expected X, found 'Y'\n",
+       "2:1: an earlier stage failed: model: scene.txt:7:1: expected X, found 'Y'"},
+      {"error model: cannot open a#b.txt: No such file or directory\n",
+       "1:1: an earlier stage failed: model: cannot open a#b.txt: No such file or directory"},
+      {"error a: b\n", "1:1: an earlier stage failed: a: b"},
+      {"framed\nerror a: b\n", "2:1: an earlier stage failed: a: b"},
+      {kTriangle + "error a: b\n", "5:1: an earlier stage failed: a: b"},
+      {"triangle 2\nerror a: b", "2:1: an earlier stage failed: a: b"},
+      {"0 0 0\nerror a: b\n", "2:1: an earlier stage failed: a: b"},
+      {"0 0 0\n1 0 0\n# c\nerror a: b\n", "4:1: an earlier stage failed: a: b"},
+      {"framed\nend\nerror a: b\n", "3:1: an earlier stage failed: a: b"},
+      {"error a: b\nnonsense\n", "1:1: an earlier stage failed: a: b"},
+      {"error\n", "1:1: an earlier stage failed, without saying why"},
+      {"framed\n" + kTriangle, "6:1: expected 'end', which closes a framed text, found the end of the input"},
+      {"framed\n" + kTriangle + "end",
+       "6:4: expected the end of the line after 'end', which closes a framed text, found the end of the "
+       "input"},
+      {"framed\nend\n" + kTriangle, "3:1: expected nothing after 'end', found '0'"},
+      {"framed\nend 1\n", "2:5: expected the end of the line after 'end', found '1'"},
+      {kTriangle + "end\n",
+       "5:1: expected 'triangle N' or a vertex ('end' needs a line 'framed' in the header), found 'end'"},
+      {"attributes w color\n0 0 0 1 2 3\n",
+       "2:12: expected the blue of vertex 1 of 3 (x y z w r g b, by the line 'attributes w color'), found "
+       "the end of the line"},
+      {"attributes w\n0 0 0 1 2\n",
+       "2:9: expected the end of the line after vertex 1 of 3 (x y z w, by the line 'attributes w'), found "
+       "'2'"},
+      {"attributes w\n0 0 0 -1\n",
+       "2:7: expected the w of vertex 1 of 3 (x y z w, by the line 'attributes w') above 0, found '-1'"},
+      {"attributes normal color\n",
+       "1:19: expected attributes of [w] [color] [normal] [material], in this order, found 'color'"},
+      {kTriangle + "light 0 0 0 1 1 1\n",
+       "5:1: expected header lines before the first triangle, found 'light'"},
+  };
+  for (const auto& [text, error] : refusals) EXPECT_EQ(error_of(text), "in.txt:" + error) << text;
 }
 
 TEST(StageReader, ReportsAnErrorBeforeTheFirstTriangleAtOnce) {
@@ -323,86 +361,7 @@ TEST(StageReader, TheHeaderOfAnEmptyTextEndsAtItsStart) {
   EXPECT_EQ(to_string(StageReader(reader).header_end()), "in.txt:1:1");
 }
 
-// Triangle numbers.
-
-TEST(StageReader, CountsTrianglesFromZero) {
-  EXPECT_EQ(numbers_of(kTriangle + kTriangle + kTriangle), (std::vector<std::uint64_t>{0, 1, 2}));
-}
-
-TEST(StageReader, CountsOnFromTheNumberOfATriangle) {
-  EXPECT_EQ(numbers_of(kTriangle + "triangle 5\n" + kTriangle + kTriangle + "triangle 2\n" + kTriangle),
-            (std::vector<std::uint64_t>{0, 5, 6, 2}));
-}
-
-TEST(StageReader, BlankLinesMayFollowTheNumberOfATriangle) {
-  EXPECT_EQ(numbers_of("triangle 5 # c\n\n" + kTriangle), std::vector<std::uint64_t>{5});
-}
-
-TEST(StageReader, TakesTheLargestNumber) {
-  EXPECT_EQ(numbers_of("triangle 18446744073709551615\n" + kTriangle),
-            std::vector<std::uint64_t>{18446744073709551615u});
-}
-
-TEST(StageReader, ANumberOfATriangleIsAWholeNumber) {
-  EXPECT_EQ(error_of("triangle -1\n" + kTriangle),
-            "in.txt:1:10: expected the number of a triangle, a whole number below 2^64, found '-1'");
-  EXPECT_EQ(
-      error_of("triangle\n" + kTriangle),
-      "in.txt:1:9: expected the number of a triangle, a whole number below 2^64, found the end of the line");
-  EXPECT_EQ(error_of("triangle 18446744073709551616\n"),
-            "in.txt:1:10: expected the number of a triangle, a whole number below 2^64, found "
-            "'18446744073709551616'");
-  EXPECT_EQ(error_of("triangle 1 2\n"),
-            "in.txt:1:12: expected the end of the line after the number of a triangle, found '2'");
-}
-
-TEST(StageReader, ANumberStandsBeforeItsTriangleNotInsideIt) {
-  EXPECT_EQ(error_of("0 0 0\ntriangle 1\n1 0 0\n0 1 0\n"),
-            "in.txt:2:1: expected the x of vertex 2 of 3, found 'triangle'");
-}
-
 // Errors in triangles.
-
-TEST(StageReader, ABlankLineInsideATriangleIsAnError) {
-  EXPECT_EQ(error_of("0 0 0\n\n1 0 0\n0 1 0\n"),
-            "in.txt:2:1: expected vertex 2 of 3, found a blank line inside a triangle");
-  EXPECT_EQ(error_of("0 0 0\n1 0 0\n \t\r\n0 1 0\n"),
-            "in.txt:3:1: expected vertex 3 of 3, found a blank line inside a triangle");
-}
-
-TEST(StageReader, ATextThatEndsInsideATriangleIsAnError) {
-  EXPECT_EQ(error_of("0 0 0\n"),
-            "in.txt:2:1: expected vertex 2 of 3, found the end of the input inside a triangle");
-  EXPECT_EQ(error_of(kTriangle + "0 0 0\n1 0 0\n# c"),
-            "in.txt:8:1: expected vertex 3 of 3, found the end of the input inside a triangle");
-}
-
-TEST(StageReader, NamesTheNumberThatIsWrongInAVertex) {
-  EXPECT_EQ(
-      error_of("0 0 0\n1 0,5 0\n0 1 0\n"),
-      "in.txt:2:3: expected the y of vertex 2 of 3, found '0,5' (decimals have a point, and blanks stand "
-      "between numbers)");
-  EXPECT_EQ(error_of("-nan 0 0\n"), "in.txt:1:1: expected the x of vertex 1 of 3, found '-nan'");
-  EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1\n"),
-            "in.txt:3:4: expected the z of vertex 3 of 3, found the end of the line");
-  EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1 1e309\n"),
-            "in.txt:3:5: expected the z of vertex 3 of 3 within a double's range, found '1e309'");
-}
-
-TEST(StageReader, AVertexHasNoFourthNumber) {
-  EXPECT_EQ(error_of("0 0 0 1\n"),
-            "in.txt:1:7: expected the end of the line after the z of vertex 1 of 3, found '1'");
-}
-
-TEST(StageReader, AWordInsideATriangleIsAnError) {
-  EXPECT_EQ(error_of("0 0 0\n1 0 0\nend\n"), "in.txt:3:1: expected the x of vertex 3 of 3, found 'end'");
-  EXPECT_EQ(error_of("0 0 0\nnan 0 0\n"), "in.txt:2:1: expected the x of vertex 2 of 3, found 'nan'");
-}
-
-TEST(StageReader, NamesANumberThatIsNone) {
-  EXPECT_EQ(error_of("inf 0 0\n"),
-            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'inf'");
-}
 
 TEST(StageReader, DeliversTheTrianglesBeforeAnError) {
   const TextFile file(kTriangle + kTriangle + "0 0 x\n");
@@ -414,77 +373,13 @@ TEST(StageReader, DeliversTheTrianglesBeforeAnError) {
   EXPECT_EQ(message_of([&] { stage.read(batch); }), "in.txt:9:5: expected the z of vertex 1 of 3, found 'x'");
 }
 
-// Failed stages.
-
-TEST(StageReader, AnErrorLineSaysWhatAnEarlierStageSaid) {
-  EXPECT_EQ(error_of("eye 0 0 5\nerror model: scene.txt:7:1: expected X, found 'Y'\n"),
-            "in.txt:2:1: an earlier stage failed: model: scene.txt:7:1: expected X, found 'Y'");
-}
-
-TEST(StageReader, AnErrorLineMayHoldANumberSign) {
-  EXPECT_EQ(error_of("error model: cannot open a#b.txt: No such file or directory\n"),
-            "in.txt:1:1: an earlier stage failed: model: cannot open a#b.txt: No such file or directory");
-}
-
-TEST(StageReader, AnErrorLineMayStandAnywhere) {
-  EXPECT_EQ(error_of("error a: b\n"), "in.txt:1:1: an earlier stage failed: a: b");
-  EXPECT_EQ(error_of("framed\nerror a: b\n"), "in.txt:2:1: an earlier stage failed: a: b");
-  EXPECT_EQ(error_of(kTriangle + "error a: b\n"), "in.txt:5:1: an earlier stage failed: a: b");
-  EXPECT_EQ(error_of("triangle 2\nerror a: b"), "in.txt:2:1: an earlier stage failed: a: b");
-  EXPECT_EQ(error_of("0 0 0\nerror a: b\n"), "in.txt:2:1: an earlier stage failed: a: b");
-  EXPECT_EQ(error_of("0 0 0\n1 0 0\n# c\nerror a: b\n"), "in.txt:4:1: an earlier stage failed: a: b");
-  EXPECT_EQ(error_of("framed\nend\nerror a: b\n"), "in.txt:3:1: an earlier stage failed: a: b");
-}
-
-TEST(StageReader, AnErrorLineStopsTheReaderBeforeWhatFollows) {
-  EXPECT_EQ(error_of("error a: b\nnonsense\n"), "in.txt:1:1: an earlier stage failed: a: b");
-}
-
-TEST(StageReader, AnErrorLineMayBeEmpty) {
-  EXPECT_EQ(error_of("error\n"), "in.txt:1:1: an earlier stage failed, without saying why");
-}
-
 // Framed text.
-
-TEST(StageReader, AFramedTextEndsWithEnd) {
-  EXPECT_EQ(triangles_of("framed\n" + kTriangle + "end\n").size(), 1u);
-}
-
-TEST(StageReader, AFramedTextMayHoldNothing) {
-  EXPECT_EQ(triangles_of("framed\nend\n").size(), 0u);
-}
-
-TEST(StageReader, BlankLinesAndCommentsMayFollowTheEnd) {
-  EXPECT_EQ(triangles_of("framed\n" + kTriangle + "end # c\n\n# d\n").size(), 1u);
-}
 
 TEST(StageReader, EveryPrefixOfAFramedTextIsAnError) {
   const std::string text = "framed\nup 0 1 0\n" + kTriangle + "triangle 3\n" + kTriangle + "end\n";
   EXPECT_EQ(error_of(text), "no error");
   for (std::size_t length = 1; length < text.size(); ++length)
     EXPECT_NE(error_of(text.substr(0, length)), "no error") << length;
-}
-
-TEST(StageReader, AFramedTextWithoutEndIsAnError) {
-  EXPECT_EQ(error_of("framed\n" + kTriangle),
-            "in.txt:6:1: expected 'end', which closes a framed text, found the end of the input");
-}
-
-TEST(StageReader, TheEndOfAFramedTextIsACompleteLine) {
-  EXPECT_EQ(error_of("framed\n" + kTriangle + "end"),
-            "in.txt:6:4: expected the end of the line after 'end', which closes a framed text, found the end "
-            "of the input");
-}
-
-TEST(StageReader, NothingFollowsTheEndOfAFramedText) {
-  EXPECT_EQ(error_of("framed\nend\n" + kTriangle), "in.txt:3:1: expected nothing after 'end', found '0'");
-  EXPECT_EQ(error_of("framed\nend 1\n"), "in.txt:2:5: expected the end of the line after 'end', found '1'");
-}
-
-TEST(StageReader, EndIsNoWordOfATextThatIsNotFramed) {
-  EXPECT_EQ(error_of(kTriangle + "end\n"),
-            "in.txt:5:1: expected 'triangle N' or a vertex ('end' needs a line 'framed' in the header), "
-            "found 'end'");
 }
 
 TEST(StageReader, AnUnframedTextIsTakenAsItReads) {
@@ -527,24 +422,6 @@ TEST(StageReader, DoesNotWaitForTheFirstTriangleToKnowTheHeader) {
   EXPECT_TRUE(StageReader(text).header().camera.up);
 }
 
-TEST(StageReader, AVertexHasTheColumnsOfTheHeader) {
-  EXPECT_EQ(error_of("attributes w color\n0 0 0 1 2 3\n"),
-            "in.txt:2:12: expected the blue of vertex 1 of 3 (x y z w r g b, by the line 'attributes w "
-            "color'), found the end of the line");
-  EXPECT_EQ(error_of("attributes w\n0 0 0 1 2\n"),
-            "in.txt:2:9: expected the end of the line after vertex 1 of 3 (x y z w, by the line 'attributes "
-            "w'), found '2'");
-  EXPECT_EQ(error_of("attributes w\n0 0 0 -1\n"),
-            "in.txt:2:7: expected the w of vertex 1 of 3 (x y z w, by the line 'attributes w') above 0, "
-            "found '-1'");
-}
-
-TEST(StageReader, NamesAttributesItDoesNotKnow) {
-  EXPECT_EQ(
-      error_of("attributes normal color\n"),
-      "in.txt:1:19: expected attributes of [w] [color] [normal] [material], in this order, found 'color'");
-}
-
 const std::string kTwoMaterials = "attributes w material\nmaterial 1 1 0 1\nmaterial 1 1 0 2\n";
 
 TEST(StageReader, FindsAWrongMaterialBehindABlockOfTriangles) {
@@ -579,11 +456,6 @@ TEST(StageReader, APieceHasTheMaterialOfTheTriangleItWasCutFrom) {
             "in.txt:9:9: expected the material of the triangle that was clipped, 1, found '0'");
   EXPECT_EQ(error_in(pieces("1", "0")),
             "in.txt:14:9: expected the material of the triangle that was clipped, 1, found '0'");
-}
-
-TEST(StageReader, LooksStandBeforeTheFirstTriangle) {
-  EXPECT_EQ(error_of(kTriangle + "light 0 0 0 1 1 1\n"),
-            "in.txt:5:1: expected header lines before the first triangle, found 'light'");
 }
 
 }  // namespace

@@ -30,23 +30,13 @@ TEST(StageWriter, NothingIsAnEmptyText) {
   EXPECT_EQ(written({}), "");
 }
 
-TEST(StageWriter, WritesSevenDecimalsAndZeroWithoutASign) {
+TEST(StageWriter, WritesTheDecimalsAskedForAndZeroWithoutASign) {
   TriangleBatch batch;
   batch.add(kWritten, 0, {});
   EXPECT_EQ(written(batch),
             "0.0000000 -1.0000000 2.5000000\n0.0000000 0.0000000 0.0000000\n123456789.0000000 0.1234568 "
             "-3.0000000\n\n");
-}
-
-TEST(StageWriter, WritesAsManyDecimalsAsAreAskedFor) {
-  TriangleBatch batch;
-  batch.add(kWritten, 0, {});
   EXPECT_EQ(written(batch, {.decimals = 0}), "0 -1 2\n0 0 0\n123456789 0 -3\n\n");
-}
-
-TEST(StageWriter, WritesTheShortestFormWithoutASignOfZero) {
-  TriangleBatch batch;
-  batch.add(kWritten, 0, {});
   EXPECT_EQ(written(batch, {.shortest = true}), "0 -1 2.5\n0 1e-09 -1e-09\n123456789 0.12345675 -3\n\n");
 }
 
@@ -70,24 +60,16 @@ TEST(StageWriter, NamesNoAspectRuleButRatio) {
   EXPECT_EQ(written({}, {}, false, header), "perspective 60 1.5 0.5 100 ratio\n");
 }
 
-TEST(StageWriter, WritesAFrustum) {
-  StageHeader header;
-  header.camera.projection = {Frustum{-1, 2, -3, 4, 5, 6}, {}};
-  EXPECT_EQ(written({}, {}, false, header), "frustum -1 2 -3 4 5 6\n");
-}
-
-TEST(StageWriter, WritesAnOrthographicProjection) {
-  StageHeader header;
-  header.camera.projection = {Orthographic{-1, 2, -3, 4, -5, 6}, {}};
-  EXPECT_EQ(written({}, {}, false, header), "ortho -1 2 -3 4 -5 6\n");
-}
-
-TEST(StageWriter, WritesWhatWasProjected) {
-  StageHeader header;
-  header.projected = {Frustum{-1, 2, -3, 4, 5, 6}, {}};
-  EXPECT_EQ(written({}, {}, false, header), "projected frustum -1 2 -3 4 5 6\n");
-  header.projected = {Orthographic{-1, 2, -3, 4, -5, 6}, {}};
-  EXPECT_EQ(written({}, {}, false, header), "projected ortho -1 2 -3 4 -5 6\n");
+TEST(StageWriter, WritesAWindowProjectedOrNot) {
+  const Projection projections[] = {Frustum{-1, 2, -3, 4, 5, 6}, Orthographic{-1, 2, -3, 4, -5, 6}};
+  const std::string expected[] = {"frustum -1 2 -3 4 5 6\n", "ortho -1 2 -3 4 -5 6\n"};
+  for (std::size_t i = 0; i < 2; ++i) {
+    StageHeader before, after;
+    before.camera.projection = {projections[i], {}};
+    EXPECT_EQ(written({}, {}, false, before), expected[i]);
+    after.projected = {projections[i], {}};
+    EXPECT_EQ(written({}, {}, false, after), "projected " + expected[i]);
+  }
 }
 
 TEST(StageWriter, BareTextIsTrianglesAlone) {
@@ -98,23 +80,11 @@ TEST(StageWriter, BareTextIsTrianglesAlone) {
   EXPECT_EQ(written(numbered({4}), {.shortest = true}, true, header), "0 0 0\n0 0 0\n0 0 0\n\n");
 }
 
-TEST(StageWriter, WritesNoNumbersWhereCountingIsRight) {
+TEST(StageWriter, WritesNumbersWhereCountingGoesWrong) {
   EXPECT_EQ(written_numbers({0, 1, 2}), "...");
-}
-
-TEST(StageWriter, WritesANumberAfterADroppedTriangle) {
   EXPECT_EQ(written_numbers({0, 2, 3}), ".triangle 2\n..");
-}
-
-TEST(StageWriter, WritesANumberIfTheFirstTriangleIsDropped) {
   EXPECT_EQ(written_numbers({1, 2}), "triangle 1\n..");
-}
-
-TEST(StageWriter, WritesANumberBeforeEachPieceAfterTheFirst) {
   EXPECT_EQ(written_numbers({0, 0, 0, 1}), ".triangle 0\n.triangle 0\n..");
-}
-
-TEST(StageWriter, BareTextHasNoNumbers) {
   EXPECT_EQ(written_numbers({0, 0, 5}, true), "...");
 }
 

@@ -91,3 +91,8 @@ std::string message_of(Action&& action) {
   }
   return "no error";
 }
+
+/// A text that is refused, and the error without the file's name; none if the text is fine.
+struct Refusal {
+  std::string text, error;
+};

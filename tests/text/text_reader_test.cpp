@@ -52,44 +52,41 @@ double number_in(const std::string& text) {
   return line.number("a number");
 }
 
-TEST(TextReader, AnEmptyTextHasNoLines) {
-  EXPECT_EQ(lines_of(""), Lines{});
+TEST(TextReader, EndsLinesAndLeavesOutCommentsAndBlanks) {
+  const std::pair<std::string, Lines> texts[] = {
+      {"", {}},
+      {"\n", {""}},
+      {"a b\n\nc\n", {"a b", "", "c"}},
+      {"a\nb", {"a", "b"}},
+      {"a\r\n\r\nb\r\n", {"a", "", "b"}},
+      {"a\r\nb\r", {"a", "b"}},
+      {" \ta \t b\t \n \t \n", {"a \t b", ""}},
+      {"a # b\n# c\n#\nd#e # f", {"a", "", "", "d"}},
+      {"# a\r\nb", {"", "b"}},
+      {"\xEF\xBB\xBF 1\n", {"1"}},
+      {"\xEF\xBB\xBF", {}},
+      {"a\n\xEF\xBB\xBF*", {"a", "\xEF\xBB\xBF*"}},
+      {{"\0\n", 2}, {{'\0'}}},
+  };
+  for (const auto& [text, lines] : texts) EXPECT_EQ(lines_of(text), lines) << text;
 }
 
-TEST(TextReader, ANewlineAloneIsOneBlankLine) {
-  EXPECT_EQ(lines_of("\n"), Lines{""});
-}
-
-TEST(TextReader, EndsLinesAtNewlines) {
-  EXPECT_EQ(lines_of("a b\n\nc\n"), (Lines{"a b", "", "c"}));
-}
-
-TEST(TextReader, TheLastLineNeedsNoNewline) {
-  EXPECT_EQ(lines_of("a\nb"), (Lines{"a", "b"}));
-}
-
-TEST(TextReader, EndsLinesAtCarriageReturnAndNewline) {
-  EXPECT_EQ(lines_of("a\r\n\r\nb\r\n"), (Lines{"a", "", "b"}));
-}
-
-TEST(TextReader, TheLastLineMayEndWithACarriageReturn) {
-  EXPECT_EQ(lines_of("a\r\nb\r"), (Lines{"a", "b"}));
-}
-
-TEST(TextReader, ACarriageReturnInsideALineIsAPartOfAWord) {
-  EXPECT_EQ(error_of_number("1\r2"), "in.txt:1:1: expected the x of the eye, found '1\\x0d2'");
-}
-
-TEST(TextReader, DropsBlanksAroundALine) {
-  EXPECT_EQ(lines_of(" \ta \t b\t \n \t \n"), (Lines{"a \t b", ""}));
-}
-
-TEST(TextReader, LeavesOutComments) {
-  EXPECT_EQ(lines_of("a # b\n# c\n#\nd#e # f"), (Lines{"a", "", "", "d"}));
-}
-
-TEST(TextReader, ACommentDoesNotHideTheNextLine) {
-  EXPECT_EQ(lines_of("# a\r\nb"), (Lines{"", "b"}));
+TEST(LineScanner, NamesTheNumberThatIsWrong) {
+  const Refusal refusals[] = {
+      {"1\r2", "1:1: expected the x of the eye, found '1\\x0d2'"},
+      {"\xEF\xBB\xBFx", "1:1: expected the x of the eye, found 'x'"},
+      {"\xEF\xBB"
+       "1",
+       "1:1: expected the x of the eye, found '\\xef\\xbb1'"},
+      {std::string("1\0 2", 4),
+       "1:1: expected the x of the eye, found '1\\x00' (is this UTF-16? save it as UTF-8)"},
+      {"  1,5 2",
+       "1:3: expected the x of the eye, found '1,5' (decimals have a point, and blanks stand between "
+       "numbers)"},
+      {"-1e309", "1:1: expected the x of the eye within a double's range, found '-1e309'"},
+      {"  # 5", "1:1: expected the x of the eye, found the end of the line"},
+  };
+  for (const auto& [text, error] : refusals) EXPECT_EQ(error_of_number(text), "in.txt:" + error) << text;
 }
 
 TEST(TextReader, KnowsACommentFromABlankLine) {
@@ -100,45 +97,10 @@ TEST(TextReader, KnowsACommentFromABlankLine) {
   EXPECT_EQ(comments, (std::vector<bool>{true, false, false}));
 }
 
-TEST(TextReader, SkipsAByteOrderMarkAtTheStart) {
-  EXPECT_EQ(lines_of("\xEF\xBB\xBF 1\n"), Lines{"1"});
-}
-
-TEST(TextReader, CountsColumnsAfterAByteOrderMark) {
-  EXPECT_EQ(error_of_number("\xEF\xBB\xBFx"), "in.txt:1:1: expected the x of the eye, found 'x'");
-}
-
-TEST(TextReader, AByteOrderMarkAloneIsNoLine) {
-  EXPECT_EQ(lines_of("\xEF\xBB\xBF"), Lines{});
-}
-
 TEST(TextReader, AByteOrderMarkDoesNotCountTowardsTheLengthOfALine) {
   const std::string longest(kMaxLineLength, 'x');
   EXPECT_EQ(lines_of("\xEF\xBB\xBF" + longest + "\n"), Lines{longest});
   EXPECT_THROW(lines_of("\xEF\xBB\xBFx" + longest + "\n"), InputError);
-}
-
-TEST(TextReader, AByteOrderMarkElsewhereIsAPartOfAWord) {
-  EXPECT_EQ(lines_of("a\n\xEF\xBB\xBF"
-                     "b"),
-            (Lines{"a",
-                   "\xEF\xBB\xBF"
-                   "b"}));
-}
-
-TEST(TextReader, HalfAByteOrderMarkIsAPartOfAWord) {
-  EXPECT_EQ(error_of_number("\xEF\xBB"
-                            "1"),
-            "in.txt:1:1: expected the x of the eye, found '\\xef\\xbb1'");
-}
-
-TEST(TextReader, ANulByteIsAPartOfAWord) {
-  EXPECT_EQ(error_of_number(std::string("1\0 2", 4)),
-            "in.txt:1:1: expected the x of the eye, found '1\\x00' (is this UTF-16? save it as UTF-8)");
-}
-
-TEST(TextReader, ANulByteAloneIsNotABlankLine) {
-  EXPECT_EQ(lines_of(std::string("\0\n", 2)), Lines{std::string(1, '\0')});
 }
 
 TEST(TextReader, ReadsLinesAcrossBlocks) {
@@ -425,25 +387,10 @@ TEST(LineScanner, ReadsNumbersInEveryDecimalForm) {
   EXPECT_EQ(number_in("+1.5E-1"), 0.15);
 }
 
-TEST(LineScanner, LocatesABadNumber) {
-  EXPECT_EQ(error_of_number("  1,5 2"),
-            "in.txt:1:3: expected the x of the eye, found '1,5' (decimals have a point, and blanks stand "
-            "between numbers)");
-}
-
 TEST(LineScanner, WhatOnlyLooksLikeANumberIsAnError) {
   for (const std::string word :
        {"nan", "inf", "-inf", "0x10", "1.5abc", "1e", "--1", "+-1", ".", "+", "1_000"})
     EXPECT_EQ(error_of_number(word), "in.txt:1:1: expected the x of the eye, found '" + word + "'");
-}
-
-TEST(LineScanner, SaysThatANumberIsTooLarge) {
-  EXPECT_EQ(error_of_number("-1e309"),
-            "in.txt:1:1: expected the x of the eye within a double's range, found '-1e309'");
-}
-
-TEST(LineScanner, NamesTheEndOfTheLineWhereANumberIsMissing) {
-  EXPECT_EQ(error_of_number("  # 5"), "in.txt:1:1: expected the x of the eye, found the end of the line");
 }
 
 TEST(LineScanner, LocatesAMissingNumberAfterTheLastWord) {
