@@ -137,23 +137,6 @@ TEST(CoverageCenter, BetweenTheCentersThereIsNothing) {
   EXPECT_EQ(picture_of("0.6 -3 0 1.4 3 0 0.6 3 0"), kNothing);
 }
 
-TEST(CoverageCenter, IsCutAtTheBordersOfTheScreen) {
-  EXPECT_EQ(picture_of("-100 -100 0 100 -100 0 0 100 0"), Picture(8, "########"));
-  EXPECT_EQ(picture_of("-6.5 1.5 0 -1.5 1.5 0 -1.5 6.5 0"), (Picture{
-                                                                "##......",
-                                                                "##......",
-                                                                "........",
-                                                                "........",
-                                                                "........",
-                                                                "........",
-                                                                "........",
-                                                                "........",
-                                                            }));
-  for (const char* outside : {"4.1 -1 0 6 -1 0 5 1 0", "-6 -1 0 -4.1 -1 0 -5 1 0", "-1 3.6 0 1 3.6 0 0 6 0",
-                              "-1 -3.6 0 1 -3.6 0 0 -6 0", "-90 0 0 0 90 0 -90 90 0"})
-    EXPECT_EQ(picture_of(outside), kNothing) << outside;
-}
-
 TEST(CoverageCenter, ADecimalIsThatDecimalAndNotItsNearestDouble) {
   // Pixels of size 0.2: the centers are at -0.9, -0.7 ... None of 0.3, 0.1 and 0.7 is a double.
   const Viewport tenths = decimal_screen(10, 2, -1, -0.2);

@@ -27,18 +27,6 @@ Picture picture_of(const Scene& scene, const Viewport& screen = kEightByFour) {
   return picture;
 }
 
-/// A rectangle of two triangles, at the depth z + slope * x.
-Scene rectangle(double left, double right, double bottom, double top, double z, double slope = 0) {
-  const auto corner = [&](double x, double y) { return Vec3{x, y, z + slope * x}; };
-  return {{corner(left, bottom), corner(right, bottom), corner(right, top)},
-          {corner(left, bottom), corner(right, top), corner(left, top)}};
-}
-
-Scene operator+(Scene a, const Scene& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 TEST(Scanline, WithoutTrianglesThereIsTheBackground) {
   const Scanline<NearestCoverage, DepthF64> scanline(kEightByFour, PixelTag{0x010203});
   int row_count = 0;
@@ -75,104 +63,10 @@ TEST(Scanline, DepthsThatAFloatCannotTellApartAreEqualAlsoOnPlanesThatBeginFarAw
   EXPECT_EQ((picture_of<NearestCoverage, DepthF64>({plane(0), plane(1e-9)})), second);
 }
 
-TEST(Scanline, TheNearerTriangleIsSeenWhateverTheOrder) {
-  // A center on the diagonal belongs to the triangle on its right.
-  const Scene near_scene = rectangle(-2, 2, -1, 1, 0.5), far_scene = rectangle(-4, 4, -2, 2, 1);
-  EXPECT_EQ(picture_of(near_scene + far_scene), (Picture{
-                                                    "dddddddc",
-                                                    "ddbbbacc",
-                                                    "ddbaaacc",
-                                                    "dccccccc",
-                                                }));
-  EXPECT_EQ(picture_of(far_scene + near_scene), (Picture{
-                                                    "bbbbbbba",
-                                                    "bbdddcaa",
-                                                    "bbdcccaa",
-                                                    "baaaaaaa",
-                                                }));
-}
-
 // Triangles so large that each has one interval covering the whole row, on every row of the screen.
 Triangle half_plane(double z, double slope) {
   const auto corner = [&](double x, double y) { return Vec3{x, y, z + slope * x}; };
   return {corner(-100, -100), corner(100, -100), corner(0, 200)};
-}
-
-TEST(Scanline, AnIntervalIsSplitWherePolygonsInterpenetrate) {
-  // The depths are equal at x = 0.75, between two centers.
-  EXPECT_EQ(picture_of({half_plane(1, 0.125), half_plane(1.1875, -0.125)}), Picture(4, "aaaaabbb"));
-  EXPECT_EQ(picture_of({half_plane(1.1875, -0.125), half_plane(1, 0.125)}), Picture(4, "bbbbbaaa"));
-}
-
-TEST(Scanline, WhereTheyMeetAtACenterTheEarlierIsSeen) {
-  // The depths are equal at x = 0.5, the center of column 4.
-  EXPECT_EQ(picture_of({half_plane(1, 0.125), half_plane(1.125, -0.125)}), Picture(4, "aaaaabbb"));
-  EXPECT_EQ(picture_of({half_plane(1.125, -0.125), half_plane(1, 0.125)}), Picture(4, "bbbbaaaa"));
-}
-
-TEST(Scanline, ThreePolygonsCrossInOneInterval) {
-  // b is in front of the intersection of a and c: 1 + x/8, 0.9, 1 - x/8.
-  EXPECT_EQ(picture_of({half_plane(1, 0.125), half_plane(0.9, 0), half_plane(1, -0.125)}),
-            Picture(4, "aaabbccc"));
-}
-
-TEST(Scanline, TrianglesThatInterpenetrateMeetInASlantedLine) {
-  // z = 1 + x / 8 + y / 16 and its mirror image: equal where x = -y / 2.
-  const auto plane = [](double sign) {
-    const auto corner = [&](double x, double y) { return Vec3{x, y, 1 + sign * (x / 8 + y / 16)}; };
-    return Triangle{corner(-100, -100), corner(100, -100), corner(0, 200)};
-  };
-  EXPECT_EQ(picture_of({plane(1), plane(-1)}), (Picture{
-                                                   "aaabbbbb",
-                                                   "aaaabbbb",
-                                                   "aaaabbbb",
-                                                   "aaaaabbb",
-                                               }));
-}
-
-TEST(Scanline, OfEqualDepthsTheEarlierPolygonIsSeen) {
-  const Scene pair = {half_plane(1, 0.125), half_plane(1, 0.125)};
-  EXPECT_EQ(picture_of(pair), Picture(4, "aaaaaaaa"));
-}
-
-TEST(Scanline, APolygonEndsWhereTheNextBegins) {
-  const Triangle left = {{{-4, -100, 1}, {-4, 100, 1}, {0, 0, 1}}};
-  const Triangle right = {{{4, -100, 1}, {4, 100, 1}, {0, 0, 1}}};
-  EXPECT_EQ(picture_of({left, right})[1], "aaaabbbb");
-}
-
-TEST(Scanline, APolygonBeginsAndEndsInTheColumnsOfAnother) {
-  const Triangle triangle = {{{-2, -2, 1}, {-2, 2, 1}, {3, 0, 1}}};
-  Triangle nearer = triangle, farther = triangle;
-  for (Vec3& p : nearer) p.z = 0.5;
-  for (Vec3& p : farther) p.z = 1.5;
-  EXPECT_EQ(picture_of({farther, nearer, triangle}), (Picture{
-                                                         "..b.....",
-                                                         "..bbbb..",
-                                                         "..bbbb..",
-                                                         "..b.....",
-                                                     }));
-}
-
-TEST(Scanline, SpansOfOnePixelAreSeen) {
-  const auto needle = [](double x, double z) {
-    return Triangle{{{x - 0.1, -3, z}, {x + 0.1, -3, z}, {x, 100, z}}};
-  };
-  EXPECT_EQ(picture_of(
-                {needle(-0.5, 0.5), half_plane(1, 0), needle(1.5, 0.5), needle(2.5, 1.5), needle(1.5, 0.25)}),
-            Picture(4, "bbbabebb"));
-}
-
-TEST(Scanline, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
-  EXPECT_EQ(picture_of({half_plane(0.625, 0.25)}), Picture(4, ".aaaaaaa"));  // 0 at column 1
-  EXPECT_EQ(picture_of({half_plane(1.25, 0.5)}), Picture(4, ".aaaa..."));    // 0 at column 1, 2 at column 5
-  EXPECT_EQ(picture_of({half_plane(0.75, -0.5)}), Picture(4, "..aaaa.."));   // 2 at column 1, 0 at column 5
-  EXPECT_EQ(picture_of({half_plane(1, 8)}), Picture(4, "........"));         // never between them at a center
-}
-
-TEST(Scanline, WhatIsInFrontOfTheFrontLimitHidesNothing) {
-  EXPECT_EQ(picture_of({half_plane(-0.5, 0), half_plane(1, 0)}), Picture(4, "bbbbbbbb"));
-  EXPECT_EQ(picture_of({half_plane(0, 0.5), half_plane(1.75, 0)}), Picture(4, "bbbbaaaa"));
 }
 
 /// Coplanar triangles without a common vertex: each has its own rounded depths, and now one is smaller, now
