@@ -133,7 +133,7 @@ class CertainPictures(unittest.TestCase):
         self.assertGreater(ties, undecided)
 
     def test_no_pixel_is_wrong_at_the_extremes(self):
-        """Those of docs/extremes.md; at the last of them, no more than 12 digits are taken."""
+        """Those of docs/accuracy.md; at the last of them, no more than 12 digits are taken."""
         for case in (Case("distance", 1e13), Case("depth", 1e12), Case("size", 1e-12),
                      Case("angle", 179.999), Case("angle", 1e-9)):
             text = scene_text(case)

@@ -197,7 +197,7 @@ class Report(unittest.TestCase):
 
 
 class Page(unittest.TestCase):
-    """What docs/extremes.md says in words follows from the numbers."""
+    """What docs/accuracy.md says in words follows from the numbers."""
     results = Results(COMMITTED)
 
     def digits(self, axis, setting):
@@ -242,7 +242,7 @@ class Page(unittest.TestCase):
 
     def test_the_tables_are_those_of_the_numbers(self):
         self.assertIn(f"<!-- extremes: begin -->\n{tables(COMMITTED)}<!-- extremes: end -->",
-                      (SOURCE / "docs/extremes.md").read_text())
+                      (SOURCE / "docs/accuracy.md").read_text())
 
 
 if __name__ == "__main__":

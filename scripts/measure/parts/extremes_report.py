@@ -94,7 +94,7 @@ def promise(results):
 
 
 def tables(rows):
-    """For docs/extremes.md; the cells are text."""
+    """For docs/accuracy.md; the cells are text."""
     results = Results(rows)
     return filled(f"""The first value at which a pixel shows another triangle than is true, and whether a tool
 notes it:
@@ -104,8 +104,5 @@ With bounds and `zbuf --certify`, the first value at which pixels are uncertain 
 first at which some are wrong (how many of the uncertain ones). {certainty(results)}
 
 {table(results, results.uncertain)}
-The same against the lossless run, `--digits exact`:
-
-{table(results, lambda *cell: results.first(*cell, "pixels_unlike_lossless"))}
 {promise(results)}
 """)
