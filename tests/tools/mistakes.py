@@ -21,6 +21,7 @@ class Mistake:
     stderr: str = ""
     status: int = 0
     advice: str = ""
+    on_page: bool = True
 
 
 def load(path=DATA):
@@ -33,9 +34,9 @@ def load(path=DATA):
             base[name] = ""
         elif line.startswith("## "):
             group = line[3:]
-        elif line.startswith("=== "):
+        elif line.startswith(("=== ", "=-= ")):
             short, title = line[4:].split(": ", 1)
-            mistakes.append(Mistake(group, short, title, number, {}, {}))
+            mistakes.append(Mistake(group, short, title, number, {}, {}, on_page=line[1] == "="))
             name = None
         elif not line:
             continue
