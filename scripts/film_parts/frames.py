@@ -4,6 +4,7 @@ import os
 import pathlib
 import shlex
 import subprocess
+import zlib
 
 from film_parts.scene import number
 from lib.rim.command import CommandFailure, shown
@@ -15,7 +16,6 @@ from lib.running.pipe_tools import STAGE_IN_SHELL
 
 FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999
-GIF_FPS = 100  # a GIF's times are in hundredths of a second; of equal ones, ffmpeg tells as of an error
 TEXTS = ("world.txt", "config.txt", "frames.txt", "draw.sh")
 # What draws the text of view; $projection is split into words.
 RASTERIZED = "stage project $projection | stage zbuf config.txt --expect-framed"
@@ -33,17 +33,21 @@ DRAW = r'''draw() {
 }'''
 
 
-PNG_BEGINS, PNG_ENDS = b"\x89PNG\r\n\x1a\n", b"\0\0\0\0IEND\xaeB`\x82"
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def is_whole(path):
-    """Whether it is a PNG file that nobody has cut short, by its beginning and its end."""
-    if not os.path.isfile(path) or os.path.getsize(path) < len(PNG_BEGINS + PNG_ENDS):
+    """Whether it is a PNG file whose chunks all have their checksums, to the last."""
+    if not os.path.isfile(path):
         return False
     with open(path, "rb") as file:
-        begins = file.read(len(PNG_BEGINS)) == PNG_BEGINS
-        file.seek(-len(PNG_ENDS), os.SEEK_END)
-        return begins and file.read() == PNG_ENDS
+        is_good = file.read(len(PNG_SIGNATURE)) == PNG_SIGNATURE
+        while is_good and len(begin := file.read(8)) == 8:
+            data, checksum = file.read(int.from_bytes(begin[:4], "big")), file.read(4)
+            is_good = zlib.crc32(begin[4:] + data) == int.from_bytes(checksum, "big")
+            if begin[4:] == b"IEND":
+                return is_good and not file.read(1)
+    return False
 
 
 def words_of(vector):
@@ -77,16 +81,13 @@ class Frames:
         if foreign:
             where = shown(self.folder.path)
             raise CommandFailure(f"expected no {foreign[0]} in {where} that film has not drawn")
-        self.folder.remove_links({*self.names, *(f"{name}.log" for name in self.names)}.__contains__)
+        self.folder.remove_others({*self.names, *(f"{name}.log" for name in self.names)}.__contains__)
         stale = {name for name, line in drawn.items() if former_source != source or
                  cameras.get(name) != line or not is_whole(self.folder / name)}
         self.folder.remove_files(stale.__contains__)
         self.folder.write("world.txt", self.scene.world)
         self.folder.write("config.txt", self.scene.config)
         self.folder.write("frames.txt", "".join(line + "\n" for line in [source, *cameras.values()]).encode())
-
-    def missing(self):
-        return [i for i, name in enumerate(self.names) if not is_whole(self.folder / name)]
 
     def job(self, frames):
         """A line of shell that draws some frames."""
@@ -98,7 +99,7 @@ class Frames:
 
     def draw(self, options_of_parallel):
         self.prepare()
-        missing = self.missing()
+        missing = [i for i, name in enumerate(self.names) if not os.path.exists(self.folder / name)]
         if not missing:
             return
         settings = f"bin={shlex.quote(str(self.tools.folder))} failed=\n" + STAGE_IN_SHELL
@@ -107,7 +108,7 @@ class Frames:
         jobs = [Job(self.job(group), gives=[self.names[i] for i in group]) for group in groups]
         common = ["world.txt", "config.txt", "draw.sh"]
         status = run_parallel(self.folder.path, jobs, "film", common, options_of_parallel)
-        missing = self.missing()
+        missing = [i for i, name in enumerate(self.names) if not is_whole(self.folder / name)]
         if missing:
             raise CommandFailure(
                 f"{len(missing)} of {len(self.names)} frames have not been drawn, the first is "
@@ -118,15 +119,12 @@ class Frames:
 
     def make_film(self, path, fps):
         """Frames of an odd size get a column or a row more, which the pixel format asks for. Pictures of the
-        user behind the last frame are not taken; a frame that ffmpeg cannot decode ends it."""
+        user behind the last frame are not taken."""
         made = "film" + pathlib.Path(path).suffix
-        self.folder.remove_links(made.__eq__)
-        words = ["ffmpeg", "-loglevel", "error", "-y", "-err_detect", "crccheck+explode", "-framerate",
-                 number(fps), "-i", "%05d.png", "-frames:v", str(len(self.names))]
-        is_gif = path.lower().endswith(".gif")
-        if not is_gif or fps <= GIF_FPS:
-            words += ["-xerror"]
-        if not is_gif:
+        self.folder.remove_others(made.__eq__)
+        words = ["ffmpeg", "-loglevel", "error", "-y", "-framerate", number(fps), "-i", "%05d.png",
+                 "-frames:v", str(len(self.names))]
+        if not path.lower().endswith(".gif"):
             words += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
         done = subprocess.run([*words, made], cwd=self.folder.path, stdin=subprocess.DEVNULL,
                               capture_output=True, text=True)

@@ -3,6 +3,7 @@
 
 usage: killed_stages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import contextlib
 import itertools
 import os
 import pathlib
@@ -10,7 +11,10 @@ import shutil
 import sys
 import unittest
 
-from toolbox import BIN, SOURCE, TOOLS, ToolTest, add_claims, run_script
+from fly_parts.pipe import FramePipe
+from lib.rim.command import CommandFailure
+from lib.running.pipe_tools import Done, ToolKilled, Tools, expect_success
+from toolbox import BIN, TOOLS, ToolTest, add_claims, run_script
 
 TRACED = ("model", "view", "trace")
 # command: its words, and the stages
@@ -77,10 +81,15 @@ class KilledStages(ToolTest):
                 self.kill(stage, *command.split(), *words.split())
                 self.assertEqual(self.contents(), before)
 
+    def test_what_failed_first_is_named_and_a_whole_frame_is_enough(self):
+        for statuses, expected in (
+                ((-13, -13, -13, 3), "zbuf: exit status 3"), ((-13, -9, 0, 1), "view: ended by SIGKILL"),
+                ((0, -13, 0, 0), ""), ((-9, -9, -9, 0), ""), ((0, 1, 0, 0), "view: exit status 1")):
+            tools = [Done(name, status, b"") for name, status in zip(TOOLS, statuses)]
+            with self.assertRaisesRegex(CommandFailure, expected) if expected else contextlib.nullcontext():
+                expect_success(*tools)
+
     def test_fly_shows_nothing_of_a_part(self):
-        sys.path.insert(0, str(SOURCE / "scripts"))
-        from fly_parts.pipe import FramePipe
-        from lib.running.pipe_tools import ToolKilled, Tools
         for stages, is_traced in ((TOOLS, False), (TRACED, True)):
             for stage, is_in_the_middle in itertools.product(stages, (False, True)):
                 self.make_tools(stage, is_in_the_middle)

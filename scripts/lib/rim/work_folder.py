@@ -49,7 +49,7 @@ class WorkFolder:
                                  f"found {name}, which holds {shown(names[0])}")
 
     def write(self, name, data):
-        if (self / name).is_symlink():  # which is not ours, nor is its target
+        if is_other(self / name):
             (self / name).unlink()
         write_file(self / name, data)
 
@@ -68,11 +68,11 @@ class WorkFolder:
                     break
                 folder = os.path.dirname(folder)
 
-    def remove_links(self, is_own):
-        """Removes links, not what they point at, where there will be files or folders."""
+    def remove_others(self, is_own):
+        """Removes links, not what they point at, pipes and devices, where there will be files or folders."""
         for folder, folders, files in os.walk(self.path):
             for path in (os.path.join(folder, name) for name in folders + files):
-                if os.path.islink(path) and is_own(os.path.relpath(path, self.path)):
+                if is_other(path) and is_own(os.path.relpath(path, self.path)):
                     os.unlink(path)
 
     def remove(self, is_own):
@@ -81,3 +81,8 @@ class WorkFolder:
         if os.listdir(self.path) == [self.mark.name]:
             os.unlink(self.mark)
             os.rmdir(self.path)
+
+
+def is_other(path):
+    """Whether it is a link, a pipe or a device, which is not ours, nor is a link's target."""
+    return os.path.lexists(path) and stat.S_IFMT(os.lstat(path).st_mode) not in (stat.S_IFREG, stat.S_IFDIR)

@@ -87,12 +87,13 @@ def name_of_signal(number):
 
 def expect_success(*pipe):
     """Raises the error of the first tool that was killed, else of the first that says why it failed: others
-    have only lost their input or their reader."""
-    failed = [tool for tool in pipe if tool.status != 0]
-    for tool in failed:
-        if tool.status < 0 and tool.status != -signal.SIGPIPE:
+    have only lost their input or their reader. Nor does a kill count where the last has read a whole frame."""
+    has_frame = len(pipe) > 1 and not pipe[-1].status and FRAMING.get(pipe[-1].name) == ["--expect-framed"]
+    failed = [tool for tool in pipe if tool.status > 0 or tool.status < 0 and not has_frame]
+    for tool in sorted(failed, key=lambda tool: (tool.status == -signal.SIGPIPE, tool.status > 0,
+                                                 not tool.reasons)):
+        if tool.status < 0:
             raise ToolKilled(f"{tool.name}: ended by {name_of_signal(-tool.status)}")
-    for tool in sorted(failed, key=lambda tool: not tool.reasons):
         raise ToolFailure("\n".join(tool.reasons) or f"{tool.name}: exit status {tool.status}")
 
 
