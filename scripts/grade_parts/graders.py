@@ -17,10 +17,12 @@ from grade_parts.contents import ContentsError, contents_of
 from grade_parts.difference import pictures
 from grade_parts.hand_ins import files_for, looked_for
 from grade_parts.hints import fixes, gives, in_words
-from grade_parts.programs import verdicts
+from grade_parts.programs import Unusable, free_user, remove_what_is_left, verdicts
 from lib.judging.hand_in import KINDS, STAGE_OF
 from lib.judging.judge import HandIn as Judge
+from lib.judging.program import end_all
 from lib.judging.verdict import OPEN, UNDECIDED, WRONG, FileVerdict, Verdict
+from lib.rim.child import adopt_orphans
 from lib.running.pipe_tools import ToolKilled
 
 ENDED = "It could not be judged: its judge was ended, perhaps for lack of memory."
@@ -69,6 +71,8 @@ class Limits:
     jobs: int
     hidden: tuple = ()  # folders that no program may read
     program: object = None  # an assignment.Program, if that is what is handed in
+    needs_user: bool = False  # each program runs as a user of its own, as there is no sandbox
+    user: object = None
 
 
 class TooLong(BaseException):
@@ -162,7 +166,11 @@ def work(connection, path, tests, level, limits, scratch, pipe):
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
     os.setpgid(0, 0)
+    os.umask(0o022)  # a user of its own reads what is handed in
     end_with_writers_of(*pipe)
+    if limits.needs_user:
+        limits = dataclasses.replace(limits, user=free_user())
+    connection.send(limits.user)
     tempfile.tempdir = scratch
     most = limits.mebibytes * MEBIBYTE  # a program that is run has limits of its own
     resource.setrlimit(resource.RLIMIT_AS, (
@@ -174,6 +182,8 @@ def work(connection, path, tests, level, limits, scratch, pipe):
     except (MemoryError, ToolKilled):  # a tool without memory is ended by a signal
         graded = failed(tests,
                         f"It could not be judged: that needs more than {limits.mebibytes} MiB of memory.")
+    except Unusable as error:
+        graded = failed(tests, f"It could not be judged: {error}.")
     except Exception as error:  # an error of ours: it costs this hand-in its verdict, and must be seen
         traceback.print_exc()
         graded = failed(tests, f"It could not be judged: {type(error).__name__}.")
@@ -195,6 +205,9 @@ class Running:
         self.process.start()
         theirs.close()
         os.close(reader)
+        self.user = None
+        with contextlib.suppress(EOFError):
+            self.user = self.connection.recv()
         self.kept = []  # of GradedTest
         self.seconds = CLOCK * max(limits.seconds * len(tests), LEAST_SECONDS)
         self.end = time.monotonic() + self.seconds
@@ -223,20 +236,22 @@ class Running:
             graded.tests = self.kept + [not_judged(test, "none") for test in self.tests[len(self.kept):]]
         return graded
 
-    def stop(self):
-        """Ends the process, and the tools that it has started."""
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(self.process.pid, signal.SIGKILL)
+    def stop(self, others):
+        """Ends the process, and all that it has started, which the `others` have not."""
         self.process.kill()
         self.process.join()
+        end_all(keep={one.process.pid for one in others if one is not self})
         self.connection.close()
         os.close(self.alive)
+        if self.user is not None:
+            remove_what_is_left(self.user, self.scratch.name)
         self.scratch.cleanup()
 
 
 def grade_all(hand_ins, tests, level, limits):
     """Draws (HandIn, Graded), in the order in which they are done."""
     waiting, running = list(reversed(hand_ins)), {}
+    adopt_orphans()
     try:
         while waiting or running:
             while waiting and len(running) < limits.jobs:
@@ -247,9 +262,9 @@ def grade_all(hand_ins, tests, level, limits):
             multiprocessing.connection.wait(list(running), max(0.0, rest))
             for connection, (hand_in, one) in list(running.items()):
                 if graded := one.result():
-                    one.stop()
+                    one.stop([each for _, each in running.values()])
                     del running[connection]
                     yield hand_in, graded
     finally:
         for _, one in running.values():
-            one.stop()
+            one.stop(())

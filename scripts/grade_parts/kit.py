@@ -91,10 +91,9 @@ def judged(hand_in, most_seconds=120, most_mebibytes=2048):
     os.environ["BIN"] = str(SOURCE / "build/release/bin")  # whatever else is set
     tests, settings = read_tests(SOURCE / "assignment")
     hidden = str(SOURCE),
-    if settings.program:
-        expect_protection(hidden)
+    needs_user = bool(settings.program) and expect_protection(hidden)
     one = HandIn(hand_in, "hand-in", 1, "")
-    limits = Limits(most_seconds, most_mebibytes, 1, hidden, settings.program)
+    limits = Limits(most_seconds, most_mebibytes, 1, hidden, settings.program, needs_user)
     [(_, graded)] = grade_all([one], tests, settings.hints, limits)
     return graded, tests, settings.hints
 

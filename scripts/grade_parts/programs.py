@@ -2,6 +2,7 @@
 none that works, as in a container, each as a user of its own, who may read nothing of root's."""
 import argparse
 import ctypes
+import functools
 import os
 import pathlib
 import pwd
@@ -17,23 +18,22 @@ from lib.judging.reference import kinds_of
 from lib.judging.verdict import WRONG, Cause, FileVerdict, Verdict
 from lib.rim.command import CommandFailure, shown
 from lib.rim.places import place
-from lib.running.pipe_tools import Tools
 
 FIRST_USER, USERS = 61184, 4336  # numbers that no package gives to a user, and a container has
-PLACES = ("/tmp", "/var/tmp", "/dev/shm", "/dev/mqueue")  # where all may write
+LOCAL = ("ext4", "xfs", "btrfs", "zfs", "overlay", "tmpfs", "devtmpfs", "mqueue", "f2fs")  # file systems
+DEPTH = 4  # of folders in one, in which those that all may write are looked for
 REMOVE = ("-exec", "sh", "-c", 'chmod -R u+rwx -- "$@"; rm -rf -- "$@"', "sh", "{}", "+")
 MOST_BYTES, MOST_FILES = 64 << 20, 500  # of a hand-in that is built
 MOST_LINES = 10                         # of a compiler's messages, as shown
 MEMORY, PROCESSES = 1024, 64
 
 
-def protection(command, read, hidden):
-    """A Sandbox, or a user without one. Raises a CommandFailure where there is neither."""
+def protection(command, read, hidden, user):
+    """A Sandbox, or one of no words for the user. Raises a CommandFailure where there is neither."""
     asked = argparse.Namespace(read=list(read), env=[], sandbox="auto")
     box = confined.sandbox(command, asked, [pathlib.Path(path) for path in hidden])
     if box.words:
         return box
-    user = free_user()
     if os.geteuid() == 0 and succeeds(user, "true"):
         if names := " ".join(shown(str(path)) for path in hidden if succeeds(user, "test", "-x", path)):
             raise CommandFailure("a program that is handed in, which root runs as another user, may read "
@@ -65,18 +65,59 @@ def succeeds(user, *words):
 
 def right_ones():
     """The folders of what gives the right answer: the tools, and the reference beside the pack."""
-    return [*Tools().hiding_places(), place("tests/conformance", "share/pipeline/conformance").parent]
+    return [*confined.folders_of_tools(), place("tests/conformance", "share/pipeline/conformance").parent]
 
 
 def expect_protection(hidden):
     """Raises the CommandFailure of a machine that protects from no program, before there is any work. Tells
-    what is not held without a sandbox."""
-    box = protection(["true"], (), hidden)
+    what is not held without a sandbox; whether there is none."""
+    box = protection(["true"], (), hidden, free_user())
     if box.user is not None:
+        places_for_all()
         print(f"no sandbox ({box.reason}): each program runs as a user of its own, with network, abstract "
               "sockets and System V segments, which are removed after its run", flush=True)
         if tempfile.tempdir:  # the command's own folder, in which they are to work
             os.chmod(tempfile.tempdir, 0o711)
+    return box.user is not None
+
+
+@functools.lru_cache
+def places_for_all():
+    """Folders that a user without a name may write."""
+    with open("/proc/self/mounts") as file:
+        tops = {top for _, top, kind, *_ in map(str.split, file) if kind in LOCAL and os.path.isdir(top)}
+    user = free_user()
+    return subprocess.run(["find", "/", *tops, "-xdev", "-maxdepth", str(DEPTH), "-type", "d", "-writable",
+                           "-print0"], capture_output=True, user=user, group=user, extra_groups=[],
+                          cwd="/").stdout.split(b"\0")[:-1]
+
+
+def remove_what_is_left(user, since):
+    """Removes, as a user, what it has made in such folders since a file was last made in another, and its
+    segments, semaphores and queues of System V."""
+    succeeds(user, "find", *places_for_all(), "-mindepth", "1", "-maxdepth", "1", "-user", str(user),
+             "-cnewer", since, *REMOVE)
+    for kind in ("shm", "sem", "msg"):
+        with open(f"/proc/sysvipc/{kind}") as file:
+            names, *rows = map(str.split, file)
+        remove = getattr(ctypes.CDLL(None), f"{kind}ctl")
+        for row in rows:
+            if row[names.index("cuid")] == str(user):
+                remove(int(row[1]), 0, 0)  # 0 is IPC_RMID
+
+
+def expect_runnable(user, program):
+    """Raises the Unusable of a program, or of the interpreter that its first line names, which is there, but
+    not for a user."""
+    with open(program, "rb") as file:
+        first = os.fsdecode(file.readline(256))
+    words = first[2:].split() if first.startswith("#!") else []
+    words = [word for word in words if "=" not in word and not word.startswith("-")]
+    for name in (program, *words[:1 + (words[:1] == ["/usr/bin/env"])]):
+        found = [path for folder in os.get_exec_path() if os.path.exists(path := os.path.join(folder, name))]
+        if found and not any(succeeds(user, "test", "-x", path) for path in found):
+            raise Unusable(f"{shown(found[0])} may not be run by another user, as whom root runs programs "
+                           "without bubblewrap")
 
 
 def unpack(contents, folder):
@@ -105,38 +146,44 @@ def unpack(contents, folder):
 
 
 def give(folder, user, owner=0):
-    """Gives a folder and all in it that belongs to the owner to a user. No link is followed; a file of more
-    names stays: the others may lie anywhere."""
+    """Gives a folder and all in it that belongs to the owner to a user, for others to read. No link is
+    followed; a file of more names stays: the others may lie anywhere."""
     for place, folders, files in os.walk(folder):
         for path in (os.path.join(place, name) for name in (".", *folders, *files)):
             status = os.lstat(path)
             if status.st_uid == owner and (stat.S_ISDIR(status.st_mode) or status.st_nlink == 1):
                 os.chown(path, user, user, follow_symlinks=False)
+                if not stat.S_ISLNK(status.st_mode):
+                    own = status.st_mode & 0o500
+                    os.chmod(path, status.st_mode & 0o777 | own >> 3 | own >> 6)
+
+
+class Unusable(Exception):
+    """A program of the system's cannot be run by the user of a hand-in, which is no fault of the hand-in."""
 
 
 class Built:
-    """A program that has been built in top/program/files."""
+    """A program that has been built in top/program/files. A `user` runs it, if there is no sandbox."""
 
-    def __init__(self, contents, program, top, hidden):
-        self.program, self.top, self.hidden, self.user = program, top, hidden, None
+    def __init__(self, contents, program, top, hidden, user):
+        self.program, self.top, self.hidden, self.user = program, top, hidden, user
         self.folder = top / "program/files"
         self.folder.mkdir(parents=True)
         unpack(contents, self.folder)
         for folder in (top, top / "program"):
             folder.chmod(0o711)
+        if user is not None:  # no other enters the folder
+            os.chown(top, 0, user)
+            top.chmod(0o710)
         if program.build:
             self.build()
         self.words = self.command()
+        if user is not None:
+            expect_runnable(user, self.words[0])
         self.box = self.boxed(self.words, [self.folder])
 
     def boxed(self, command, read):
-        """The Sandbox of a command; without one, no user but its own enters the folder."""
-        box = protection(command, read, self.hidden)
-        if box.user is not None and self.user is None:
-            self.user = box.user
-            os.chown(self.top, 0, self.user)
-            self.top.chmod(0o710)
-        return box._replace(user=self.user)
+        return protection(command, read, self.hidden, self.user)
 
     def build(self):
         words = ["sh", "-c", self.program.build]
@@ -147,21 +194,8 @@ class Built:
             outcome(words, b"", self.folder, confined.Limits(SECONDS_OF_BUILD, MEMORY, PROCESSES), box)
         finally:
             if self.user is not None:
-                self.remove_what_is_left()
+                remove_what_is_left(self.user, self.top)
                 give(self.folder, 0, self.user)
-
-    def remove_what_is_left(self):
-        """Removes, as its user, what it has made in PLACES since a file was last made in top, and its
-        segments, semaphores and queues of System V."""
-        succeeds(self.user, "find", *filter(os.path.isdir, PLACES), "-mindepth", "1", "-maxdepth", "1",
-                 "-user", str(self.user), "-cnewer", str(self.top), *REMOVE)
-        for kind in ("shm", "sem", "msg"):
-            with open(f"/proc/sysvipc/{kind}") as file:
-                names, *rows = map(str.split, file)
-            remove = getattr(ctypes.CDLL(None), f"{kind}ctl")
-            for row in rows:
-                if row[names.index("cuid")] == str(self.user):
-                    remove(int(row[1]), 0, 0)  # 0 is IPC_RMID
 
     def command(self):
         """The words that run it, with the paths of its own files."""
@@ -197,7 +231,7 @@ class Built:
                                         given, top, limit)
             finally:
                 if self.user is not None:
-                    self.remove_what_is_left()
+                    remove_what_is_left(self.user, self.top)
             return hand_in(self.program.stage, output, before, work)
 
 
@@ -206,7 +240,7 @@ def verdicts(contents, tests, limits):
     program, hidden = limits.program, limits.hidden
     with confined.temporary_folder("grade.") as top:
         try:
-            built = Built(contents, program, top, hidden)
+            built = Built(contents, program, top, hidden, limits.user)
         except ProgramError as error:
             reason = f"The program cannot be built: {error}{messages(error.errors)}"
             for i, test in enumerate(tests):

@@ -55,10 +55,12 @@ class Program(ToolTest):
             os.symlink(BIN / tool, f"tools/{tool}")
         environment = {**os.environ, "BIN": os.path.abspath("tools"), "PATH": f"{BIN}:{os.environ['PATH']}"}
         script("exec view")
-        for words, expected in ((["./mine"], "wrong"), (["view"], "right")):
-            done = run_script("check-stage", "--sandbox", "yes", "view", "--scene", "scene", "--", *words,
-                              env=environment)
-            self.assertRegex(done.stdout, f"^scene: {expected}", done.stderr)
+        conform = SOURCE / "tests/conformance/conform", "--stage", "view", "--only", "background"
+        for words, status in (["./mine"], 1), (["view"], 0), ([f"{BIN}/pipeline", "view"], 0):
+            for command in (SOURCE / "scripts/check-stage", "view", "--scene", "scene"), conform:
+                done = subprocess.run([*command, "--sandbox", "yes", "--", *words], env=environment,
+                                      capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stderr), (status, ""), (words, done.stdout))
 
     def test_ours_are_right_on_the_six_scenes(self):
         for stage in ("model", "zbuf"):

@@ -385,7 +385,7 @@ class Results(ClassTest):
         none = programs.confined.Sandbox()
         with mock.patch("grade_parts.programs.confined.sandbox", return_value=none):
             with self.assertRaisesRegex(CommandFailure, f": chmod go= {folders[0]} {folders[2]}, or "):
-                programs.protection(["true"], (), folders)
+                programs.protection(["true"], (), folders, programs.FIRST_USER)
 
     @unittest.skipIf(os.geteuid(), "root alone gives files away")
     def test_after_a_build_root_takes_what_is_of_the_builder_alone(self):

@@ -76,6 +76,12 @@ if not SANDBOX:
 # Each while another program runs: ends all that it can, and is right; takes another one's file, and leaves a
 # segment and a folder.
 KILLER = "import os, signal\nif not os.fork(): os.kill(-1, signal.SIGKILL)\nos.wait()\n"
+STAYS = '''import signal, subprocess, time
+signal.signal(signal.SIGTERM, signal.SIG_IGN)
+subprocess.Popen(["sleep", "999"], start_new_session=True)
+for path in ("/tmp/left", "/open/left"): open(path, "w")
+time.sleep(999)
+'''
 THIEF = '''import ctypes, glob, os, sys, time
 ctypes.CDLL(None).shmget(0, 4096, 0o1600)
 os.mkdir("/tmp/left")
@@ -103,7 +109,7 @@ exec /usr/bin/env -i PATH=/usr/bin:/bin sh -c 'cd "$0" && exec env "$@"' "$@"
 """
 
 
-UNSHARED = ["unshare", "--mount", "--pid", "--net", "--ipc", "--fork"]
+UNSHARED = ["unshare", "--kill-child", "--mount", "--pid", "--net", "--ipc", "--fork"]
 
 
 def entered(top, folder, *words, without=""):
@@ -331,6 +337,27 @@ class Judges(KitTest):
             for name, expected in (("right", 1.0), (hostile, 0.0)):
                 result = json.loads((top / f"{name}.out/results.json").read_text())
                 self.assertEqual(parts(result), {"worked-example": expected}, (name, hostile))
+
+    def test_without_a_sandbox_an_ended_judge_leaves_nothing_and_an_unreadable_program_is_no_mistake(self):
+        self.expect_programs(stays=STAYS, right=VIEW)
+        top = self.make("plain")
+        for name in ("stays", "right"):
+            shutil.copytree(f"hand-ins/{name}", top / name)
+        script = """mkdir -m 1777 /open; mkdir -m 700 closed; ln -s /usr/bin/python3 closed
+for signal in TERM KILL; do
+  source/judge stays out > /dev/null & while [ ! -e /open/left ]; do sleep 0.05; done
+  kill -$signal $!; wait $!; echo $signal $?
+  i=0; while ps -eo uid= | grep -q '6....' && [ $i -lt 200 ]; do i=$((i + 1)); sleep 0.05; done
+  ps -eo uid= | grep '6....'; [ $signal = KILL ] || ls /open /tmp; rm -rf /open/*
+done
+umask 077; source/judge right out2 > /dev/null; echo $?
+PATH=/autograder/closed:$PATH source/judge right out > /dev/null; echo $?"""
+        done = subprocess.run(entered(top, "/autograder", "sh", "-c", script, without="usr/bin/bwrap"),
+                              timeout=250, capture_output=True, text=True)
+        self.assertEqual(done.stdout, "TERM 143\n/open:\n\n/tmp:\nKILL 137\n0\n1\n", done.stderr)
+        results = [json.loads((top / name / "results.json").read_text()) for name in ("out2", "out")]
+        self.assertEqual([result["score"] for result in results], [2.0, 0.0])
+        self.assertIn("could not be judged: /autograder/closed/python3 may not be run", results[1]["output"])
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ from lib.running.pipe_tools import OPAQUE_NOTE, opaque_background, with_opaque_b
 sys.path.append(str(place("tests/conformance", "share/pipeline/conformance")))
 from conform_parts import confined  # noqa: E402
 from conform_parts.trial import hint_of_header  # noqa: E402, F401
+from conform_parts.workers import end_all  # noqa: E402, F401
 
 STAGES = {"model": None, "view": "stage1", "project": "stage2",
           "zbuf": "stage3"}  # with the kind of file that each reads

@@ -87,7 +87,8 @@ def name_of_signal(number):
 
 def expect_success(*pipe):
     """Raises the error of the first tool that was killed, else of the first that says why it failed: others
-    have only lost their input or their reader. Nor does a kill count where the last has read a whole frame."""
+    have only lost their input or their reader. A kill does not count where the last has read a whole frame.
+    """
     has_frame = len(pipe) > 1 and not pipe[-1].status and FRAMING.get(pipe[-1].name) == ["--expect-framed"]
     failed = [tool for tool in pipe if tool.status > 0 or tool.status < 0 and not has_frame]
     for tool in sorted(failed, key=lambda tool: (tool.status == -signal.SIGPIPE, tool.status > 0,
@@ -113,13 +114,6 @@ class Tools:
         self.folder = pathlib.Path(folder or os.environ.get("BIN") or default_folder()).absolute()
         if not os.access(self.folder / "zbuf", os.X_OK):
             raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
-
-    def hiding_places(self):
-        """The folder, and those in which its tools lie if it holds links to them; none that holds the
-        system's programs, too."""
-        tools = "model", "view", "project", "zbuf", "trace"
-        folders = {self.folder.resolve(), *((self.folder / tool).resolve().parent for tool in tools)}
-        return sorted(folder for folder in folders if not (folder / "sh").exists())
 
     def expect(self, *tools, png=False):
         """Raises the ToolFailure of a build that lacks a tool, or PNG where the last one is to write it."""

@@ -17,7 +17,7 @@ import subprocess
 import tempfile
 import time
 
-from .sandbox import words_for, words_of_folder
+from .sandbox import folders_of_tools, words_for, words_of_folder
 from .workers import PR_SET_NO_NEW_PRIVS, descendants, end_all, first_in_line, prctl, spread
 
 MEBIBYTE = 1 << 20
@@ -86,10 +86,12 @@ def program_path(word):
 
 
 def sandbox(command, options, hidden):
-    """The Sandbox for a command. Raises a Refused if one is asked for and does not work."""
+    """The Sandbox for a command, which hides our own tools, too, unless the command names them. Raises a
+    Refused if one is asked for and does not work."""
     for path in options.read:
         if not os.path.exists(path):
             raise Refused(f"--read {path}: {os.strerror(errno.ENOENT)}")
+    hidden = [*hidden, *map(pathlib.Path, folders_of_tools(command, options.read))]
     bwrap, reason = shutil.which("bwrap"), "bubblewrap is not installed"
     for more in (NO_NAMESPACES, ()) if options.sandbox != "no" and bwrap else ():
         words = [bwrap, *more, *words_for(command, options.read, hidden)]

@@ -1,8 +1,10 @@
 """What a program sees in a sandbox of bubblewrap: read-only the system and what belongs to the program,
 and the folder that it may write."""
 import os
+import pathlib
 import re
 import stat
+import sys
 import tempfile
 
 # What a program in a folder `bin` needs of its installation.
@@ -28,6 +30,28 @@ def words_for(command, paths, hidden):
     folders = [each for each in os.get_exec_path()
                if not any(is_below(os.path.realpath(each), path) for path in hidden)]
     return [*words, "--setenv", "PATH", os.pathsep.join(folders)]
+
+
+def folders_of_tools(command=None, read=()):
+    """Folders of our own tools, which give the right answer: $BIN, that of the command that runs, those
+    beside the pack and those on the PATH, and where links in them lead. None that holds the system's
+    programs, or that a command for the sandbox names, or what it may read: it calls them on purpose."""
+    top = pathlib.Path(__file__).resolve().parents[3]
+    folders = [os.environ.get("BIN") or "/nowhere", os.path.dirname(sys.argv[0]), top / "build/release/bin",
+               top.parent / "libexec/pipeline"]
+    folders += [each for each in os.get_exec_path() if os.path.exists(os.path.join(each, "trace"))]
+    found = set()
+    for folder in folders:
+        if os.path.exists(os.path.join(folder, "zbuf")):
+            tools = (os.path.join(folder, tool) for tool in ("zbuf", "model", "view", "project"))
+            found.update([os.path.realpath(folder), *(os.path.dirname(os.path.realpath(x)) for x in tools)])
+    named = ""
+    if command:
+        program = os.path.realpath(command[0])
+        named = " ".join((*command, program, *map(os.path.realpath, read)))
+        if os.path.basename(program) == "pipeline":
+            named += f" {os.path.dirname(os.path.dirname(program))}/libexec/pipeline"
+    return [path for path in sorted(found) if path not in named and not os.path.exists(f"{path}/sh")]
 
 
 def is_below(path, folder):

@@ -99,6 +99,7 @@ def serve(connection, task):
             raise SystemExit
 
     try:
+        os.setpgid(0, 0)  # so that who kills its parent's group leaves it to end what it has started
         prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
         prctl(PR_SET_CHILD_SUBREAPER, 1)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
