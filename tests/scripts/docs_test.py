@@ -119,7 +119,7 @@ class Pages(unittest.TestCase):
     def test_they_are_few_and_short(self):
         self.assertLessEqual(len([*(SOURCE / "docs").glob("*.md")]), 20)
         for page in (page for page in PAGES if page.stem not in (*SPECIFICATION, "errors")):
-            self.assertLessEqual(page.stat().st_size, 10_000 if page == README else 12 * 1024, name_of(page))
+            self.assertLessEqual(page.stat().st_size, 8_000 if page == README else 12 * 1024, name_of(page))
 
     def test_lines_fit_into_120_columns(self):
         """But for tables, examples and pictures, which cannot be broken; the specification has none that is
