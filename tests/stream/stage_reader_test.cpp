@@ -387,35 +387,6 @@ TEST(StageReader, AnUnframedTextIsTakenAsItReads) {
   EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 1").triangles[0][2].z, 1);
 }
 
-// Streaming: complete triangles are delivered before the reader waits.
-
-TEST(StageReader, DoesNotWaitBehindATriangle) {
-  const TextInPieces slow({kTriangle}, TextInPieces::Then::silence);
-  TextReader text(slow.descriptor(), "in.txt");
-  StageReader reader(text);
-  TriangleBatch batch;
-  ASSERT_TRUE(reader.read(batch));
-  EXPECT_EQ(batch.size(), 1u);
-}
-
-TEST(StageReader, DoesNotWaitInsideATriangleWithOthersInItsHands) {
-  const TextInPieces slow({kTriangle + kTriangle + "0 0 0\n1 0 0\n0 "}, TextInPieces::Then::silence);
-  TextReader text(slow.descriptor(), "in.txt");
-  StageReader reader(text);
-  TriangleBatch batch;
-  ASSERT_TRUE(reader.read(batch));
-  EXPECT_EQ(batch.size(), 2u);
-}
-
-TEST(StageReader, DoesNotWaitBehindBlankLinesAndComments) {
-  const TextInPieces slow({kTriangle + "\n\n# c\n\n"}, TextInPieces::Then::silence);
-  TextReader text(slow.descriptor(), "in.txt");
-  StageReader reader(text);
-  TriangleBatch batch;
-  ASSERT_TRUE(reader.read(batch));
-  EXPECT_EQ(batch.size(), 1u);
-}
-
 TEST(StageReader, DoesNotWaitForTheFirstTriangleToKnowTheHeader) {
   const TextInPieces slow({"up 0 1 0\n0 0 0\n"}, TextInPieces::Then::silence);
   TextReader text(slow.descriptor(), "in.txt");

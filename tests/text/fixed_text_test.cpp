@@ -34,11 +34,6 @@ class FixedText : public testing::TestWithParam<std::size_t> {
     return read_columns(text, TriangleFrame::stage_text, {decimals}, {{triangles}, {}});
   }
 
-  static FixedTextPart read_scene(const std::string& text, std::vector<Triangle>& triangles,
-                                  int decimals = 7) {
-    return read_columns(text, TriangleFrame::scene, {decimals}, {{triangles}, {}});
-  }
-
   static std::size_t count_read(const std::string& text, int decimals = 7) {
     std::vector<Triangle> triangles(10);
     return read(text, triangles, decimals).triangle_count;
@@ -97,26 +92,6 @@ std::vector<int> all_decimals() {
 const std::string kUnit =
     "0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n0.0000000 1.0000000 0.0000000\n\n";
 
-TEST_P(FixedText, ReadsATriangle) {
-  std::vector<Triangle> triangles(3);
-  const FixedTextPart part = read(
-      "-1.5000000 0.0000000 12345678.1234567\n0.0000001 -0.1000000 3.0000000\n"
-      "99999999.9999999 1.0000000 -10.2500000\n\n",
-      triangles);
-  ASSERT_EQ(part.triangle_count, 1u);
-  EXPECT_EQ(triangles[0][0], (Vec3{-1.5, 0, 12345678.1234567}));
-  EXPECT_EQ(triangles[0][1], (Vec3{1e-7, -0.1, 3}));
-  EXPECT_EQ(triangles[0][2], (Vec3{99999999.9999999, 1, -10.25}));
-}
-
-TEST_P(FixedText, ReadsTheSignOfZero) {
-  std::vector<Triangle> triangles(1);
-  read("-0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n0.0000000 1.0000000 0.0000000\n\n",
-       triangles);
-  EXPECT_TRUE(std::signbit(triangles[0][0].x));
-  EXPECT_FALSE(std::signbit(triangles[0][0].y));
-}
-
 TEST_P(FixedText, EveryOneOfItsBytesMattersWithAnyDecimals) {
   for (std::size_t decimals = 0; decimals < kMaxFixedDecimals; ++decimals) {
     const std::string whole = text_of_nine(number_text("12", std::string(decimals, '5')));
@@ -170,15 +145,6 @@ TEST_P(FixedText, LeavesEveryOtherFormAlone) {
     text.replace(0, 9, number);
     EXPECT_EQ(count_read(text), 0u) << number;
   }
-}
-
-TEST_P(FixedText, ReadsTheTrianglesOfAScene) {
-  const std::string triangle = "triangle\n" + kUnit.substr(0, kUnit.size() - 1);
-  std::vector<Triangle> triangles(3);
-  const FixedTextPart part = read_scene(triangle + triangle + "pop\n" + triangle, triangles);
-  EXPECT_EQ(part.triangle_count, 2u);
-  EXPECT_EQ(part.length, 2 * triangle.size());
-  EXPECT_EQ(triangles[1], (Triangle{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}));
 }
 
 /// A decimal of up to eight digits before the point, and 15 in all.
@@ -249,31 +215,6 @@ TEST_P(FixedText, ReadsNumbersOfOneDigitAndOthersInTurn) {
 TEST_P(FixedText, LongReadsWhatTheGeneralReaderReadsOnAHundredMillionNumbers) {
   for (const int decimals : all_decimals())
     read_random(decimals, (decimals == 7 ? 100'000'000 : 10'000'000) / 9, 4);
-}
-
-TEST_P(FixedText, PrintsZeroWithoutASign) {
-  std::size_t count = 0;
-  EXPECT_EQ(
-      write({Triangle{{{-0.0, -4e-8, 0}, {1, -1, -1e-300}, {-5.1e-8, 0, 0}}}}, count),
-      "0.0000000 0.0000000 0.0000000\n1.0000000 -1.0000000 0.0000000\n-0.0000001 0.0000000 0.0000000\n\n");
-}
-
-TEST_P(FixedText, PrintsAnyDecimals) {
-  std::size_t count = 0;
-  const Triangle triangle = {{{9.9961, -9.9961, 1234}, {-0.0, -0x1p-60, 0.5078125}, {99.76, 1, -7.625}}};
-  EXPECT_EQ(write({triangle}, count, 0), "10 -10 1234\n0 0 1\n100 1 -8\n\n");
-  EXPECT_EQ(write({triangle}, count, 1), "10.0 -10.0 1234.0\n0.0 0.0 0.5\n99.8 1.0 -7.6\n\n");
-  EXPECT_EQ(write({triangle}, count, 3), "9.996 -9.996 1234.000\n0.000 0.000 0.508\n99.760 1.000 -7.625\n\n");
-  EXPECT_EQ(write({{triangle[1], triangle[2], {1e-9, 0.1234567891234, 1}}}, count, 9),
-            "0.000000000 0.000000000 0.507812500\n99.760000000 1.000000000 -7.625000000\n"
-            "0.000000001 0.123456789 1.000000000\n\n");
-  EXPECT_EQ(write({{triangle[1], triangle[2], {9.9999999999996, -0.9999999999996, 123.456}}}, count, 12),
-            "0.000000000000 0.000000000000 0.507812500000\n99.760000000000 1.000000000000 -7.625000000000\n"
-            "10.000000000000 -1.000000000000 123.456000000000\n\n");
-  EXPECT_EQ(write({{triangle[1], triangle[1], {1, -7.625, 0.25}}}, count, 14),
-            "0.00000000000000 0.00000000000000 0.50781250000000\n"
-            "0.00000000000000 0.00000000000000 0.50781250000000\n"
-            "1.00000000000000 -7.62500000000000 0.25000000000000\n\n");
 }
 
 TEST_P(FixedText, PrintsFifteenDigits) {

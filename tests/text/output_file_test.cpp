@@ -260,13 +260,6 @@ TEST(OutputFile, AFileThatAppearedMeanwhileIsReplaced) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
-TEST(OutputFile, ReplacesAFileAsAWhole) {
-  const TemporaryFolder folder;
-  folder.write("out", "a much longer text");
-  write_and_commit(folder.path("out"), "short");
-  EXPECT_EQ(folder.read("out"), "short");
-}
-
 TEST(OutputFile, TwoFilesInOneFolderDoNotMeet) {
   const TemporaryFolder folder;
   OutputFile a(folder.path("a")), b(folder.path("b"));
@@ -332,13 +325,6 @@ TEST(OutputFile, ASymbolicLinkToNothingGetsItsFile) {
   EXPECT_EQ(folder.read("file"), "new");
 }
 
-TEST(OutputFile, ALinkToItselfIsAnError) {
-  const TemporaryFolder folder;
-  fs::create_symlink("link", folder.path("link"));
-  EXPECT_EQ(message_of([&] { OutputFile file(folder.path("link")); }),
-            "cannot open " + folder.path("link") + ": Too many levels of symbolic links");
-}
-
 /// Links named link-1, link-2 ... that lead, one to the next, to the file "out".
 void make_chain(const TemporaryFolder& folder, int length) {
   for (int i = 1; i <= length; ++i)
@@ -359,11 +345,6 @@ TEST(OutputFile, FollowsAsManyLinksAsTheSystem) {
   EXPECT_EQ(longest.read("out"), "new");
   EXPECT_EQ(message_of([&] { OutputFile file(too_long.path("link-1")); }),
             "cannot open " + too_long.path("link-1") + ": Too many levels of symbolic links");
-}
-
-TEST(OutputFile, ADeviceIsWrittenDirectly) {
-  write_and_commit("/dev/null", "text");
-  EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
 TEST(OutputFile, ANamedPipeIsWrittenDirectly) {
@@ -470,27 +451,6 @@ TEST(OutputFile, LeavesNoDescriptorOpen) {
   EXPECT_EQ(open_count(), before);
 }
 
-TEST(OutputFile, AFolderThatIsMissingIsAnError) {
-  EXPECT_EQ(message_of([] { OutputFile file("missing-folder/out.bmp"); }),
-            "cannot open missing-folder/out.bmp: No such file or directory");
-}
-
-TEST(OutputFile, AFolderIsNoFile) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(message_of([&] { OutputFile file(folder.path("")); }),
-            "cannot open " + folder.path("") + ": Is a directory");
-}
-
-TEST(OutputFile, AFolderThatMayNotBeWrittenIsAnError) {
-  const Unprivileged user;
-  if (!user) GTEST_SKIP() << "root may not become another user here";
-  const TemporaryFolder folder;
-  fs::create_directory(folder.path("inner"));
-  ::chmod(folder.path("inner").c_str(), 0555);
-  EXPECT_EQ(message_of([&] { OutputFile file(folder.path("inner/out")); }),
-            "cannot open " + folder.path("inner/out") + ": Permission denied");
-}
-
 TEST(OutputFile, APlaceTakenMeanwhileIsAnErrorAndNothingIsLeft) {
   const TemporaryFolder folder;
   {
@@ -500,59 +460,6 @@ TEST(OutputFile, APlaceTakenMeanwhileIsAnErrorAndNothingIsLeft) {
               "cannot replace " + folder.path("out") + ": Is a directory");
   }
   EXPECT_EQ(folder.file_count(), 1u);
-}
-
-/// The device and inode of a file or folder.
-FilePlace place_in(const std::string& path, const std::string& name) {
-  struct stat status = {};
-  EXPECT_EQ(::stat(path.c_str(), &status), 0);
-  return {status.st_dev, status.st_ino, name};
-}
-
-TEST(PlaceOf, OfAFileIsTheFileUnderAllItsNames) {
-  const TemporaryFolder folder;
-  folder.write("out", "old");
-  fs::create_symlink("out", folder.path("link"));
-  fs::create_hard_link(folder.path("out"), folder.path("second"));
-  for (const std::string name : {"out", "link", "second", "./out"})
-    EXPECT_TRUE(place_of(folder.path(name)) == place_in(folder.path("out"), "")) << name;
-}
-
-TEST(PlaceOf, OfAFileYetToBeMadeIsItsFolderAndName) {
-  const TemporaryFolder folder;
-  fs::create_symlink(folder.path("out"), folder.path("link"));
-  for (const std::string name : {"out", "link", "./out"})
-    EXPECT_TRUE(place_of(folder.path(name)) == place_in(folder.path(""), "out")) << name;
-  EXPECT_TRUE(place_of("missing-file") == place_in(".", "missing-file"));
-  EXPECT_TRUE(place_of("/missing-file") == place_in("/", "missing-file"));
-}
-
-TEST(PlaceOf, IsNoneWhereOpeningWillFail) {
-  const TemporaryFolder folder;
-  EXPECT_FALSE(place_of(folder.path("missing/out")));
-}
-
-TEST(PlaceOf, OfADescriptorThatIsNotOpenIsAnError) {
-  const TemporaryFolder folder;
-  const int closed = ::dup(STDIN_FILENO);
-  fs::create_symlink("/dev/fd/" + std::to_string(closed), folder.path("link"));
-  ::close(closed);
-  EXPECT_EQ(message_of([&] { place_of(folder.path("link")); }),
-            "cannot open " + folder.path("link") + ": Bad file descriptor");
-}
-
-TEST(PlaceOf, OfADeviceIsNoneAndThatOfAPipeIsThePipe) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(::mkfifo(folder.path("fifo").c_str(), 0600), 0);
-  EXPECT_TRUE(place_of(folder.path("fifo")) == place_in(folder.path("fifo"), ""));
-  EXPECT_FALSE(place_of("/dev/null"));
-}
-
-TEST(PlaceOf, ALinkToItselfIsAnError) {
-  const TemporaryFolder folder;
-  fs::create_symlink("link", folder.path("link"));
-  EXPECT_EQ(message_of([&] { place_of(folder.path("link")); }),
-            "cannot open " + folder.path("link") + ": Too many levels of symbolic links");
 }
 
 }  // namespace

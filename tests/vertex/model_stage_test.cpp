@@ -145,32 +145,5 @@ TEST(ModelStage, ReadsASceneThatArrivesByteByByte) {
   EXPECT_EQ(triangles_from(slow.descriptor()).triangles.at(0)[0], (Vec3{2, 2, 3}));
 }
 
-/// The number of triangles that a stage delivers while its input is open but nothing follows `commands`.
-std::size_t size_before_silence(const std::string& commands) {
-  const TextInPieces slow({kCamera + commands}, TextInPieces::Then::silence);
-  TextReader text(slow.descriptor(), "scene.txt");
-  SceneReader scene(text);
-  ModelStage stage(scene);
-  TriangleBatch batch;
-  stage.read(batch);
-  return batch.size();
-}
-
-TEST(ModelStage, DoesNotWaitBehindATriangle) {
-  EXPECT_EQ(size_before_silence(kTriangle + kTriangle), 2u);
-}
-
-TEST(ModelStage, DoesNotWaitInsideATriangleWithOthersInItsHands) {
-  EXPECT_EQ(size_before_silence(kTriangle + "triangle\n1 2 3\n0 0 0\n"), 1u);
-}
-
-TEST(ModelStage, DoesNotWaitBehindBlankLinesAndComments) {
-  EXPECT_EQ(size_before_silence(kTriangle + "\n# c\n\n"), 1u);
-}
-
-TEST(ModelStage, DoesNotWaitBehindATransform) {
-  EXPECT_EQ(size_before_silence(kTriangle + "push\ntranslate\n"), 1u);
-}
-
 }  // namespace
 }  // namespace pipeline
