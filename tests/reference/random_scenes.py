@@ -101,16 +101,17 @@ def snapped(rng):
     return "\n".join(lines + ["end", ""])
 
 
-def scene(rng):
-    """The text of a scene that is right."""
-    if rng.random() < 0.25:
+def scene(rng, count=None):
+    """The text of a scene that is right, of so many commands behind the lights; without `count` of a few, or
+    snapped."""
+    if not count and rng.random() < 0.25:
         return snapped(rng)
     lines = camera(rng)
     lines += [transform(rng)] * rng.randint(0, 1)
     more, columns, has_color = looks(rng, rng.random() < 0.4) if rng.random() < 0.6 else ([], (), False)
     lines += more
     depth, materials = 0, sum(line.startswith("material") for line in lines)
-    for _ in range(rng.randint(3, 24)):
+    for _ in range(count or rng.randint(3, 24)):
         command = rng.choice(("triangle", ) * 5 +
                              ("transform", "transform", "push", "pop", "color", "again", "use"))
         if command == "triangle":

@@ -17,7 +17,6 @@ import time
 import unittest
 import zlib
 
-from cut_scene_test import random_scene
 from lib.showing.pictures import png_chunks, read_picture, unfiltered
 from random_scene import CAMERA, scene_of_parts as scene
 from ssh_server import SshServer
@@ -253,7 +252,7 @@ class AnyCut(ToolTest):
         several = fewer = 0
         for seed in range(SCENE_COUNT):
             rng = random.Random(seed)
-            text = random_scene(rng, rng.randrange(20, 120))
+            text = scene(rng.random() < 0.5, rng.randrange(20, 120), seed)
             pathlib.Path("scene.txt").write_bytes(text.encode())
             project, zbuf = self.options(rng, text)
             with self.subTest(seed=seed, project=project, zbuf=zbuf):

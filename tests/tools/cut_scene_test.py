@@ -15,75 +15,13 @@ import signal
 import subprocess
 import unittest
 
+import random_scenes
+from random_scene import scene_of_parts
 from toolbox import SOURCE, ToolTest, command, heed_signals, run, run_with
 
 SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12)) * 2  # fewer with sanitizers, see CMakeLists.txt
 CAMERA = "1 0.5 4\n0 0 0\n0 1 0\n50 1.25 1 30 ratio\n"
 TRIANGLE = "triangle\n0 0 0\n1 0 0\n0 1 0\n"
-
-
-def random_scene(rng, count):
-    """Commands in any nesting, with comments, blank lines, arguments on the command's line; lights inside
-    push and pop."""
-    number = lambda: rng.choice(
-        (f"{rng.uniform(-3, 3):.7f}", f"{rng.uniform(-3, 3):.3g}", str(rng.randrange(-3, 4)),
-         f"+{rng.random():.12g}", f"{rng.randrange(1, 9)}e-1"))
-    end = lambda: rng.choice(
-        ("\n", "\n", "\n", "  # a comment\n", "\r\n", "\n\n", "\n# triangle\n\t\n", "\t \n"))
-    depth = 0
-    columns = rng.choice(("", "color", "normal", "color normal"))
-    has_state = rng.random() < 0.5
-    material_count = rng.randrange(4)
-
-    def arguments(*words):
-        return rng.choice((end(), " ", " ")) + " ".join(words) + end()
-
-    def command():
-        nonlocal depth
-        kind = rng.choice(("translate", "scale", "rotate", "push", "push", "pop", "color", "use"))
-        if kind == "use":
-            return "use" + arguments(str(rng.randrange(material_count or 1)))
-        if kind == "color":
-            return "color" + arguments(*(str(rng.randrange(256)) for _ in range(3))) if has_state else ""
-        if kind == "push":
-            depth += 1
-            return "push" + end()
-        if kind == "pop":
-            if not depth:
-                return ""
-            depth -= 1
-            return "pop" + end()
-        if kind == "rotate":
-            return "rotate" + arguments(str(rng.choice((30, 45, 90, 17.3, -1e3))), number(), number(), "1")
-        return kind + arguments(*(number() for _ in range(3)))
-
-    def vertex():
-        words = [number() for _ in range(3)]
-        if "color" in columns:
-            words += [str(rng.randrange(256)) for _ in range(3)]
-        if "normal" in columns:
-            words += [number(), number(), "1"]
-        return " ".join(words) + end()
-
-    text = CAMERA + (f"attributes {columns}\n" if columns else "") + ("color 9 8 7\n" if has_state else "")
-    text += "".join(f"material 0.5 1 0.{i} 8\n" for i in range(material_count))
-    is_lit = rng.random() < 0.6
-    for _ in range(rng.randrange(8)):
-        text += command()
-        if is_lit:
-            text += f"light{arguments(number(), number(), number(), '1', '0.5', '1')}"
-    if is_lit:
-        text += "ambient 0.1 0.1 0.1\nbackground 3 4 5\n"
-    plain = rng.random() < 0.3
-    for _ in range(count):
-        for _ in range(rng.choice((0, 0, 0, 1, 3))):
-            text += command()
-        if plain:
-            text += "triangle\n" +"".join(vertex().split("\n")[0].split("#")[0].strip() + "\n"
-                                          for _ in range(3))
-        else:
-            text += "triangle" + rng.choice((end(), end(), " ")) + "".join(vertex() for _ in range(3))
-    return text + command() + "end" + rng.choice(("", "\n", " # the end\n\n"))
 
 
 class Split(ToolTest):
@@ -121,12 +59,15 @@ class Scenes(Split):
         most = 0
         for seed in range(SCENE_COUNT):
             rng = random.Random(seed)
-            scene = random_scene(rng, rng.randrange(60))
+            scene = random_scenes.scene(rng, rng.randrange(1, 160))
             options = rng.choice(([], ["--framed"], ["--digits", "exact"], ["--digits", "3", "--framed"]))
             for count in (1, 2, 7, 300):
                 with self.subTest(seed=seed, count=count, options=options):
                     most = max(most, len(self.check(scene, count, *options)))
         self.assertGreater(most, 50)  # then most parts are one triangle
+
+    def test_lights_inside_push_and_pop(self):
+        self.check(scene_of_parts(True), 7)
 
     def test_samples(self):
         for sample in sorted(SOURCE.glob("samples/*/scene.txt")):

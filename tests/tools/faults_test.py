@@ -12,7 +12,7 @@ import time
 import unittest
 
 from toolbox import (
-    ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run,
+    ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, TRIANGLE, ToolTest, command, pseudo_terminal, run,
     run_with, stage_texts)
 
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"

@@ -204,9 +204,6 @@ class CameraPrecedence(ToolTest):
         return pipe(["view", "--bare", *options],
                     stdin=header + "1 2 3\n0 0 0\n0 0 0\n\n").decode().splitlines()[0]
 
-    def write_scene(self, first_lines):
-        pathlib.Path("camera.txt").write_text(first_lines + "nonsense that nobody reads\n")
-
     RATIO_SCENE = SCENE.replace("60 1 1 100", "60 1.5 1 100 ratio")
 
     def test_a_projection_that_is_replaced_loses_its_aspect_rule(self):

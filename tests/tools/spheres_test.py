@@ -5,10 +5,9 @@ usage: spheres_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import math
 import pathlib
-import subprocess
 import unittest
 
-from toolbox import CAMERA, SOURCE, TRIANGLE, ToolTest, command, pipe, run
+from toolbox import CAMERA, TRIANGLE, ToolTest, pipe, run
 
 REFUSED = ("expected triangles alone, found a sphere: trace draws it, and model --facets N makes "
            "triangles of it\n")
@@ -63,13 +62,6 @@ class Text(ToolTest):
         done = run("model", stdin=scene("rotate 33 1 2 3\ntranslate 1e33 0 0\nrotate 33 1 2 3\n"
                                         "translate -1e33 1e20 0\nsphere 0.1 0.2 0.3 1\n"))
         self.assertIn(b"the digits of this vertex and of 3 more are not certain", done.stderr)
-
-    def test_a_stage_of_awk_needs_no_change(self):
-        """scripts/view.awk, which subtracts the eye, is the view of this camera."""
-        text = pipe(["model"], stdin=scene(TRIANGLE, SPHERE, "rotate 20 0 0 1\nscale 1 2 1\n", SPHERE))
-        awk = subprocess.run(["awk", "-v", "eye=0 0 5", "-f", SOURCE / "scripts/view.awk"], input=text,
-                             stdout=subprocess.PIPE, check=True)
-        self.assertEqual(awk.stdout, pipe(["view"], stdin=text))
 
     def test_counts_as_one_object(self):
         """Its number and its three draws of color are its own, drawn or not."""
@@ -234,15 +226,6 @@ class Facets(ToolTest):
         slope = math.log(errors[-1] / errors[0]) / math.log(counts[-1] / counts[0])
         self.assertAlmostEqual(slope, -2, delta=0.1, msg=str(errors))
 
-    def test_of_128_belts_are_lit_as_the_sphere(self):
-        """Within one level, but at the silhouette."""
-        text = scene(LIGHT + "color 200 150 100\n", SPHERE)
-        options = ["--shading", "phong", "--no-shadows"]
-        exact, faceted = (traced(text, *options, model_options=more)[1] for more in ([], ["--facets", "128"]))
-        differences = [abs(a - b) for a, b in zip(exact, faceted)]
-        self.assertLessEqual(sum(d > 1 for d in differences), 8 * 3)
-        self.assertGreater(sum(a > 20 for a in exact), 20000)
-
 
 class Symmetry(ToolTest):
     """What leaves a sphere as it is leaves its picture, byte by byte."""
@@ -272,12 +255,6 @@ class Symmetry(ToolTest):
         expected = unit(0)
         for k in (-20, -3, 4, 30):
             self.assertEqual(unit(k), expected, k)
-
-    def test_threads(self):
-        text = scene(LIGHT, SPHERE, TRIANGLE, *(f"translate 0.5 0.3 -0.5\n{SPHERE}" for _ in range(20)))
-        expected = traced(text, "--threads", "1")
-        for threads in ("2", "5"):
-            self.assertEqual(traced(text, "--threads", threads), expected)
 
     def test_shading_models_are_alike(self):
         """Without facets, flat and gouraud light every point, too."""

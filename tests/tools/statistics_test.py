@@ -117,29 +117,6 @@ class Files(ToolTest):
         self.assertEqual(done.returncode, 0)
         self.assertEqual(statistics(pathlib.Path("stats.txt").read_text()), {key: "0" for key in ZBUF_KEYS})
 
-    def test_a_failed_run_leaves_an_older_file(self):
-        for tool in ("model", "view", "project", "zbuf"):
-            pathlib.Path("stats.txt").write_text("older")
-            config = ["config.txt"] if tool == "zbuf" else []
-            done = run(tool, *config, "--stats", "stats.txt", stdin="0 0 0\nx\n")
-            self.assertEqual(done.returncode, 1)
-            self.assertEqual(pathlib.Path("stats.txt").read_text(), "older")
-        self.assertEqual(self.files(), ["config.txt", "scene.txt", "stats.txt"])
-
-    def test_a_name_that_cannot_be_written_is_an_error_before_anything_is_written(self):
-        done = run("zbuf", "config.txt", "--stats", "none/stats.txt", stdin="0 0 0\n1 0 0\n0 1 0\n")
-        self.assert_fails(done, 1, "zbuf: cannot open none/stats.txt: No such file or directory")
-        self.assertEqual((done.stdout, self.files()), (b"", ["config.txt", "scene.txt"]))
-
-    def test_a_full_disk_is_a_failure(self):
-        for tool in ("model", "zbuf"):
-            config = ["config.txt"] if tool == "zbuf" else []
-            data = pathlib.Path("scene.txt").read_bytes() if tool == "model" else b""
-            done = run(tool, *config, "--stats", "/dev/full", stdin=data)
-            self.assertEqual((done.returncode, done.stderr.decode()),
-                             (1, f"{tool}: cannot write /dev/full: No space left on device\n"))
-        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
-
 
 class Extents(ToolTest):
     def test_they_are_numbers_of_the_text(self):

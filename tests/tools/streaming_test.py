@@ -115,17 +115,6 @@ class Streaming(ToolTest):
     def test_framed_text_is_passed_on_at_once_as_well(self):
         self.check("view", "framed\n" + HEADER, VERTICES + "\n", "end\n")
 
-    def test_half_of_the_input_gives_half_of_the_output(self):
-        scenes = {"model": (CAMERA, TRIANGLE, "end\n"), "view": (HEADER, VERTICES + "\n", ""),
-                  "project": (HEADERS["project"], VERTICES + "\n", "")}
-        for tool, (start, triangle, end) in scenes.items():
-            with LiveTool(tool) as live:
-                live.send(start + triangle * 200)
-                self.assertEqual(live.receive(200), 200, tool)
-                live.send(triangle * 200 + end)
-                self.assertEqual(live.receive(400), 400, tool)
-                self.assertEqual(live.finish(), 0)
-
 
 class Errors(ToolTest):
     """An error is reported after the triangles before it are written, whatever the batch size."""

@@ -3,14 +3,11 @@
 
 usage: wrong_texts_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
-import os
 import pathlib
-import shutil
 import subprocess
 import unittest
 
-from toolbox import (
-    BIN, CAMERA, NO_TRIANGLE, SCENE, SOURCE, TRIANGLE, ToolTest, add_claims, command, pipe, run)
+from toolbox import CAMERA, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, add_claims, command, pipe, run
 
 A_MODEL = ("expected a scene, but this looks like a model file: 'pipeline picture' draws it, mesh2scene "
            "makes a scene of it")
@@ -250,33 +247,6 @@ class AnotherView(ToolTest):
     def test_a_comment_may_be_colored(self):
         done = run("zbuf", "config.txt", stdin="# \x1b[31mred\x1b[0m\n")
         self.assertEqual((done.stderr.decode(), done.returncode), (NO_TRIANGLE, 0))
-
-    def test_the_real_one_is_suspected(self):
-        vim = next(
-            (path for name in ("view", "vim", "vi") if (path := shutil.which(name)) and b"VIM" in
-             subprocess.run([path, "--version"], capture_output=True, stdin=subprocess.DEVNULL).stdout), None)
-        if vim is None:
-            self.skipTest("no Vim")
-        os.mkdir("bin")
-        os.symlink(vim, "bin/view")
-        for terminal in ("xterm", "dumb"):
-            done = subprocess.run(
-                ["sh", "-c", '"$1/model" scene.txt | bin/view 2> /dev/null | "$1/project"', "sh", BIN],
-                stdin=subprocess.DEVNULL, capture_output=True, timeout=60,
-                env={**os.environ, "TERM": terminal})
-            self.assertEqual(done.stderr.decode(),
-                             f"project: <stdin>:1:1: expected the output of view, {self.MESSAGE}\n")
-
-
-class Samples(ToolTest):
-    def test_every_sample_is_known_by_its_place(self):
-        for sample in sorted((SOURCE / "samples").glob("*/scene.txt")):
-            for tool, text in (("view", sample.read_bytes()), ("project", sample.read_bytes()),
-                               ("zbuf", sample.read_bytes())):
-                done = run(tool, *OPERANDS[tool], stdin=text)
-                self.assertIn(b"but this looks like a scene: model reads those\n", done.stderr, sample)
-            done = run("model", sample.parent / "config.txt")
-            self.assertIn(b"but this looks like a config: zbuf reads those\n", done.stderr, sample)
 
 
 if __name__ == "__main__":

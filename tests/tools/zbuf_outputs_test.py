@@ -124,27 +124,11 @@ class Image(OutputTest):
             "zbuf: expected a place of its own for every output, found the same one for --image 'x.npy' and "
             "--depth-array 'x.npy' (try zbuf --help)")
 
-    def test_a_closed_pipe_is_quiet(self):
-        done = subprocess.run([
-            "bash", "-c", '"$0" "$@" | true; echo ${PIPESTATUS[0]}',
-            *command("zbuf", "--size", "2000x2000", "stage3.txt", "-o", "-")], capture_output=True, text=True)
-        self.assertEqual((done.stdout, done.stderr), ("1\n", ""))
-
 
 class Depths(OutputTest):
     def test_may_go_nowhere(self):
         self.assertEqual(self.assert_zbuf("config.txt", "stage3.txt", "--z-buffer", "none"), b"")
         self.assertEqual(self.files(), ["config.txt", "out.bmp", "scene.txt", "stage3.txt"])
-
-    def test_may_go_to_a_file_called_none(self):
-        depths = self.assert_zbuf("config.txt", "stage3.txt")
-        self.assertEqual(self.assert_zbuf("config.txt", "stage3.txt", "--z-buffer", "./none"), b"")
-        self.assertEqual(pathlib.Path("none").read_bytes(), depths)
-
-    def test_their_image_needs_no_text(self):
-        self.assert_zbuf("config.txt", "stage3.txt", "--depth-image", "a.pgm")
-        self.assert_zbuf("config.txt", "stage3.txt", "--depth-image", "b.pgm", "--z-buffer", "none")
-        self.assertEqual(pathlib.Path("a.pgm").read_bytes(), pathlib.Path("b.pgm").read_bytes())
 
     def array(self, name="depths.npy", kind="<f8"):
         """The shape and the numbers of a file, by NumPy's page on the format, version 1.0."""
@@ -266,10 +250,6 @@ class Background(OutputTest):
                       stdin=CAMERA + scene + "triangle\n-9 -9 0\n9 -9 0\n-9 9 0\nend\n")
         pixels = self.assert_zbuf("--size", "8x8", "-o", "-", *options, stdin=stage3)[-3 * 64:]
         return pixels[21:24].hex(), pixels[-24:-21].hex()
-
-    def test_is_black_or_that_of_the_scene(self):
-        self.assertEqual(self.corners("")[0], "000000")
-        self.assertEqual(self.corners("background 1 2 3\n")[0], "010203")
 
     def test_of_the_option_replaces_it_and_nothing_else(self):
         lit = "light 0 0 9 1 1 1\n"
