@@ -19,7 +19,7 @@ sys.path[:0] = [str(MEASURE), str(SOURCE / "scripts")]
 from lib.running.pipe_tools import Tools  # noqa: E402
 from parts.extremes_measure import (  # noqa: E402
     ROUNDED, SETTINGS, digits_right, measured, shortened, wrong_without_note)
-from parts.extremes_report import Results, certainty, promise, short, tables  # noqa: E402
+from parts.extremes_report import Results, tables  # noqa: E402
 from parts.extremes_scenes import AXES, QUICK, Case, scene_text  # noqa: E402
 from parts.extremes_truth import reference, true_owners, true_vertices  # noqa: E402
 
@@ -150,50 +150,6 @@ class Mistakes(unittest.TestCase):
              "model: few digits"), ("zbuf: note: the picture is empty: no triangle came",
                                     "zbuf: empty picture"), ("zbuf: note: a new one", "zbuf: a new one")):
             self.assertEqual(shortened(note), words)
-
-
-def row(value, wrong, note="", setting="default", axis="size", uncertain="0"):
-    return {
-        "axis": axis, "value": value, "setting": setting, "wrong_pixels": str(wrong), "note": note,
-        "wrong_without_note": "0", "uncertain_pixels": uncertain, "wrong_though_certain": "0"}
-
-
-class Report(unittest.TestCase):
-    def first(self, *rows, direction="size"):
-        return Results(rows).first(direction, "default", "wrong_pixels")
-
-    def test_the_first_wrong_pixel_says_when_it_is_noted(self):
-        self.assertEqual(self.first(row("1", 0), row("0.001", 0, "n")), "")
-        self.assertEqual(self.first(row("1", 0), row("0.001", 2, "n")), "1e-3 (noted)")
-        self.assertEqual(self.first(row("1", 0), row("0.001", 2), row("1e-04", 9, "n")),
-                         "1e-3 (note from 1e-4)")
-        self.assertEqual(self.first(row("1", 0, "n"), row("0.001", 2), row("1e-04", 9)), "1e-3 (no note)")
-
-    def test_uncertain_pixels_stand_where_they_are_first_and_where_some_are_wrong(self):
-        for counts, cell in (("000", ""), ("070", "0.1 (7)"), ("0+0", "0.1 (2 of 2,345)"),
-                             ("7+8", "1 (7), 0.1 (2 of 2,345)"), ("7xx", "1 (7), 0.1 refused, 0.01 refused"),
-                             ("xxx", "refused")):
-            rows = [row(value, 2 * (count == "+"), uncertain={"+": "2345", "x": "refused"}.get(count, count))
-                    for value, count in zip(("1", "0.1", "0.01"), counts)]
-            self.assertEqual(Results(rows).uncertain("size", "default"), cell)
-
-    def test_the_angle_goes_two_ways(self):
-        rows = [
-            row(value, wrong, axis="angle")
-            for value, wrong in (("179.9", 5), ("170", 3), ("45", 0), ("1", 0), ("0.1", 2))]
-        self.assertEqual(self.first(*rows, direction="wide angle"), "170 (no note)")
-        self.assertEqual(self.first(*rows, direction="narrow angle"), "0.1 (no note)")
-
-    def test_a_broken_promise_is_reported(self):
-        self.assertIn("Of 6 runs of a stage, none printed", promise(Results([row("1", 0), row("2", 0)])))
-        self.assertIn("Of 6 runs of a stage, 2 runs printed",
-                      promise(Results([row("1", 0), {**row("2", 0), "wrong_without_note": "2"}])))
-        self.assertIn("in 1 pictures, none are wrong", certainty(Results([row("1", 2)])))
-        self.assertIn("2 are wrong", certainty(Results([{**row("1", 2), "wrong_though_certain": "2"}])))
-
-    def test_values_are_short(self):
-        self.assertEqual([short(word) for word in ("1", "1e+08", "0.001", "179.999", "1000", "1e-12")],
-                         ["1", "1e8", "1e-3", "179.999", "1000", "1e-12"])
 
 
 class Page(unittest.TestCase):

@@ -18,7 +18,7 @@ import unittest
 import zlib
 
 from lib.showing.pictures import png_chunks, read_picture, unfiltered
-from random_scene import CAMERA, scene_of_parts as scene
+from random_scene import scene_of_parts as scene
 from ssh_server import SshServer
 from toolbox import BIN, SOURCE, ToolTest, pipe, run, run_script
 
@@ -160,24 +160,6 @@ class Local(FarmTest):
                 with self.subTest(is_lit=is_lit, settings=settings, cut=cut):
                     self.assertEqual(self.check(settings, *cut), "")
                     self.assertFalse(pathlib.Path("farm.ppm.farm").exists())
-
-    def test_other_formats(self):
-        self.expect([], True)
-        for extension, cut in itertools.product(("bmp", "png"), (["--parts", "4"], ["--bands", "3"])):
-            one, many = (pathlib.Path(f"{name}.{extension}") for name in ("one", "farm"))
-            pipe(["model"], ["view"], ["project"], ["zbuf", "config.txt", "-o", one], stdin=scene(True))
-            done = subprocess.run([FARM, "scene.txt", "config.txt", "-o", many, *cut], capture_output=True,
-                                  env={**os.environ, "BIN": str(BIN)})
-            self.assertEqual((done.returncode, done.stderr), (0, b""))
-            self.assertEqual(read_picture(many), read_picture(one))
-            if extension == "bmp" or "--parts" in cut:
-                self.assertEqual(many.read_bytes(), one.read_bytes())
-
-    def test_an_empty_picture_is_noted_once(self):
-        pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 9\n1 0 9\n0 1 9\n" * 9 + "end\n")
-        done = self.farm([])
-        self.assertEqual((done.returncode, done.stderr),
-                         (0, "zbuf: note: the picture is empty: no triangle came\n"))
 
     def test_a_killed_worker(self):
         self.expect([], True)

@@ -172,14 +172,6 @@ class Flying(WindowTest):
                 self.assertEqual(self.shown(),
                                  frame_of(SCENE, view=["--eye", *map(repr, eye), "--look", *map(repr, look)]))
 
-    def test_there_and_back_is_where_it_was(self):
-        first = self.shown()
-        for there, back in (("w", "s"), ("a", "d"), ("q", "e"), ("Left", "Right"), ("Up", "Down")):
-            self.press(there)
-            self.assertNotEqual(self.shown(), first, there)
-            self.press(back)
-            self.assertEqual(self.shown(), first, back)
-
     def test_to_turn_right_moves_the_scene_left(self):
         def middle(ppm):
             pixels = ppm[-7200:]
@@ -215,14 +207,6 @@ class Flying(WindowTest):
         height = math.asin(2 / math.sqrt(30)) + math.radians(8)
         self.assertAlmostEqual(self.eye()[1], math.sqrt(30) * math.sin(height), places=12)
         self.assertAlmostEqual(math.hypot(*self.eye()), math.sqrt(30), places=12)
-
-    def test_a_drag_does_not_go_over_the_top(self):
-        self.drag(0, 1000)
-        self.assertAlmostEqual(self.eye()[1], math.sqrt(30) * math.sin(math.radians(89)), places=12)
-        self.drag(0, -2000)
-        self.assertAlmostEqual(self.eye()[1], -math.sqrt(30) * math.sin(math.radians(89)), places=12)
-        self.drag(0, 5)
-        self.assertAlmostEqual(self.eye()[1], -math.sqrt(30) * math.sin(math.radians(87)), places=12)
 
     def test_the_wheel_goes_nearer_and_back(self):
         first = self.shown()
@@ -266,12 +250,6 @@ class Flying(WindowTest):
             self.assertIn(key, self.window.keys.cget("text"))
         self.press("h")
         self.assertFalse(self.window.keys.winfo_ismapped())
-
-    def test_the_camera_can_be_read(self):
-        self.assertEqual(self.window.readout.cget("text"), "h: keys   eye 1 2 5   look 0 0 0   fovY 60")
-        self.window.picture.event_generate("<Button-4>")
-        self.settle()
-        self.assertEqual(self.window.readout.cget("text"), "h: keys   eye 0.9 1.8 4.5   look 0 0 0   fovY 60")
 
     def test_it_opens_wide_enough_with_the_scenes_aspect(self):
         from lib.running.pipe_tools import Tools
@@ -322,10 +300,6 @@ class Flying(WindowTest):
         covered = [[any(row[i:i + 3]) for i in range(0, len(row), 3)] for row in read_picture("shown.ppm")[2]]
         self.assertEqual(covered, [[abs(x - 30) * 3 / 61 <= 0.9 and abs(y - 20) * 2 / 41 <= 0.9
                                     for x in range(61)] for y in range(41)])
-
-    def test_the_wireframe_is_zbufs(self):
-        self.press("f")
-        self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--wireframe"]))
 
     def test_the_first_light_moves(self):
         self.press("l")
@@ -381,11 +355,6 @@ class Flying(WindowTest):
             self.assertEqual(frame_of(written), self.shown(), keys)
             self.assertIn("# eye", written)
             self.assertIn("# a scene to fly through", written)
-
-    def test_p_without_a_move_changes_no_number(self):
-        self.press("p")
-        self.assertEqual(pipe(["model"], stdin=pathlib.Path("fly.txt").read_text()),
-                         pipe(["model"], stdin=SCENE))
 
     def test_P_writes_the_picture(self):
         from lib.showing.pictures import read_picture
@@ -470,23 +439,6 @@ class Ending(ToolTest):
             self.assertEqual((end_by_signal(process, number)[1].decode(), process.returncode),
                              (f"fly: ended by {number.name}\n", -number))
 
-    def test_escape_leaves(self):
-        pathlib.Path("scene.txt").write_text(SCENE)
-        program = (
-            "import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = "
-            "['scene.txt']\n"
-            "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import "
-            "FlyWindow\n"
-            "run = FlyWindow.run\n"
-            "def press(root): (root.focus_force(), root.event_generate('<KeyPress>', keysym='Escape')) if "
-            "root.winfo_viewable() else root.after(10, press, root)\n"
-            "def pressed(window): window.root.after(10, press, window.root); run(window)\n"
-            "FlyWindow.run = pressed\n"
-            "Loader('__main__', sys.path[0] + '/fly').load_module()")
-        done = subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], capture_output=True,
-                              text=True, timeout=60, env={**os.environ, "BIN": str(BIN)})
-        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
-
 
 class TransparentBackground(ToolTest):
     def test_is_shown_in_full(self):
@@ -518,15 +470,6 @@ class Messages(ToolTest):
         done = self.fly("scene.txt")
         self.assertEqual((done.returncode, done.stderr),
                          (1, "fly: model: scene.txt:1:5: expected the z of the eye, found 'x'\n"))
-
-    @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
-    def test_the_config_is_the_one_beside_the_scene(self):
-        pathlib.Path("folder").mkdir()
-        pathlib.Path("folder/scene.txt").write_text(SCENE)
-        pathlib.Path("folder/config.txt").write_text("0 0\n")
-        done = self.fly("folder/scene.txt")
-        self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"\Afly: zbuf: folder/config\.txt:1:1: expected the width in pixels")
 
     @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
     def test_a_sphere_needs_trace(self):

@@ -490,12 +490,6 @@ class InABrowser(ToolTest):
                     "[...wire.canvas.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, "
                     "1).data].slice(0, 3)"), self.js("return inspector.palette.numbers('--theirs')"))
 
-    def test_theirs_of_another_length_is_not_compared(self):
-        told = self.load_a_hand_in(lambda: pathlib.Path("theirs/stage1.txt").write_text(
-            "0 0 0\n1 0 0\n0 1 0\n"))
-        self.assertIn("1 triangles in place of 22: vertices are not compared", told)
-        self.assertEqual(self.js("return panels[0].wire.theirs.triangles.length"), 1)
-
     def test_theirs_may_be_missing_or_unreadable(self):
         def change():
             pathlib.Path("theirs/stage2.txt").unlink()
@@ -536,19 +530,6 @@ class InABrowser(ToolTest):
             self.assertEqual("the picture is empty" in self.js("return text('#notes')"), not shown)
             self.assertEqual(self.js("return texts('#legend li')"),
                              [f"{shown} shown", "0 hidden", f"{outside} outside", "0 culled"])
-
-    def test_rows_and_lines_are_counted_as_they_say(self):
-        self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
-        self.js("choose(37 * 100 + 37)")
-        [(number, text)] = self.hot_lines("zbuf")
-        self.assertEqual(number, 37)
-        run("zbuf", SAMPLE / "config.txt", "--image", "out.ppm", "--z-buffer", "z_buffer.txt",
-            stdin=(SAMPLE / "stage3.txt").read_bytes())
-        values = pathlib.Path("z_buffer.txt").read_text().split("\n")[37].split()
-        shown = re.search(r"\[(.*)\]", text)[1]
-        depth = self.js("return text('#pixel-place')").split("depth ")[1]
-        self.assertIn(shown, values)
-        self.assertAlmostEqual(float(shown), float(depth), places=6)
 
     def rows(self):
         return self.js("return cells('#counts tbody tr')")
@@ -600,43 +581,6 @@ class InABrowser(ToolTest):
             for tool in ("model", "view", "project"):
                 with self.subTest(scene=name, tool=tool):
                     self.assertEqual(self.points_out_of_sight(tool), [])
-
-    def test_a_far_plane_in_the_distance_does_not_shrink_the_rest(self):
-        self.load_text(SCENE.replace("60 1 1 100", "60 1 1 1e6"))
-        self.assertLess(self.js("return panels[1].wire.view.size"), 40)
-        self.assertIn("(far, at 1000000, is drawn nearer)", self.js("return text('#stages')"))
-
-    def test_a_triangle_in_the_distance_does_not_hide_the_cube(self):
-        far = "push\ntranslate\n1e6 0 0\ntriangle\n0 0 0\n1 0 0\n0 1 0\npop\ntriangle"
-        self.load_text(SCENE.replace("triangle", far, 1))
-        width = self.js("const wire = panels[2].wire; Object.assign(wire.view, {yaw: 0, pitch: 0}); return "
-                        "wire.view.place(1, 0, 0)[0] - wire.view.place(-1, 0, 0)[0]")
-        self.assertGreater(width, 5)
-
-    def test_fit_brings_all_back_and_then_comes_close(self):
-        self.load_own_scene()
-        seen = "const {view} = panels[1].wire; return [view.size, view.zoom, view.yaw]"
-        fit = "all('figcaption button')[1].click(); " + seen
-        size, _, yaw = self.js(seen)
-        self.js("const {view} = panels[1].wire; view.turn(1, 0); view.approach(3, 0, 0)")
-        self.assertEqual(self.js(fit), [size, 1, yaw])
-        close = self.js(fit)[0]
-        self.assertLess(close, size / 2)  # the triangles are 9 deep, and the frustum more than twice that
-        self.assertEqual(self.points_out_of_sight("view", "[]"), [])
-        self.assertEqual(self.js(fit)[0], size)
-
-    def test_dragging_turns_without_choosing(self):
-        self.load_own_scene()
-        before = self.js("return panels[0].wire.view.yaw")
-        pane = {"element-6066-11e4-a52e-4f735466cecf": self.browser.element("#wire-model")}
-        self.browser.call(
-            "POST", "/actions", {
-                "actions": [{"type": "pointer", "id": "mouse", "actions": [
-                    {"type": "pointerMove", "duration": 0, "origin": pane, "x": 0, "y": 0},
-                    {"type": "pointerDown", "button": 0},
-                    {"type": "pointerMove", "duration": 0, "origin": "pointer", "x": 50, "y": 0},
-                    {"type": "pointerUp", "button": 0}]}]})
-        self.assertNotEqual(self.js("return panels[0].wire.view.yaw"), before)
 
     def test_every_triangle_of_a_large_scene_is_there(self):
         """Scenes up to MAX_DRAWN_TRIANGLES differ only in their number from this one."""
@@ -768,18 +712,6 @@ class InABrowser(ToolTest):
         self.js("one('#tab-explanation').click()")
         self.assertIn("draw no spheres", self.js("return text('#explanation')"))
 
-    def test_many_spheres_and_no_triangle_have_a_page(self):
-        spheres = "".join(f"sphere {i % 40 - 20} {i // 40 - 15} -30 0.4\n" for i in range(1100))
-        self.load_text(f"0 0 9\n0 0 0\n0 1 0\n60 1 1 100\n{spheres}end\n", 41, "--trace")
-        self.assertIn("scene.txt: 0 triangles and 1,100 spheres", self.js("return text('#title')"))
-        found = self.js("return panels.slice(0, 2).map(({wire}) => [...wire.stage.spheres.names].filter(i "
-                        "=> wire.triangleAt(wire.stage.spheres.x[4 * i], wire.stage.spheres.y[4 * i]) >= "
-                        "0).length)")
-        self.assertEqual(found, [1100, 1100])
-        points = ("[...wire.stage.spheres.outermost()].flatMap((x, at, all) => at % 3 ? [] : [[x, all[at + "
-                  "1], all[at + 2]]])")
-        self.assertEqual(self.points_out_of_sight("view", points), [])
-
     def test_the_picture_is_traces_and_the_note_of_zbuf_is_left_out(self):
         self.load_mirror(41)
         self.assertNotIn("matt", self.js("return text('#notes')"))
@@ -790,18 +722,6 @@ class InABrowser(ToolTest):
         for role, name in (("tab", "Rays"), ("columnheader", "meets")):
             self.assertTrue(any(role == r and n.startswith(name) for r, n in found),
                             f"no {role} named {name}")
-
-    def test_of_a_large_picture_the_page_has_the_rays_of_the_nearest_pixel(self):
-        self.load_mirror(151)
-        count = self.js("return inspector.rays.trees.trees.size")
-        self.assertTrue(1000 < count <= 4000, count)
-        for place, most in (((0, 0), 3), ((150, 150), 3), ((75, 76), 1), ((3, 140), 2)):
-            self.js("choose(151 * arguments[0] + arguments[1])", place[1], place[0])
-            told = self.js("return text('#rays-place')")
-            row, column = map(int, re.match(r"Rays of row (\d+), column (\d+)", told).groups())
-            self.assertLessEqual(max(abs(column - place[0]), abs(row - place[1])), most)
-            self.assertEqual("trace --probe" in told, (column, row) != place)
-            self.assertEqual(self.ray_rows()[0][0], "primary")
 
     def test_in_a_large_scene_the_pixel_is_explained_beside_the_command_for_the_rest(self):
         scene = run_script("make-torus", "--around", "25", "--tube", "11").stdout

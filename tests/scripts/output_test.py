@@ -30,15 +30,6 @@ def script(name, *words, **settings):
                           env={**PLAIN, "HOME": os.getcwd()}, **settings)
 
 
-def in_fly(python, **settings):
-    """Runs a line with fly's window, for its writing only; that needs no display."""
-    program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True\n"
-               "from fly_parts.window import FlyWindow\n"
-               "window = FlyWindow.__new__(FlyWindow); window.say = print\n" + python)
-    return subprocess.run([sys.executable, "-c", program, SCRIPTS], capture_output=True, timeout=60,
-                          **settings)
-
-
 def mode_of(path):
     return stat.S_IMODE(os.stat(path).st_mode)
 
@@ -216,44 +207,6 @@ class Inspect(Writers, ToolTest):
         self.assertTrue(self.is_whole(pathlib.Path("page").read_bytes()))
 
 
-class Fly(ToolTest):
-    """p and P write through the same module; the window shows the error."""
-
-    def test_what_it_writes_is_whole(self):
-        os.mkdir("folder")
-        pathlib.Path("old").write_text("old")
-        os.symlink("old", "link")
-        full = full_device()
-        done = in_fly(
-            f"window.write('link', lambda: b'new'); window.write('folder', lambda: b'new'); "
-            f"window.write('{full}', lambda: b'new')"
-        )
-        self.assertEqual(done.stderr.decode(), "")
-        self.assertEqual(
-            done.stdout.decode(),
-            f"wrote link\ncannot open folder: Is a directory\ncannot write {full}: No space left on device\n")
-        self.assertEqual((os.readlink("link"), pathlib.Path("old").read_text()), ("old", "new"))
-
-    def test_comments_stay_as_they_are(self):
-        pathlib.Path("-scene").write_bytes(
-            b"\xef\xbb\xbf# gr\xfcn\r\n0 0 5\r\n0 0 0\r\n0 1 0\r\n60 1 1 100 # gr\xfcn\r\nend\r\n")
-        done = in_fly(
-            "from types import SimpleNamespace as Any\n"
-            "window.scene, window.is_light_moved, window.settings = './-scene', False, "
-            "Any(camera=Any(lines=lambda: [['1', '2', '3'], ['0', '0', '0'], ['0', '1', '0']]))\n"
-            "sys.stdout.buffer.write(window.scene_text())")
-        self.assertEqual((done.stderr, done.stdout),
-                         (b"", b"# gr\xfcn\r\n1 2 3\n0 0 0\n0 1 0\n60 1 1 100 # gr\xfcn\r\nend\r\n"))
-
-    def test_a_config_that_is_none_is_zbufs_message(self):
-        for name, text, message in (("-c", "x y\n", r"zbuf: \./-c:1:1: expected .*"),
-                                    ("c", "", r"zbuf: c:1:1: expected .*")):
-            pathlib.Path(name).write_text(text)
-            done = script("fly", "--", "scene.txt", name)
-            self.assertEqual(done.returncode, 1)
-            self.assertRegex(done.stderr.decode(), rf"\Afly: {message}\n\Z")
-
-
 class MakeTorus(ToolTest):
     def run_in_shell(self, channels):
         return subprocess.run(
@@ -267,15 +220,6 @@ class MakeTorus(ToolTest):
         self.assertEqual(
             self.run_in_shell(">&-").stderr, b"make-torus: cannot write <stdout>: Bad file descriptor\n1\n")
         self.assertEqual(self.run_in_shell("| head -n 1").stderr, b"141\n")
-
-    def test_what_makes_no_torus_is_refused(self):
-        for option, value, expected in (("around", "2", "a whole number of at least 3"),
-                                        ("tube", "x", "a whole number of at least 3"),
-                                        ("major", "0", "a number greater than 0"),
-                                        ("minor", "nan", "a number greater than 0")):
-            done = script("make-torus", f"--{option}={value}")
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(f"argument --{option}: expected {expected}, found '{value}'", done.stderr.decode())
 
 
 class Separate(ToolTest):

@@ -18,11 +18,6 @@ ENDED = ("COMPLETED", "FAILED", "CANCELLED", "NODE_FAIL", "TIMEOUT", "OUT_OF_MEM
 
 
 class Syntax(ToolTest):
-    def test_sh_reads_them(self):
-        for name in ("submit", "task"):
-            done = subprocess.run(["sh", "-n", SCRIPTS / name], capture_output=True, text=True)
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-
     def test_shellcheck_finds_nothing(self):
         if not shutil.which("shellcheck"):
             self.skipTest("shellcheck is missing")
@@ -153,18 +148,6 @@ class OnSlurm(ToolTest):
         self.assertEqual({name: pathlib.Path("work/seen", name).stat().st_mtime_ns
                           for name in before}, before)
         self.assert_as_one_pipe(picture)
-
-    def test_a_folder_of_another_scene_is_refused(self):
-        self.use_tools("")
-        self.expect(False)
-        self.end_of(self.submit(2))
-        pathlib.Path("scene.txt").write_text(scene_of_parts(True))
-        done = subprocess.run(
-            [SCRIPTS / "submit", "scene.txt", "config.txt", "2", "work", "picture.ppm"], capture_output=True,
-            text=True,
-            env={**self.cluster.environment, "PATH": f"{self.folder}:{self.cluster.environment['PATH']}"})
-        self.assertEqual((done.returncode, done.stdout, done.stderr),
-                         (1, "", "submit: work holds parts of another scene, or for other options\n"))
 
 
 if __name__ == "__main__":
