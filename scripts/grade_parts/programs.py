@@ -21,7 +21,7 @@ from lib.rim.places import place
 
 FIRST_USER, USERS = 61184, 4336  # numbers that no package gives to a user, and a container has
 LOCAL = ("ext4", "xfs", "btrfs", "zfs", "overlay", "tmpfs", "devtmpfs", "mqueue", "f2fs")  # file systems
-DEPTH = 4  # of folders in one, in which those that all may write are looked for
+DEPTH = 6  # of folders in one, in which those that all may write are looked for
 REMOVE = ("-exec", "sh", "-c", 'chmod -R u+rwx -- "$@"; rm -rf -- "$@"', "sh", "{}", "+")
 MOST_BYTES, MOST_FILES = 64 << 20, 500  # of a hand-in that is built
 MOST_LINES = 10                         # of a compiler's messages, as shown
