@@ -6,7 +6,6 @@
 
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "libpipeline/picture/png_file.h"
@@ -71,28 +70,9 @@ Raster<Color> large_image() {
   return image;
 }
 
-TEST(ImageFile, BmpHasItsTwoHeadersAndRowsFromTheBottom) {
-  EXPECT_EQ(bytes_in_file(".bmp", small_image()),
-            "BM\x4e\0\0\0\0\0\0\0\x36\0\0\0"s                      // 54 + 2 * 12 bytes, pixels at 54
-            "\x28\0\0\0\3\0\0\0\2\0\0\0\1\0\x18\0"s                // 40 bytes, 3 x 2, 1 plane, 24 bits
-            "\0\0\0\0\x18\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0"s  // not compressed, 24 bytes of pixels
-            "\0\0\0\xff\xff\xff\3\2\1\0\0\0"s                      // blue, green, red; filled up to 12 bytes
-            "\0\0\xff\0\xff\0\xff\0\0\0\0\0"s);
-}
-
 TEST(ImageFile, PpmHasATextHeaderAndRowsFromTheTop) {
   EXPECT_EQ(bytes_in_file(".ppm", small_image()),
             "P6\n3 2\n255\n\xff\0\0\0\xff\0\0\0\xff\0\0\0\xff\xff\xff\1\2\3"s);
-}
-
-TEST(ImageFile, APixelAloneIsAnImage) {
-  EXPECT_EQ(bytes_in_file(".ppm", Raster<Color>(1, 1, {7, 8, 9})), "P6\n1 1\n255\n\7\10\11");
-  EXPECT_EQ(bytes_in_file(".bmp", Raster<Color>(1, 1, {7, 8, 9})).substr(54), "\11\10\7\0"s);
-}
-
-TEST(ImageFile, BmpRowsEndAtTheNextMultipleOfFourBytes) {
-  for (const auto& [columns, size] : {std::pair(1, 4u), {2, 8u}, {3, 12u}, {4, 12u}, {5, 16u}, {8, 24u}})
-    EXPECT_EQ(bytes_in_file(".bmp", Raster<Color>(1, columns, Color())).size(), 54 + size) << columns;
 }
 
 TEST(ImageFile, EveryPixelOfALargeBmpIsInItsPlace) {

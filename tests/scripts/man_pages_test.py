@@ -5,7 +5,6 @@ Their examples are run by install_test.py, where they are installed.
 usage: man_pages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
-import pathlib
 import re
 import shutil
 import subprocess
@@ -15,23 +14,12 @@ import unittest
 sys.dont_write_bytecode = True
 from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
 sys.path.insert(0, str(SOURCE / "scripts/maintain"))
-from parts.help_text import help_of  # noqa: E402
 from parts.roff import Page, add_markdown, bold, escaped  # noqa: E402
 
 PREFIX = BIN.parent
 MAN = PREFIX / "share/man"
 COMMANDS = sorted(os.listdir(PREFIX / "libexec/pipeline"))
 FORMATS = {"scene": "scene.md", "stage": "stage-text.md"}
-SCRIPT = """#!/usr/bin/env python3
-import argparse
-def main():
-    parser = argparse.ArgumentParser(formatter_class=argparse.RawDescriptionHelpFormatter, description=(
-        "Does it: at once. Well.\\n\\nExample:\\n  x y | z\\n\\nExit status: 0 done; 1 not."))
-    parser.add_argument("input", metavar="IN")
-    parser.add_argument("--mode", choices=("a", "b"))
-    parser.add_argument("-o", "--out", metavar="FILE", help="where:   here")
-    parser.parse_args()
-"""
 with_mandoc = unittest.skipUnless(shutil.which("mandoc"), "mandoc is missing (Debian: mandoc)")
 
 
@@ -146,27 +134,6 @@ class Roff(unittest.TestCase):
             self.shown(page)[3:], [
                 "A code_1 * and bold, light with <a link|x.md#y>.", "• one", "• two", "Sub", "$ ls | wc",
                 "a|b    the key"])
-
-
-class HelpText(ToolTest):
-    def test_options_of_a_tool(self):
-        found = {option.names[-1]: option for option in help_of(BIN / "zbuf", "zbuf").options}
-        self.assertEqual(found["--image"].names, ["-o", "--image"])
-        self.assertEqual(len(found["--coverage"].paragraphs), 3)
-        self.assertEqual((found["--wireframe"].argument, found["--probe"].argument), ("[all]", "COLUMN,ROW"))
-        perspective = {option.names[0]: option for option in help_of(BIN / "view", "view").options}[
-            "--perspective"]
-        self.assertEqual((perspective.argument, perspective.paragraphs),
-                         ("FOVY ASPECT NEAR FAR", ["The projection, as in a scene; angles in degrees"]))
-
-    def test_options_of_a_script(self):
-        pathlib.Path("x").write_text(SCRIPT)
-        text = help_of("x", "x")
-        self.assertEqual([(option.names, option.argument, option.paragraphs) for option in text.options],
-                         [(["-h", "--help"], "", ["show this help message and exit"]),
-                          (["--mode"], "{a,b}", []), (["-o", "--out"], "FILE", ["where: here"])])
-        self.assertEqual((text.summary, text.usage, text.examples, text.exit_status),
-                         ("Does it", ["x [-h] [--mode {a,b}] [-o FILE] IN"], ["x y | z"], "0 done; 1 not"))
 
 
 if __name__ == "__main__":

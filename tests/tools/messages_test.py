@@ -101,37 +101,6 @@ add_claims(StageMessages, [
      "7:3: expected the y of vertex 3 of 3 within a double's range, found '1e999'"), ])
 
 
-class HeaderMessages(ToolTest):
-    """An error in the header is found before the header is judged: here it is that of every tool, view's."""
-
-    def check(self, text, message):
-        pathlib.Path("stage.txt").write_text(text)
-        for tool, *options in (["view"], ["project"], ["zbuf", "config.txt"]):
-            with self.subTest(tool=tool):
-                self.assert_fails(run(tool, *options, "stage.txt"), 1, f"{tool}: stage.txt:{message}")
-
-
-add_claims(HeaderMessages, [
-    ("header lines stand once", HEADER + "eye 0 0 5\n",
-     "5:1: expected one eye, found a second one after stage.txt:1:5"),
-    ("there is one projection", HEADER + "ortho -1 1 -1 1 1 9\n",
-     "5:1: expected one projection, found a second one after stage.txt:4:13"),
-    ("framed stands once", HEADER + "framed\nframed\n",
-     "6:1: expected one 'framed', found a second one after stage.txt:5:1"),
-    ("keywords are known", HEADER + "camera 1\n",
-     "5:1: expected a header line, 'triangle N' or a vertex, found 'camera'"),
-    ("misspelled keywords are guessed", HEADER + "perpective 60 1 1 9\n",
-     "5:1: expected a header line, 'triangle N' or a vertex, found 'perpective' (did you mean perspective?)"),
-    ("keywords are in lower case", "Eye 0 0 5\n",
-     "1:1: expected a header line, 'triangle N' or a vertex, found 'Eye' (keywords are lower case)"),
-    ("an unframed text has no end", HEADER + "end\n",
-     "5:1: expected a header line, 'triangle N' or a vertex ('end' needs a line 'framed' in the header), "
-     "found 'end'"
-     ),
-    ("an earlier stage may have failed", HEADER + "error model: scene.txt:9:1: no #1 scene\n",
-     "5:1: an earlier stage failed: model: scene.txt:9:1: no #1 scene"), ])
-
-
 class CameraMessages(ToolTest):
     def check(self, words, stdin, status, message):
         tool, *options = words.split()

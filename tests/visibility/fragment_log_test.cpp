@@ -29,37 +29,6 @@ std::vector<Fragment> judged(const std::vector<double>& depths) {
   return fragments;
 }
 
-TEST(FragmentTest, TheNearerIsKeptAndTheFartherIsBehindIt) {
-  EXPECT_EQ(judged({1, 1.5, 0.5}), (std::vector<Fragment>{{kPixel, 10, 1, DepthTestResult::kept, 0},
-                                                          {kPixel, 11, 1.5, DepthTestResult::behind, 10},
-                                                          {kPixel, 12, 0.5, DepthTestResult::kept, 0}}));
-}
-
-TEST(FragmentTest, OfEqualDepthsTheLaterIsLost) {
-  EXPECT_EQ(judged({1, 1}).back(), (Fragment{kPixel, 11, 1, DepthTestResult::equal, 10}));
-}
-
-TEST(FragmentTest, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
-  EXPECT_EQ(judged({0}).back().result, DepthTestResult::kept);
-  EXPECT_EQ(judged({2}).back().result, DepthTestResult::beyond_rear);
-}
-
-TEST(FragmentTest, WhatLiesOutsideTheLimitsHidesNothing) {
-  EXPECT_EQ(judged({-0.5, 2.5, 1}),
-            (std::vector<Fragment>{{kPixel, 10, -0.5, DepthTestResult::before_front, 0},
-                                   {kPixel, 11, 2.5, DepthTestResult::beyond_rear, 0},
-                                   {kPixel, 12, 1, DepthTestResult::kept, 0}}));
-}
-
-TEST(FragmentTest, WhatIsSeenAlreadyDoesNotExplainWhatIsBeyondTheRear) {
-  EXPECT_EQ(judged({1, 3}).back().result, DepthTestResult::beyond_rear);
-}
-
-TEST(FragmentTest, DepthsAFormatCannotTellApartAreEqual) {
-  EXPECT_EQ(judged<DepthF32>({1, 1 - 0x1p-40}).back().result, DepthTestResult::equal);
-  EXPECT_EQ(judged<DepthF64>({1, 1 - 0x1p-40}).back().result, DepthTestResult::kept);
-}
-
 TEST(FragmentTest, WithAnEpsilonAFragmentHasToBeNearerByMore) {
   const FragmentTest test({{}, {}, 0.25}, kFewPixels);
   auto seen = test.nothing();
