@@ -10,7 +10,6 @@
 
 #include "libpipeline/numbers/bounding_box.h"
 #include "libpipeline/raytracing/pixel_rays.h"
-#include "libpipeline/raytracing/two_doubles.h"
 #include "libpipeline/stream/thread_pool.h"
 
 namespace pipeline {
@@ -77,10 +76,10 @@ class Bvh {
   struct BoxRay {
     explicit BoxRay(const Ray& ray);
     /// Which children of a node it enters, 1 and 2 or both, between two distances; `entry` gets where.
-    int entered(const Node& node, double first, double limit, TwoDoubles& entry) const;
+    unsigned entered(const Node& node, double first, double limit, std::array<double, 2>& entry) const;
 
-    std::array<TwoDoubles, 3> origin, inverse;  // by axis
-    std::array<std::size_t, 3> entrance;        // the side where it enters a box
+    std::array<double, 3> origin, inverse;  // by axis
+    std::array<std::size_t, 3> entrance;    // the side where it enters a box
   };
 
   std::unique_ptr<Node[]> nodes_;  // room for the most there may be, of which the rest is never touched
@@ -90,27 +89,30 @@ class Bvh {
 };
 
 inline Bvh::BoxRay::BoxRay(const Ray& ray) {
-  const std::array<double, 3> origins = {ray.origin.x, ray.origin.y, ray.origin.z};
   const std::array<double, 3> directions = {ray.direction.x, ray.direction.y, ray.direction.z};
+  origin = {ray.origin.x, ray.origin.y, ray.origin.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    origin[axis] = both(origins[axis]);
-    inverse[axis] = both(1 / directions[axis]);
+    inverse[axis] = 1 / directions[axis];
     entrance[axis] = std::size_t{std::signbit(directions[axis])};
   }
 }
 
-inline int Bvh::BoxRay::entered(const Node& node, double first, double limit, TwoDoubles& entry) const {
-  TwoDoubles leave = both(limit);
-  entry = both(first);
+inline unsigned Bvh::BoxRay::entered(const Node& node, double first, double limit,
+                                     std::array<double, 2>& entry) const {
+  std::array<double, 2> leave = {limit, limit};
+  entry = {first, first};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto distance = [&](std::size_t side) {
-      return (from_floats(node.sides[axis][side].data()) - origin[axis]) * inverse[axis];
-    };
-    // 0 times infinity, on a side of a box, leaves them as they are.
-    entry = greater(distance(entrance[axis]), entry);
-    leave = less(distance(1 - entrance[axis]), leave);
+    const auto& in = node.sides[axis][entrance[axis]];
+    const auto& out = node.sides[axis][1 - entrance[axis]];
+    for (std::size_t child = 0; child < 2; ++child) {
+      // 0 times infinity, on a side of a box, leaves them as they are.
+      const double in_at = (in[child] - origin[axis]) * inverse[axis];
+      const double out_at = (out[child] - origin[axis]) * inverse[axis];
+      entry[child] = in_at > entry[child] ? in_at : entry[child];
+      leave[child] = out_at < leave[child] ? out_at : leave[child];
+    }
   }
-  return at_most(entry, leave);
+  return (entry[0] <= leave[0] ? 1u : 0u) | (entry[1] <= leave[1] ? 2u : 0u);
 }
 
 template <typename Test>
@@ -131,8 +133,8 @@ void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, 
       for (std::uint32_t i = begin; i < end; ++i) test(ids_[i]);
     } else {
       const Node& node = nodes_[current];
-      TwoDoubles entry;
-      const int entered = box_ray.entered(node, first, limit, entry);
+      std::array<double, 2> entry;
+      const unsigned entered = box_ray.entered(node, first, limit, entry);
       if (entered == 3) {
         const std::size_t nearer = entry[1] < entry[0] ? 1 : 0;
         stack[waiting_count++] = {node.children[1 - nearer], nearer == 0 ? entry[1] : entry[0]};

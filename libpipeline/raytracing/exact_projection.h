@@ -30,8 +30,6 @@ class ExactProjection {
     return p_ndc_;
   }
   [[nodiscard]] const ProjectionStage& stage() const { return stage_; }
-  /// A place in the text, for messages.
-  [[nodiscard]] SourceLocation location_of(LineAndColumn place) const { return rounder_.location_of(place); }
 
  private:
   CoordinateRounder rounder_;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,13 +7,7 @@
 
 namespace pipeline {
 
-/// The z in NDC that `zbuf` gives a point is in here.
-struct DepthInterval {
-  double low;
-  double high;
-};
-
-/// NDC depths from distances in front of the eye plane, in doubles and with bounds on their errors.
+/// NDC depths from distances in front of the eye plane, and distances from depths, in doubles.
 ///
 /// A perspective's depth is a - b / w, an orthographic one's a + b w; both grow with w.
 class NdcDepth {
@@ -28,20 +21,6 @@ class NdcDepth {
     b_ = 2 / (projection.far - projection.near);
   }
 
-  /// Of a point at `distance`, known to a relative error of `error` (of `farthest`, if orthographic), in a
-  /// triangle whose vertices are from `nearest` to `farthest` away. `zbuf` calculates it within 2^-50 of the
-  /// triangle's largest |z|, from vertices rounded by 2^-53 of theirs.
-  [[nodiscard]] DepthInterval at(double distance, double error, double nearest, double farthest) const {
-    const double part = is_perspective_ ? b_ / distance : b_ * distance;
-    const double depth = is_perspective_ ? a_ - part : a_ + part;
-    const double most = is_perspective_
-                            ? std::fabs(a_) + b_ / nearest
-                            : std::fabs(a_) + b_ * std::max(std::fabs(nearest), std::fabs(farthest));
-    const double part_error =
-        is_perspective_ ? part * error : b_ * std::max(std::fabs(nearest), std::fabs(farthest)) * error;
-    const double bound = 2 * part_error + kCalculated * most;
-    return {depth - bound, depth + bound};
-  }
   /// Of a point at `distance`, within 2^-50 of the sum of the sizes of its two parts.
   [[nodiscard]] double at(double distance) const {
     return is_perspective_ ? a_ - b_ / distance : a_ + b_ * distance;

@@ -15,7 +15,8 @@ double first_distance(const PixelRays& rays) {
 
 }  // namespace
 
-Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, ThreadPool& pool, RaysOfBoxes of) {
+std::vector<Bvh::Primitive> boxes_of(const TracedTriangles& triangles, const PixelRays& rays,
+                                     RaysOfBoxes of) {
   // Of the numbers that are rounded, a bound on the largest, for one triangle.
   const auto most = [&](const BoundingBox& box) {
     const auto largest = [&](double Vec3::*axis) {
@@ -39,97 +40,70 @@ Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, Thread
     constexpr double kPadding = 0x1p-46;
     primitives.push_back({FloatBox(box, kPadding * (of == RaysOfBoxes::any ? most_of_all : most(box))), id});
   }
-  return {std::move(primitives), pool};
+  return primitives;
 }
 
-std::optional<RayCaster::Seen> RayCaster::cast(int row, int column, bool wants_depth) {
-  row_ = row;
-  column_ = column;
-  nearest_.reset();
+std::optional<RayCaster::Seen> RayCaster::cast(int row, int column) {
   const Ray ray = rays_.ray(row, column);
   const double largest_depth = triangles_.largest_depth();
   double limit = depth_.distance_up_to(screen_.rear, largest_depth);
+  std::optional<Seen> nearest;
   bvh_.for_each_candidate(ray, first_distance(rays_), limit, [&](TracedTriangles::Id id) {
-    const std::optional<Candidate> next = candidate(id, ray);
-    if (!next) return;
-    take_nearer(*next);
-    if (nearest_) limit = std::min(limit, depth_.distance_up_to(nearest_->depth.high, largest_depth));
+    const auto next = triangles_.is_sphere(id) ? sphere_at(id, ray) : triangle_at(id, row, column);
+    const auto order = [](const Seen& seen) { return std::pair(seen.depth, seen.id); };
+    if (!next || (nearest && order(*nearest) < order(*next))) return;
+    nearest = next;
+    limit = std::min(limit, depth_.distance_up_to(next->depth, largest_depth));
   });
-  if (nearest_ && wants_depth) nearest_ = made_exact(*nearest_);
-  if (!nearest_) return std::nullopt;
-  return Seen{nearest_->id, nearest_->depth.low};
+  return nearest;
 }
 
 /// The triangle, if it may be seen here: its fragment is within the limits.
-std::optional<RayCaster::Candidate> RayCaster::candidate(TracedTriangles::Id id, const Ray& ray) {
-  if (triangles_.is_sphere(id)) return sphere_candidate(id, ray);
-  if (triangles_.piece(id)) return exact_candidate(id);
-  if (triangles_.is_dropped(id)) return std::nullopt;
-  const Hit hit = test_(ray, triangles_.p_view(id));
-  if (hit.result == HitResult::miss) return std::nullopt;
-  if (hit.result == HitResult::uncertain) return exact_candidate(id);
-  if (hit.depth.high < screen_.front || hit.depth.low >= screen_.rear) return std::nullopt;
-  const bool is_surely_within = hit.depth.low >= screen_.front && hit.depth.high < screen_.rear;
-  if (!is_surely_within) return exact_candidate(id);
-  return Candidate{id, hit.depth, false};
+std::optional<RayCaster::Seen> RayCaster::triangle_at(TracedTriangles::Id id, int row, int column) {
+  if (!may_cover(id, row, column)) return std::nullopt;
+  const std::optional<Span>& span = span_of(id, row);
+  if (!span || column < span->first_column || column > span->last_column) return std::nullopt;
+  const double depth = span->depth(column);
+  return is_between_limits(depth) ? std::optional(Seen{id, depth}) : std::nullopt;
 }
 
-std::optional<RayCaster::Candidate> RayCaster::exact_candidate(TracedTriangles::Id id) {
-  const std::optional<double> depth = exact_.depth(id, row_, column_);
-  if (!depth || !(*depth >= screen_.front && *depth < screen_.rear)) return std::nullopt;
-  return Candidate{id, {*depth, *depth}, true};
+/// Whether the pixel's center lies in the box around the triangle, or within a pixel of it: a quick test.
+bool RayCaster::may_cover(TracedTriangles::Id id, int row, int column) const {
+  const auto& [low, high] = BoundingBox(triangles_.p_ndc().triangles[id]);
+  const double x = pixels_.x_of(column), y = pixels_.y_of(row);
+  return x >= low.x - pixels_.dx && x <= high.x + pixels_.dx && y >= low.y - pixels_.dy &&
+         y <= high.y + pixels_.dy;
 }
 
 /// The sphere's nearer side, if that is within the limits, else the farther one: the front limit may cut a
 /// sphere open.
-std::optional<RayCaster::Candidate> RayCaster::sphere_candidate(TracedTriangles::Id id,
-                                                                const Ray& ray) const {
+std::optional<RayCaster::Seen> RayCaster::sphere_at(TracedTriangles::Id id, const Ray& ray) const {
   const double first = first_distance(rays_);
   for (const auto& [distance, is_front] : triangles_.sphere(id).surface.meetings(ray)) {
-    if (!(distance > first)) continue;
     const double depth = depth_.at(distance);
-    if (depth >= screen_.front && depth < screen_.rear)
-      return Candidate{is_front ? id : id | TracedTriangles::kFromWithin, {depth, depth}, true};
+    if (distance > first && is_between_limits(depth))
+      return Seen{is_front ? id : id | TracedTriangles::kFromWithin, depth};
   }
   return std::nullopt;
 }
 
-/// Where the depths may be equal, or in either order, they are calculated as `zbuf` does; of equal ones the
-/// earlier triangle stays.
-void RayCaster::take_nearer(const Candidate& next) {
-  if (!nearest_ || next.depth.high < nearest_->depth.low) {
-    nearest_ = next;
-    return;
+/// The triangle's pixels in a row.
+const std::optional<Span>& RayCaster::span_of(TracedTriangles::Id id, int row) {
+  CachedSpan& cached = cache_[id % kCached];
+  if (cached.id != id) {
+    const TriangleBatch& p_ndc = triangles_.p_ndc();
+    cached.id = id;
+    cached.row = -1;
+    cached.rows.emplace(
+        grid_, ExactTriangle{p_ndc.triangles[id], p_ndc.low_parts.empty() ? nullptr : &p_ndc.low_parts[id],
+                             p_ndc.decimal_marks[id]});
   }
-  if (next.depth.low > nearest_->depth.high) return;
-  nearest_ = made_exact(*nearest_);
-  const std::optional<Candidate> rival = made_exact(next);
-  if (!rival) return;
-  const auto order = [](const Candidate& c) { return std::pair(c.depth.low, c.id); };
-  if (!nearest_ || order(*rival) < order(*nearest_)) nearest_ = rival;
-}
-
-const CenterRows& ExactFragments::rows_of(TracedTriangles::Id id) {
-  CachedRows& cached = cache_[id % kCached];
-  if (cached.id == id) return *cached.rows;
-  p_view_.clear();
-  p_view_.add(triangles_.p_view(id), 0, {});
-  const TriangleBatch& p_ndc = projection_.project(p_view_);
-  const std::size_t piece = triangles_.piece(id).value_or(0);
-  cached.id = id;
-  cached.rows.emplace(grid_, ExactTriangle{p_ndc.triangles[piece],
-                                           p_ndc.low_parts.empty() ? nullptr : &p_ndc.low_parts[piece],
-                                           p_ndc.decimal_marks[piece]});
-  return *cached.rows;
-}
-
-std::optional<double> ExactFragments::depth(TracedTriangles::Id id, int row, int column) {
-  ++count_;
-  const CenterRows& rows = rows_of(id);
-  if (row < rows.first_row() || row > rows.last_row()) return std::nullopt;
-  const std::optional<Span> span = rows.span(row);
-  if (!span || column < span->first_column || column > span->last_column) return std::nullopt;
-  return span->depth(column);
+  if (cached.row != row) {
+    const bool is_in_rows = row >= cached.rows->first_row() && row <= cached.rows->last_row();
+    cached.row = row;
+    cached.span = is_in_rows ? cached.rows->span(row) : std::nullopt;
+  }
+  return cached.span;
 }
 
 }  // namespace pipeline

@@ -19,7 +19,7 @@ namespace pipeline {
 /// one thread.
 class SurfaceCaster {
  public:
-  /// A hierarchy for any ray (hierarchy_of). Triangles that `project` drops have to be among them.
+  /// A hierarchy for any ray (boxes_of). Triangles that `project` drops have to be among them.
   SurfaceCaster(const TracedTriangles& triangles, const Bvh& bvh) : triangles_(triangles), bvh_(bvh) {}
 
   /// The first hit, of equally near surfaces the one with the lower id; none if the ray meets nothing.

@@ -2,12 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "libpipeline/raytracing/ellipsoid.h"
-#include "libpipeline/raytracing/exact_projection.h"
 #include "libpipeline/stream/triangle_batch.h"
 
 namespace pipeline {
@@ -20,35 +19,34 @@ struct TracedSphere {
   std::uint32_t material;
 };
 
-/// All triangles of a text in view space, in the order in which `project` writes them. A cut triangle has one
-/// entry per piece; a dropped one has none, unless dropped ones are kept for rays from elsewhere than the
-/// eye. An entry's index is its id. A plain triangle takes 80 bytes, colors and normals another 72 each. The
-/// spheres of the text follow: their ids begin after the last triangle's.
+/// All triangles of a text, in view space and as `zbuf` reads them from `project --digits exact`, in that
+/// order. A cut triangle has one entry per piece; a dropped one has none, unless dropped ones are kept for
+/// rays from elsewhere than the eye: then its image has no area. An entry's index is its id. A plain triangle
+/// takes 154 bytes (82 as an image alone), colors and normals another 144 each. The spheres of the text
+/// follow: their ids begin after the last triangle's.
 class TracedTriangles {
  public:
   using Id = std::uint32_t;
-  /// Watches triangles of a text, before and after their projection.
-  using Watcher = std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>;
 
   /// From now on, adds triangles that `project` drops, too.
   void keep_dropped() { keeps_dropped_ = true; }
-  /// Adds the triangles of a batch, and calls `look_at` for them in one or several batches; adds its spheres.
-  /// An InputError as ProjectionStage::project throws, or at a sphere whose points lie in a plane.
-  void add(const TriangleBatch& p_view, ExactProjection& projection, const Watcher& look_at);
+  /// Adds the triangles of a batch, which ExactProjection has projected, and its spheres. An InputError in
+  /// `file` at a sphere whose points lie in a plane.
+  void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc, const std::string& file);
+  /// Drops what rays from elsewhere than the eye meet, and boxes are made from: triangles in view space.
+  void keep_images_alone() {
+    p_view_ = {};
+    attributes_ = {};
+  }
 
-  [[nodiscard]] std::size_t size() const { return p_view_.size(); }
+  [[nodiscard]] std::size_t size() const { return p_ndc_.size(); }
   [[nodiscard]] const Triangle& p_view(Id id) const { return p_view_[id]; }
   /// The number in the scene of a triangle, or of a sphere.
   [[nodiscard]] std::uint64_t number(Id id) const { return is_sphere(id) ? sphere(id).number : numbers_[id]; }
-  /// Which piece of its triangle this one is; none if it is whole or not projected.
-  [[nodiscard]] std::optional<std::size_t> piece(Id id) const {
-    if (pieces_.empty() || pieces_[id] >= kDropped) return std::nullopt;
-    return pieces_[id];
-  }
-  /// Whether `project` drops it.
-  [[nodiscard]] bool is_dropped(Id id) const { return !pieces_.empty() && pieces_[id] == kDropped; }
+  /// The images of the triangles: their indices are the ids. They have no numbers and no places.
+  [[nodiscard]] const TriangleBatch& p_ndc() const { return p_ndc_; }
   /// Whether this is the entry that represents the uncut triangle.
-  [[nodiscard]] bool is_first(Id id) const { return piece(id).value_or(0) == 0; }
+  [[nodiscard]] bool is_first(Id id) const { return are_first_[id]; }
   [[nodiscard]] std::uint32_t material(Id id) const {
     if (is_sphere(id)) return sphere(id).material;
     return attributes_.materials.empty() ? 0 : attributes_.materials[id];
@@ -69,21 +67,17 @@ class TracedTriangles {
   }
   /// The largest |z| in NDC of all vertices.
   [[nodiscard]] double largest_depth() const { return largest_depth_; }
-  /// Adds the triangle, with its columns and without its place in the text, to a batch.
-  void copy(Id id, TriangleBatch& p_view) const;
 
  private:
-  static constexpr std::uint8_t kWhole = 255;
-  static constexpr std::uint8_t kDropped = 254;
-
-  void add_triangles(const TriangleBatch& p_view, ExactProjection& projection, const Watcher& look_at);
-  void add_entry(const TriangleBatch& p_view, std::size_t index, std::uint8_t piece);
+  void add_entry(const TriangleBatch& p_view, std::size_t index, bool is_first);
+  void add_image(const TriangleBatch& p_ndc, std::size_t index);
 
   std::vector<TracedSphere> spheres_;
   std::vector<Triangle> p_view_;
   std::vector<std::uint64_t> numbers_;
-  std::vector<std::uint8_t> pieces_;  // empty while all are whole
+  std::vector<bool> are_first_;
   AttributeArrays attributes_;
+  TriangleBatch p_ndc_;
   double largest_depth_ = 0;
   bool keeps_dropped_ = false;
 };

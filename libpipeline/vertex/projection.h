@@ -72,10 +72,6 @@ class ProjectionStage {
   [[nodiscard]] bool culls(const Triangle& p_view) const {
     return cull_ != CullMode::nothing && is_culled(p_view);
   }
-  /// Whether the triangle is clipped, so that it may be cut or dropped.
-  [[nodiscard]] bool clips(const Triangle& p_view) const {
-    return may_clip(p_view) && fate_of(certain_sides(coefficients_, p_view)) != Fate::stays_whole;
-  }
 
  private:
   /// A vertex as a weighted mean of its triangle's corners, and its w.

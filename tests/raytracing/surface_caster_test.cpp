@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "libpipeline/raytracing/exact_projection.h"
 #include "libpipeline/raytracing/ray_caster.h"
 
 namespace pipeline {
@@ -15,15 +16,18 @@ namespace {
 struct Scene {
   explicit Scene(const std::vector<Triangle>& all) {
     TriangleBatch batch;
-    for (const Triangle& triangle : all) batch.add(triangle, batch.size(), {});
+    for (const Triangle& triangle : all) {
+      const std::size_t line = 4 * batch.size() + 1;
+      batch.add(triangle, batch.size(), {line, line + 1, line + 2});
+    }
     const Located<Projection> given = {Frustum{-1, 1, -1, 1, 1, 20}, {}};
     const ProjectionTransform projection = clip_from_view(given);
     ExactProjection exact(projection, "", false);
     triangles.keep_dropped();
-    triangles.add(batch, exact, [](const TriangleBatch&, const TriangleBatch&) {});
+    triangles.add(batch, exact.project(batch), "");
     ThreadPool pool(1);
     const Viewport screen = {8, 8};
-    bvh = hierarchy_of(triangles, PixelRays(projection, screen), pool, RaysOfBoxes::any);
+    bvh = Bvh(boxes_of(triangles, PixelRays(projection, screen), RaysOfBoxes::any), pool);
   }
   TracedTriangles triangles;
   Bvh bvh;

@@ -38,7 +38,7 @@ void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh,
   RayCaster primary(scene.triangles(), bvh, scene.projection(), screen);
   LightTransport light(scene.triangles(), bvh, setup);
   light.log_to(log);
-  if (const auto seen = primary.cast(pixel.row, pixel.column, false))
+  if (const auto seen = primary.cast(pixel.row, pixel.column))
     static_cast<void>(light.radiance(seen->id, ray));
   else
     log.push_back({.kind = RayKind::primary,

@@ -111,8 +111,10 @@ class Rendering {
     const auto seconds = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
-    const Bvh bvh = hierarchy_of(scene_.triangles(), PixelRays(scene_.projection(), screen_), pool,
-                                 casts_any_rays_ ? RaysOfBoxes::any : RaysOfBoxes::primary);
+    auto boxes = boxes_of(scene_.triangles(), PixelRays(scene_.projection(), screen_),
+                          casts_any_rays_ ? RaysOfBoxes::any : RaysOfBoxes::primary);
+    if (!casts_any_rays_ && !traces_light_) scene_.keep_images_alone();
+    const Bvh bvh(std::move(boxes), pool);
     const double build_seconds = seconds();
     const ColorSetup colors = {background_, shader_ ? &*shader_ : nullptr, traces_light_ ? &light_ : nullptr};
     TracedPicture picture = traced_picture(scene_, bvh, rays_, colors, pool);

@@ -4,11 +4,7 @@ namespace pipeline {
 
 SampleColors::SampleColors(const TracedScene& scene, const Bvh& bvh, const PixelRays& rays,
                            const ColorSetup& setup)
-    : triangles_(scene.triangles()),
-      rays_(rays),
-      setup_(setup),
-      projection_(scene.projection(), "", scene.header().projected.has_value()),
-      cache_(kCached) {
+    : triangles_(scene.triangles()), rays_(rays), setup_(setup), cache_(kCached) {
   if (setup.light != nullptr) light_.emplace(triangles_, bvh, *setup.light);
 }
 
@@ -18,12 +14,9 @@ const SampleColors::CachedSurface& SampleColors::surface(Id id) {
   cached.id = id;
   cached.own_color = own_colors_.of(triangles_.number(id));
   if (setup_.shader == nullptr) return cached;
-  p_view_.clear();
-  triangles_.copy(id, p_view_);
-  const TriangleBatch& p_ndc = projection_.project(p_view_);
-  const std::size_t piece = triangles_.piece(id).value_or(0);
-  if (!p_ndc.attributes.colors.empty()) shown_.add_triangle(p_ndc.attributes.colors[piece]);
-  cached.surface = setup_.shader->surface_of(p_ndc, piece, cached.own_color);
+  const TriangleBatch& p_ndc = triangles_.p_ndc();
+  if (!p_ndc.attributes.colors.empty()) shown_.add_triangle(p_ndc.attributes.colors[id]);
+  cached.surface = setup_.shader->surface_of(p_ndc, id, cached.own_color);
   return cached;
 }
 

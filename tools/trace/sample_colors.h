@@ -50,9 +50,7 @@ class SampleColors {
   PixelRays rays_;
   ColorSetup setup_;
   std::optional<LightTransport> light_;
-  ExactProjection projection_;
   TriangleColors own_colors_;
-  TriangleBatch p_view_;
   std::vector<CachedSurface> cache_;
   ShownColors shown_;
 };

@@ -27,8 +27,7 @@ std::string to_text(const TraceWork& work) {
   };
   char build[48];
   std::snprintf(build, sizeof build, "build %.3f s, ", work.build_seconds);
-  std::string all =
-      build + speed(work.primary_rays, "primary") + ", " + millions(work.exact_decisions) + "exactly";
+  std::string all = build + speed(work.primary_rays, "primary");
   if (work.rays.shadow > 0) all += ", " + speed(work.rays.shadow, "shadow");
   if (work.rays.mirrored > 0) all += ", " + speed(work.rays.mirrored, "mirrored");
   if (work.rays.refracted > 0) all += ", " + speed(work.rays.refracted, "refracted");

@@ -12,8 +12,7 @@ struct TraceWork {
   double build_seconds = 0;
   double cast_seconds = 0;
   std::uint64_t primary_rays = 0;
-  std::uint64_t exact_decisions = 0;  // exact depth tests
-  LightTransport::RayCounts rays;     // the others
+  LightTransport::RayCounts rays;  // the others
 };
 
 /// The line of `--timing`.

@@ -52,7 +52,7 @@ class PixelTracer {
     const bool has_one_sample = rays_.sample_count == 1 && !is_random(rays_.sampling);
     if (rays_.has_depths || rays_.has_triangles || rays_.counts_covered || has_one_sample) {
       ++ray_count_;
-      if (const auto seen = centers_.cast(row, column, rays_.has_depths)) {
+      if (const auto seen = centers_.cast(row, column)) {
         ++covered_count_;
         if (rays_.has_depths) picture.depths[pixel] = seen->depth;
         if (rays_.has_triangles)
@@ -65,7 +65,6 @@ class PixelTracer {
   [[nodiscard]] std::uint64_t ray_count() const { return ray_count_; }
   /// When all threads are done.
   void add_up(TracedPicture& picture) const {
-    picture.work.exact_decisions += centers_.exact_count() + samples_.exact_count();
     picture.covered_count += covered_count_;
     picture.shown_colors.add(colors_.shown());
     if (!colors_.light()) return;
@@ -96,7 +95,7 @@ class PixelTracer {
     ray_count_ += samples.size();
     for (const int sample : samples) {
       const auto place = places_.of(row, column, sample);
-      const auto seen = samples_.cast(place.row, place.column, false);
+      const auto seen = samples_.cast(place.row, place.column);
       visit(seen ? colors_.color(place.row, place.column, *seen) : background_);
     }
   }

@@ -48,10 +48,10 @@ void TracedScene::read(bool keeps_dropped) {
     if (is_painted) add_material_colors(header_.appearance, p_view);
     tool_.timing().triangle_count += p_view.object_count();
     spheres_.add(p_view);
-    triangles_.add(p_view, exact_, [&](const TriangleBatch& part, const TriangleBatch& p_ndc) {
-      view_.add(part, p_ndc);
-      drawing_.add(p_ndc);
-    });
+    const TriangleBatch& p_ndc = exact_.project(p_view);
+    view_.add(p_view, p_ndc);
+    drawing_.add(p_ndc);
+    triangles_.add(p_view, p_ndc, tool_.input().file());
     expect_room(triangles_);
   }
 }

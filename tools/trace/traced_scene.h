@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "libpipeline/raytracing/exact_projection.h"
 #include "libpipeline/raytracing/traced_triangles.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/stage_reader.h"
@@ -25,6 +26,8 @@ class TracedScene {
 
   /// Reads the body, to its end. With `keeps_dropped`, also what `project` drops.
   void read(bool keeps_dropped);
+  /// See TracedTriangles.
+  void keep_images_alone() { triangles_.keep_images_alone(); }
 
   /// As `project` writes it.
   [[nodiscard]] const StageHeader& header() const { return header_; }
@@ -33,7 +36,6 @@ class TracedScene {
   /// As the header or the options give it.
   [[nodiscard]] const Projection& given_projection() const { return given_.value; }
   [[nodiscard]] const TracedTriangles& triangles() const { return triangles_; }
-  [[nodiscard]] ExactProjection& exact() { return exact_; }
   [[nodiscard]] const ViewReport& view() const { return view_; }
   [[nodiscard]] const DrawingReport& drawing() const { return drawing_; }
   [[nodiscard]] const UnseenSpheres& spheres() const { return spheres_.spheres(); }
