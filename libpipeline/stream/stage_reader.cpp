@@ -127,14 +127,6 @@ bool StageReader::read(TriangleBatch& batch) {
   return deferred_error_.read(batch, [&] { fill(batch); });
 }
 
-std::string_view StageReader::buffered_triangles(std::size_t size) {
-  const bool is_between_triangles = !line_is_pending_ && !unclipped_ && !done_ && !deferred_error_.is_kept();
-  if (!is_between_triangles || header_.appearance.columns().any()) return {};
-  while (text_.buffered().size() < size && text_.buffer_more()) {
-  }
-  return text_.buffered();
-}
-
 void StageReader::fill(TriangleBatch& batch) {
   while (!done_) {
     // Triangles are passed on before the reader waits for more text; a triangle has three lines.

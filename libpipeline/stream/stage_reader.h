@@ -39,14 +39,6 @@ class StageReader {
   /// before it are delivered, whatever the block size.
   bool read(TriangleBatch& batch);
 
-  /// The buffered text from the next triangle on if triangles in fixed form may stand there, else empty.
-  /// First buffers up to `size` characters, as far as that is possible without waiting. For ReadAhead.
-  [[nodiscard]] std::string_view buffered_triangles(std::size_t size);
-  /// See TriangleReader.
-  void consume_fixed_form(const FixedTextPart& part, TriangleBatch& batch) {
-    triangles_->consume_fixed_form(part, batch);
-  }
-
  private:
   bool read_header_line(LineScanner& line);
   bool read_camera_line(std::string_view keyword, const SourceLocation& location, LineScanner& line);

@@ -38,18 +38,6 @@ void ThreadPool::start(int task_count, Task task) {
     has_tasks_.notify_all();
 }
 
-void ThreadPool::run_one() {
-  Lock lock(mutex_);
-  if (!jobs_.empty()) {
-    do_next_task(lock, kOwner);
-  } else if (busy_count_ > 0) {
-    // Only the owner starts jobs, so the count cannot rise meanwhile.
-    const int before = busy_count_;
-    is_task_done_.wait(lock, [&] { return busy_count_ < before; });
-  }
-  throw_failure();
-}
-
 void ThreadPool::finish() {
   Lock lock(mutex_);
   while (!jobs_.empty()) do_next_task(lock, kOwner);

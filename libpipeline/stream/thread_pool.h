@@ -16,7 +16,7 @@ namespace pipeline {
 /// 1.
 class ThreadPool {
  public:
-  /// `thread_count`, at least 1, includes the owner: a pool of 1 runs all tasks in run_one() and finish().
+  /// `thread_count`, at least 1, includes the owner: a pool of 1 runs all tasks in finish().
   /// Where the system refuses threads, the pool is smaller.
   explicit ThreadPool(int thread_count);
   /// Cancels, see cancel().
@@ -32,10 +32,8 @@ class ThreadPool {
   /// Queues `task(number, worker)` for numbers from 0 to task_count - 1 after the jobs already queued.
   /// Rethrows an earlier task's exception, so no job starts after one that was dropped.
   void start(int task_count, Task task);
-  /// Runs the next task or, if none is queued, waits until a running one is done; returns at once if there is
-  /// none. An exception of a task is rethrown here, in start() or in finish(), and drops all queued tasks.
-  void run_one();
-  /// Runs tasks until all are done.
+  /// Runs tasks until all are done. An exception of a task is rethrown here or in start(), and drops all
+  /// queued tasks.
   void finish();
   /// Drops all queued tasks and waits for the running ones, whose exceptions are lost. For destructors of
   /// objects that tasks use.

@@ -68,7 +68,7 @@ bool TriangleReader::read_buffered(TriangleBatch& batch) {
   const std::size_t limit = std::min(kBatchSize - old_size, marks.size());
   const FixedTextPart part = vertex_line_.read_triangles(text_.buffered(), TriangleFrame::stage_text, limit,
                                                          marks, batch.triangles, batch.attributes);
-  consume_fixed_form(part, batch);
+  consume(part, batch);
   if (marks_decimals_ && !part.decimals)
     std::copy_n(marks.begin(), part.triangle_count, batch.decimal_marks.begin() + old_size);
   // A triangle that ends beyond the buffer is a miss, too, but a single one.
@@ -77,7 +77,7 @@ bool TriangleReader::read_buffered(TriangleBatch& batch) {
   return part.triangle_count > 0;
 }
 
-void TriangleReader::consume_fixed_form(const FixedTextPart& part, TriangleBatch& batch) {
+void TriangleReader::consume(const FixedTextPart& part, TriangleBatch& batch) {
   constexpr std::size_t kLinesPerTriangle = 4;
   const int decimals = part.decimals.value_or(0);
   const std::size_t old_size = batch.numbers.size();

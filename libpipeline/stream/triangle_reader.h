@@ -29,9 +29,6 @@ class TriangleReader {
   /// Adds some of the buffered triangles, as long as the fast path has them and the batch has fewer than
   /// kBatchSize; false if it does not have the next.
   bool read_buffered(TriangleBatch& batch);
-  /// Consumes the part of the text that comes next, triangles of four lines which were added to the batch's
-  /// `triangles` and attributes alone, and completes the batch.
-  void consume_fixed_form(const FixedTextPart& part, TriangleBatch& batch);
   /// Takes the line `triangle N` before a triangle. An InputError at the word that is wrong.
   void read_number(LineScanner& line);
   /// Adds the triangle whose first line is `line`. An InputError at the word that is wrong.
@@ -40,6 +37,10 @@ class TriangleReader {
   void read_sphere(LineScanner& line, TriangleBatch& batch);
 
  private:
+  /// Consumes the part of the text that comes next, triangles of four lines which were added to the batch's
+  /// `triangles` and attributes alone, and completes the batch.
+  void consume(const FixedTextPart& part, TriangleBatch& batch);
+
   TextReader& text_;
   VertexLineReader vertex_line_;
   VertexLineReader sphere_line_;  // of all columns but the normal

@@ -26,7 +26,6 @@ TEST_P(ThreadPoolTest, DoesEveryTaskOfEveryJobOnce) {
 TEST_P(ThreadPoolTest, FinishesWithoutAJob) {
   ThreadPool pool(GetParam());
   pool.start(0, [](int, int) { ADD_FAILURE(); });
-  pool.run_one();
   pool.finish();
   pool.finish();
 }
@@ -41,16 +40,6 @@ TEST_P(ThreadPoolTest, DoesJobsThatStartBeforeOthersAreDone) {
   pool.finish();
   for (std::size_t job = 0; job < times_done.size(); ++job)
     EXPECT_EQ(times_done[job], job % 2 == 0 ? 1 : 1 + 2 + 3) << job;
-}
-
-TEST_P(ThreadPoolTest, RunOneGetsOneMoreTaskDone) {
-  ThreadPool pool(GetParam());
-  std::atomic<int> done_count = 0;
-  for (int i = 1; i <= 200; ++i) {
-    pool.start(1, [&](int, int) { ++done_count; });
-    while (done_count < i) pool.run_one();
-  }
-  EXPECT_EQ(done_count, 200);
 }
 
 TEST_P(ThreadPoolTest, AWorkerDoesOneTaskAtATime) {
@@ -69,8 +58,6 @@ TEST(ThreadPool, StartsTasksInOrder) {
   ThreadPool alone(1);
   std::vector<int> begun;
   for (const int job : {10, 20, 30}) alone.start(3, [&, job](int task, int) { begun.push_back(job + task); });
-  alone.run_one();
-  EXPECT_EQ(begun, std::vector<int>{10});
   alone.finish();
   EXPECT_EQ(begun, (std::vector<int>{10, 11, 12, 20, 21, 22, 30, 31, 32}));
 }
@@ -86,16 +73,6 @@ TEST(ThreadPool, DropsQueuedTasksWhenATaskThrows) {
   EXPECT_THROW(alone.finish(), std::runtime_error);
   alone.finish();
   EXPECT_EQ(begun, (std::vector<int>{10, 11}));
-}
-
-TEST_P(ThreadPoolTest, RunOneRethrowsTheExceptionOfATask) {
-  ThreadPool pool(GetParam());
-  pool.start(1, [](int, int) { throw std::runtime_error("task"); });
-  const auto help_until_it_throws = [&] {
-    for (;;) pool.run_one();
-  };
-  EXPECT_THROW(help_until_it_throws(), std::runtime_error);
-  pool.finish();
 }
 
 TEST_P(ThreadPoolTest, RethrowsTheExceptionOfATaskAndGoesOnWithTheNextJob) {

@@ -61,7 +61,7 @@ class Threads(ToolTest):
         pathlib.Path("config.txt").write_text("61 47\n")
         self.check("config.txt", "stage3.txt")
 
-    def test_other_text_between_triangles_that_are_read_ahead(self):
+    def test_other_text_between_triangles_in_fixed_form(self):
         rng = random.Random(4)
         other = ("# a comment\n", "triangle 7\n", "0 0 0.1\n1 0 .1\n0 1 1e-1\n\n", "\n\n")
         counts = (20000, 1000, 25000, 1)

@@ -14,7 +14,6 @@
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/stream/read_ahead.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/stream/thread_pool.h"
@@ -80,14 +79,13 @@ class NearestSoFar {
 
 /// Reads the triangles batch by batch, hands each to the reports, and draws it.
 void draw_all(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, StageReader& reader,
-              ThreadPool& pool, Reports& reports, TriangleStore& store, SampledDrawing& drawing) {
+              Reports& reports, TriangleStore& store, SampledDrawing& drawing) {
   const Appearance& appearance = reader.header().appearance;
   const bool is_painted = appearance.is_painted();
   Progress progress("zbuf");
   if (store.keeps_text() && chosen.rules.depth_epsilon > 0)
     store.keep_where(NearestSoFar(chosen.rules, screen, chosen.sample_count));
-  ReadAhead ahead(reader, pool);  // its end cancels what the pool has not drawn yet
-  while (ahead.read(drawing.next().batch)) {
+  while (reader.read(drawing.next().batch)) {
     auto& [batch, tags] = drawing.next();
     if (is_painted) add_material_colors(appearance, batch);
     tool.timing().triangle_count += batch.size();
@@ -226,7 +224,7 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
   ThreadPool pool(is_one_by_one ? 1 : chosen.threads_for(pixel_count(of_samples)));
   SampledDrawing drawing(chosen, screen, store.background(), pool);
   tool.timing().lap(&Timing::work_seconds);
-  draw_all(tool, chosen, screen, reader, pool, reports, store, drawing);
+  draw_all(tool, chosen, screen, reader, reports, store, drawing);
   reports.fragments.finish();
   reports.drawing.add_to(statistics);
   outputs.close_reports();
