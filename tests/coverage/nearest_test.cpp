@@ -51,12 +51,6 @@ TEST(CoverageNearest, TakesThePixelsNearestToBothEdges) {
                                                                 }));
 }
 
-TEST(CoverageNearest, HalfWayBetweenTwoPixelsTheRightOneIsTaken) {
-  // Edges at x = -1, 0 and 1, half-way between the centers of columns 2 and 3, 3 and 4, 4 and 5.
-  EXPECT_EQ(picture_of({{{-1, -1, 0}, {-1, 0, 0}, {1, -1, 0}}})[4], "...##...");
-  EXPECT_EQ(picture_of({{{1, -1, 0}, {1, 0, 0}, {-1, -1, 0}}})[4], "....##..");
-}
-
 TEST(CoverageNearest, ARowThroughTheLowestOrTheHighestPointHasIt) {
   EXPECT_EQ(picture_of({{{-1.5, -1.5, 0}, {1.5, -1.5, 0}, {0.5, 1.5, 0}}}), (Picture{
                                                                                 "........",
@@ -78,16 +72,6 @@ TEST(CoverageNearest, TheBorderItselfBelongsToTheLeftAndNotToTheRight) {
   // floor((-4 - -3.5) + 0.5) = 0, floor((4 - -3.5) + 0.5) = 8.
   EXPECT_EQ(picture_of({{{-4, -1, 0}, {-4, 1, 0}, {-6, 0, 0}}})[4], "#.......");
   EXPECT_EQ(picture_of({{{4, -1, 0}, {4, 1, 0}, {6, 0, 0}}}), kNoPixel);
-}
-
-TEST(CoverageNearest, HorizontalEdgeIsSkipped) {
-  // The other two edges draw its row; alone, as a triangle of no height, it draws nothing.
-  EXPECT_EQ(picture_of({{{-2.5, 0.5, 0}, {2.5, 0.5, 0}, {0, 1, 0}}})[3], ".######.");
-  EXPECT_EQ(picture_of({{{-2.5, 0.5, 0}, {2.5, 0.5, 0}, {0, 0.5, 0}}}), kNoPixel);
-}
-
-TEST(CoverageNearest, APointIsNothing) {
-  EXPECT_EQ(picture_of({{{0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 0.5, 0}}}), kNoPixel);
 }
 
 TEST(CoverageNearest, ALineIsDrawnAndItsSmallerDepthHolds) {

@@ -16,7 +16,7 @@ from lib.running.pipe import DEFAULT, Pipe, Setting
 from lib.running.pipe_tools import Tools, without_inner_location
 from lib.showing.figures import Quartiles
 from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run
-from trade_parts.choice import Choice, Limits, Row, cheapest, least_wrong, nearest
+from trade_parts.choice import Choice, Limits, Row, cheapest, least_wrong
 from trade_parts.levers import settings
 from trade_parts.losses import Loss
 from trade_parts.report import about_ties, about_times
@@ -324,10 +324,6 @@ class Choices(unittest.TestCase):
         self.assertEqual(cheapest(self.rows, verdict_of(of_5_7=TIE)), Choice(self.seven, ties=(self.five,)))
         self.assertEqual(cheapest(self.rows, verdict_of()), Choice(self.seven))
 
-    def test_of_settings_that_cost_the_same_the_one_with_fewer_options_is_taken(self):
-        plain, both = row(Setting(coverage="center")), row(Setting("5", coverage="center"))
-        self.assertEqual(cheapest([both, plain], lambda a, b: TIE), Choice(plain, ties=(both,)))
-
     def test_if_a_cheaper_one_cannot_be_told_the_simplest_is_named_and_no_other(self):
         self.assertEqual(cheapest(self.rows, verdict_of(of_5_7=UNTOLD)),
                          Choice(self.seven, untold=(self.five,)))
@@ -345,10 +341,6 @@ class Choices(unittest.TestCase):
                          "\n    --digits 5")
         self.assertIn("\nToo busy to tell which is cheapest, or too few rounds: this is the simplest.\n",
                       about_ties(Choice(self.seven, untold=(self.five,))))
-
-    def test_the_nearest_misses_least(self):
-        self.assertEqual(nearest(self.rows, Limits(0, 2)).setting, Setting("9"))
-        self.assertEqual(nearest(self.rows, Limits(0, 0.5)).setting, DEFAULT)
 
 
 class Clock(unittest.TestCase):
@@ -380,12 +372,6 @@ class Clock(unittest.TestCase):
         noise = (1.0, 1.2, 1.0, 0.9, 1.0, 1.0, 1.0, 1.0)
         self.assertEqual(self.verdict((0.8,) * 8, noise), UNTOLD)
         self.assertEqual(self.verdict((0.7,) * 8, noise), CHEAPER)
-
-    def test_times_that_scatter_tell_nothing(self):
-        self.assertEqual(self.verdict((0.8, 1.1, 0.7, 0.8, 0.8, 0.8, 0.8, 0.8)), UNTOLD)
-
-    def test_net_is_without_the_start(self):
-        self.assertAlmostEqual(self.times((1.5,) * 8).net(Setting("5")), 2.0, delta=0.1)
 
     def test_a_run_that_hardly_takes_longer_than_starting_is_too_short(self):
         for default, is_too_short in ((1.1, True), (2.0, False)):

@@ -39,14 +39,6 @@ TEST(Spheres, AreReadAndWrittenAmongTriangles) {
     EXPECT_EQ(copied(text), text);
 }
 
-TEST(Spheres, HaveAllColumnsButTheNormal) {
-  const std::string text =
-      "attributes color normal material\nmaterial 1 1 0 1\nmaterial 0.5 1 0 2\n"
-      "sphere\n0 0 0 1 2 3 1\n1 0 0 1 2 3 1\n0 1 0 1 2 3 1\n0 0 1 1 2 3 1\n\n"
-      "0 0 0 4 5 6 0 0 1 0\n1 0 0 4 5 6 0 0 1 0\n0 1 0 4 5 6 0 0 1 0\n\n";
-  EXPECT_EQ(copied(text), text);
-}
-
 TEST(Spheres, FollowTheTrianglesOfTheirBatch) {
   const TextFile file(kPlainTriangle + kSphere + kSphere + kPlainTriangle + kSphere);
   TextReader reader(file.descriptor(), "in.txt");

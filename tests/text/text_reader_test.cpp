@@ -126,19 +126,9 @@ TEST(TextReader, ReadsTextThatArrivesByteByByte) {
   EXPECT_EQ(lines_from(slow.descriptor()), (Lines{"one two", "", "", "four"}));
 }
 
-TEST(TextReader, TakesALineOfTheGreatestLength) {
-  const std::string longest(kMaxLineLength, 'x');
-  EXPECT_EQ(lines_of(longest + "\ny"), (Lines{longest, "y"}));
-}
-
 TEST(TextReader, TakesALastLineOfTheGreatestLength) {
   const std::string longest(kMaxLineLength, 'x');
   EXPECT_EQ(lines_of(longest), Lines{longest});
-}
-
-TEST(TextReader, ALineIsTooLongByOneCharacter) {
-  EXPECT_EQ(error_of_reading("a\n" + std::string(kMaxLineLength + 1, 'x') + "\n"),
-            "in.txt:2:1048577: expected the end of the line, found more than 1048576 characters");
 }
 
 TEST(TextReader, ALastLineIsTooLongByOneCharacter) {
@@ -169,12 +159,6 @@ TEST(TextReader, TheEndIsTheLocationAfterTheLastLine) {
   for (LineScanner line; reader.next_line(line);) {
   }
   EXPECT_EQ(to_string(reader.end_location()), "in.txt:3:1");
-}
-
-TEST(TextReader, TheEndOfAnEmptyTextIsItsStart) {
-  const TextFile file("");
-  const TextReader reader(file.descriptor(), "in.txt");
-  EXPECT_EQ(to_string(reader.end_location()), "in.txt:1:1");
 }
 
 TEST(TextReader, CountsTheBytesItHasRead) {
@@ -255,14 +239,6 @@ TEST(TextReader, KeepsAsMuchBufferedAsIsAskedFor) {
     EXPECT_EQ(line.rest(), std::to_string(i));
   }
   EXPECT_EQ(reader.bytes_read(), text.size());
-}
-
-TEST(TextReader, BuffersNoMoreAtTheEnd) {
-  const TextFile file("a\nb\n");
-  TextReader reader(file.descriptor(), "in.txt");
-  EXPECT_TRUE(reader.buffer_more());
-  EXPECT_FALSE(reader.buffer_more());
-  EXPECT_EQ(reader.buffered(), "a\nb\n");
 }
 
 TEST(TextReader, DoesNotWaitToBufferMore) {

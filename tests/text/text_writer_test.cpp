@@ -53,17 +53,6 @@ class FullDevice {
   int descriptor_;
 };
 
-TEST(WriteAll, WritesEveryByte) {
-  const TextFile file("");
-  const std::string bytes = std::string(200'000, 'x') + '\0' + "y";
-  EXPECT_EQ(try_write_all(file.descriptor(), bytes), 0);
-  EXPECT_TRUE(file.whole_text() == bytes);
-}
-
-TEST(WriteAll, WritesNothingForNoBytes) {
-  EXPECT_EQ(try_write_all(FullDevice().descriptor(), ""), 0);
-}
-
 TEST(WriteAll, GivesTheReasonOfAFailure) {
   EXPECT_EQ(try_write_all(FullDevice().descriptor(), "abc"), ENOSPC);
   EXPECT_EQ(message_of([] { write_all(FullDevice().descriptor(), "abc", "out.bmp"); }),
@@ -83,10 +72,6 @@ TEST(TextWriter, WritesNothingOnDestruction) {
   const TextFile file("");
   { TextWriter(file.descriptor(), "out.txt").append("abc"); }
   EXPECT_EQ(file.whole_text(), "");
-}
-
-TEST(TextWriter, FlushingNothingWritesNothing) {
-  EXPECT_EQ(block_sizes_of([](TextWriter& writer) { writer.flush(); }), std::vector<std::size_t>{});
 }
 
 TEST(TextWriter, ReservedRoomCountsAsFarAsItIsCommitted) {
