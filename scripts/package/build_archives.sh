@@ -21,23 +21,20 @@ pack() {
     xz -9e -T1 > "out/$1.tar.xz"
 }
 
-# Puts the programs of a processor into the folder $3: one in place of most tools, linked by their names.
+# Puts the programs of a processor into the folder $3.
 put_programs() {
-  $2 -o "$3/libexec/all-tools" "$1/bin/all-tools"
+  $2 -o "$3/libexec/pipeline/tools/all-tools" "$1/bin/all-tools"
   $2 -o "$3/libexec/pipeline/mesh2scene" "$1/bin/mesh2scene"
-  for tool in x86_64/bin/*; do
-    tool=${tool##*/}
-    case $tool in all-tools | mesh2scene | pipeline) ;; *) ln -sf ../all-tools "$3/libexec/pipeline/$tool" ;; esac
-  done
 }
 
 mkdir -p out pack
 configure x86_64
-cmake --build x86_64 --target all all-tools
+cmake --build x86_64
 configure aarch64 -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++
 cmake --build aarch64 --target all-tools mesh2scene
 
 cmake --install x86_64 --prefix /build/installed
+[ -s installed/share/doc/pipeline/THIRD-PARTY ]  # else cmake has said what has no license
 put_programs x86_64 strip installed
 (cd x86_64 && cpack -D CPACK_INSTALL_CMAKE_PROJECTS= -D "CPACK_INSTALLED_DIRECTORIES=/build/installed;/usr" \
   -D CPACK_DEBIAN_COMPRESSION_TYPE=xz -B /build/deb)
@@ -47,6 +44,7 @@ rm -r installed/include installed/lib
 for arch in x86_64 aarch64; do cp -a installed "pack/pipeline-$version-linux-$arch"; done
 put_programs aarch64 aarch64-linux-gnu-strip "pack/pipeline-$version-linux-aarch64"
 cp -a installed/share/pipeline/conformance "pack/pipeline-$version-conformance"
+cp /src/LICENSE "pack/pipeline-$version-conformance"
 cp -a /src "pack/pipeline-$version-source"
 for folder in pack/*; do pack "${folder#pack/}"; done
 dpkg-query -W > out/built-with.txt

@@ -23,6 +23,7 @@ build() {
     -Ddraco_DIR=/usr/src/assimp -DUNZIP_FOUND=ON -DUNZIP_LIBRARIES=minizip "$@"
   cmake --build "$arch"
   cmake --install "$arch"
+  cp assimp-*/debian/copyright "/usr/local/assimp-$arch"
   find "/usr/local/assimp-$arch" -name assimpConfig.cmake -exec sed -i '/draco/d' {} +
 }
 

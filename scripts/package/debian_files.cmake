@@ -4,8 +4,22 @@ if(NOT CPACK_GENERATOR STREQUAL "DEB")
 endif()
 set(prefix "${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr")
 set(documents "${prefix}/share/doc/pipeline")
-# Debian looks for them under these names.
-file(RENAME "${documents}/LICENSE" "${documents}/copyright")
+# Debian looks for it under this name, and in this form.
+file(READ "${documents}/LICENSE" license)
+file(REMOVE "${documents}/LICENSE")
+string(REGEX MATCH "Copyright [(]c[)] ([^\n]*)\n+(.*)\n" _ "${license}")
+set(holder "${CMAKE_MATCH_1}")
+string(REPLACE "\n\n" "\n.\n" text "${CMAKE_MATCH_2}")
+string(REPLACE "\n" "\n " text "${text}")
+file(WRITE "${documents}/copyright" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+Upstream-Name: pipeline
+Comment: The programs contain parts of other packages; THIRD-PARTY beside this file has their licenses.
+
+Files: *
+Copyright: ${holder}
+License: Expat
+ ${text}
+")
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of SOURCE_DATE_EPOCH, if that is set
 file(WRITE "${documents}/changelog" "pipeline (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 

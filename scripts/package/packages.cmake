@@ -21,7 +21,7 @@ set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/scripts/package/debian_files.c
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.9)")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-tk)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, parallel, python3-tk")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "bash-completion, man-db")
 # The versions of the shared libraries that the tools use.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -39,7 +39,7 @@ def completed(*words):
 class Words(unittest.TestCase):
     def test_the_first_word_is_a_command(self):
         self.assertEqual(sorted(completed("pipeline", "")),
-                         sorted([*COMMANDS, "help", "env", "--help", "--version"]))
+                         sorted([*COMMANDS, "help", "env", "--help", "--version", "--licenses"]))
         self.assertEqual(completed("/some/bin/pipeline", "mo"), ["model"])
         self.assertEqual(completed("pipeline", "x"), [])
 

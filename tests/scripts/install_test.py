@@ -4,6 +4,7 @@ the source tree cannot be seen; so do the examples of its page. The library is f
 
 usage: install_test.py BUILD_DIR SOURCE_DIR [UNITTEST ARGUMENT...]
 """
+import json
 import os
 import pathlib
 import re
@@ -277,6 +278,45 @@ class Library(unittest.TestCase):
         self.call(compiler, SOURCE / "tests/consumer/draw.cpp", "-o", self.build.name + "/draw",
                   *shlex.split(flags.decode()))
         self.assert_draws(self.build.name)
+
+
+@unittest.skipUnless(shutil.which("dpkg-query") and shutil.which("ninja"), "no Debian with Ninja")
+class Licenses(unittest.TestCase):
+    def test_they_are_installed_and_printed(self):
+        documents = PREFIX / "share/doc/pipeline"
+        text = (documents / "THIRD-PARTY").read_text()
+        self.assertLessEqual({"cli11", "highway"}, set(re.findall(r"^  ([\w.-]+) \S+$", text, re.M)))
+        for owner in ("Google LLC", "University of Cincinnati"):
+            self.assertIn(owner, text)
+        printed = subprocess.run([PREFIX / "bin/pipeline", "--licenses"], capture_output=True, text=True)
+        self.assertEqual(printed.stdout, (SOURCE / "LICENSE").read_text() + "\n" + text)
+
+    def listed(self, *words):
+        done = subprocess.run([SOURCE / "scripts/package/third-party", *words], capture_output=True,
+                              text=True)
+        return done.stdout or done.stderr
+
+    def test_a_part_without_a_license_is_named(self):
+        folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, folder)
+        for name, text in {
+                "build/CMakeCache.txt": "CMAKE_HOME_DIRECTORY:INTERNAL=/src\n", "part/lib/part.a": "",
+                "build/tool.linked": f"tool: \\\n  /src/own.o \\\n  {folder}/part/lib/part.a\n",
+                "npm/node_modules/@a/b/LICENSE": "of b", "npm/package-lock.json": json.dumps({"packages": {
+                    "": {}, "node_modules/@a/b": {"version": "2"}, "node_modules/c": {"version": "3"},
+                    "node_modules/d": {"version": "4", "dev": True}}})}.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(text)
+        words = ["--npm", folder / "npm", folder / "build"]
+        self.assertRegex(self.listed(*words),
+                         f"^third-party: no package has {folder}/part/lib/part.a; c 3 has no ")
+        (folder / "part/copyright").write_text("of part")
+        (folder / "npm/node_modules/c").mkdir()
+        (folder / "npm/node_modules/c/LICENSE.md").write_text("see /usr/share/common-licenses/BSD.")
+        text = self.listed(*words)
+        for name, own in {"part": "of part", "@a/b 2": "of b", "BSD": "", "c 3": "see "}.items():
+            self.assertIn(f"\n{name}\n{'=' * 80}\n\n{own}", text)
+        self.assertNotIn("d 4", text)
 
 
 @unittest.skipUnless(
