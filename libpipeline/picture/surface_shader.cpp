@@ -81,7 +81,6 @@ SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::siz
   if (!p_ndc.attributes.colors.empty()) shown_.add_triangle(p_ndc.attributes.colors[index]);
   const KeptTriangle kept = unclipped(p_ndc, index, own_color);
   has_normals_ = !p_ndc.attributes.normals.empty();
-  if (setup_.wireframe) add_edges(p_ndc, index, screen_corners_of(kept.corners, kept.is_divided));
   triangles_.push_back(kept);
   if (setup_.materials.size() > 1 && !p_ndc.attributes.materials.empty())
     materials_.push_back(p_ndc.attributes.materials[index]);
@@ -115,14 +114,6 @@ void SurfaceShader::keep(const KeptIds& kept) {
   triangles_.keep(kept);
   materials_.keep(kept);
   for (Worker& worker : workers_) worker.cache.clear();
-  if (setup_.wireframe) setup_.wireframe->keep(kept);
-}
-
-void SurfaceShader::add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners) {
-  if (setup_.says_what_was_clipped)
-    setup_.wireframe->add(screen_corners);
-  else
-    setup_.wireframe->add_piece(p_ndc.triangles[index], screen_corners, p_ndc.numbers[index]);
 }
 
 void SurfaceShader::light_corners(Surface& surface) const {
@@ -188,18 +179,7 @@ void SurfaceShader::shade_columns(int row, std::size_t begin, std::size_t end, S
     std::fill(colors + begin, colors + end, setup_.background);
     return;
   }
-  const Surface& shown = surface(id, worker);
-  if (!setup_.wireframe)
-    return shade_run(shown, row, static_cast<int>(begin), static_cast<int>(end - begin), colors + begin);
-  const Wireframe::Edges& edges = setup_.wireframe->edges(id);
-  const double y = grid_.y_of(row);
-  for (std::size_t i = begin; i < end; ++i) {
-    const int column = static_cast<int>(i);
-    if (Wireframe::is_on_edge(edges, grid_.x_of(column), y))
-      shade_run(shown, row, column, 1, colors + i);
-    else
-      colors[i] = setup_.background;
-  }
+  shade_run(surface(id, worker), row, static_cast<int>(begin), static_cast<int>(end - begin), colors + begin);
 }
 
 void SurfaceShader::shade_run(const Surface& surface, int row, int column, int count, Color* colors) const {

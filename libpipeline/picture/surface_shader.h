@@ -9,7 +9,6 @@
 
 #include "libpipeline/picture/corner_weights.h"
 #include "libpipeline/picture/shading.h"
-#include "libpipeline/picture/wireframe.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/stream/chunked_array.h"
@@ -55,8 +54,6 @@ class SurfaceShader {
     std::vector<Material> materials;  // by their numbers
     std::optional<ViewFromClip> view_from_clip;
     Color background;
-    std::optional<Wireframe> wireframe;  // then pixels off the edges show the background
-    bool says_what_was_clipped = false;  // as texts with lights do
   };
 
   /// A triangle ready to be shaded.
@@ -73,8 +70,7 @@ class SurfaceShader {
   SurfaceId add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
   /// The count of triangles kept; their ids are less.
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
-  /// Lets go of the triangles that are not kept; the others have new ids from now on. The one added last has
-  /// to be kept.
+  /// Lets go of the triangles that are not kept; the others have new ids from now on.
   void keep(const KeptIds& kept);
   /// Makes room for the workers of a pool; at first there is one.
   void set_workers(int count) { workers_.resize(static_cast<std::size_t>(count)); }
@@ -89,7 +85,7 @@ class SurfaceShader {
     return made_surface(unclipped(p_ndc, index, own_color), !attributes.normals.empty(),
                         attributes.materials.empty() ? 0 : attributes.materials[index]);
   }
-  /// Its color at the center of a pixel; there are no edges of a wireframe.
+  /// Its color at the center of a pixel.
   [[nodiscard]] Color color_at(const Surface& surface, int row, int column) const;
   /// Adds the statistics of such colors.
   void add_shown(const ShownColors& shown) { shown_.add(shown); }
@@ -128,7 +124,6 @@ class SurfaceShader {
   void light_corners(Surface& surface) const;
   void look_for_something(std::size_t first, std::span<const SurfaceId> ids, Worker& worker) const;
   [[nodiscard]] double light_in_front_of(const Surface& surface) const;
-  void add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners);
   void shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id, Worker& worker) const;
   void shade_run(const Surface& surface, int row, int column, int count, Color* colors) const;
 

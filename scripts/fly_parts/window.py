@@ -26,7 +26,7 @@ r              back to the start
 c v            clip at the frustum, or do not
 z/x            open, close a gap at the sides, to see cuts
 b              cull backs
-f              wireframe
+f              wireframe; again: with hidden edges
 1 2 3 4        shading none, flat, gouraud, phong
 i/k j/l u/o    move the first light
 p P            write the scene, the picture
@@ -55,7 +55,7 @@ class Settings:
     inset: float = 0
     shading: str = ""
     culls: bool = False
-    wireframe: bool = False
+    wireframe: int = 0  # words of --wireframe all
 
     def project_words(self):
         return (["--clip", "frustum"] if self.is_clipped or self.inset else []) + (["--cull", "back"]
@@ -73,8 +73,8 @@ class Settings:
         return [*([repr(float(word) / (1 - self.inset))] for [word] in sides), z]
 
     def drawing_words(self):
-        return (["--shading", self.shading] if self.shading else []) + (["--wireframe"]
-                                                                        if self.wireframe else [])
+        shading = ["--shading", self.shading] if self.shading else []
+        return shading + ["--wireframe", "all"][:self.wireframe]
 
 
 def keys_of(is_traced):
@@ -243,7 +243,7 @@ class FlyWindow:
         if name == "b":
             return dataclasses.replace(now, culls=not now.culls)
         if name == "f":
-            return dataclasses.replace(now, wireframe=not now.wireframe)
+            return dataclasses.replace(now, wireframe=(now.wireframe + 1) % 3)
         return None
 
     def move_light(self, steps):

@@ -60,7 +60,6 @@ TEST(SurfaceShader, TrianglesKeptHaveTheirColorsUnderTheirNewIds) {
   EXPECT_EQ(shader.shade(0, next)[0], Color(1, 1, 1));
 }
 
-// The edge from the first corner to the last of one piece, through the middle, is that of the next one.
 TEST(SurfaceShader, AnIdShownBeforeHasTheColorOfItsNewTriangle) {
   const TriangleBatch batch = batch_of({{1, 1, 1}, {2, 2, 2}});
   SurfaceShader shader(kOnePixel, {});
@@ -74,29 +73,6 @@ TEST(SurfaceShader, AnIdShownBeforeHasTheColorOfItsNewTriangle) {
   kept.renumber();
   shader.keep(kept);
   EXPECT_EQ(shader.shade(0, first)[0], Color(2, 2, 2));
-}
-
-TEST(SurfaceShader, AWireframeHasNoEdgeBetweenPiecesOneOfWhichWasKept) {
-  const Vec3 red{255, 0, 0};
-  TriangleBatch pieces;
-  pieces.add({Vec3{-9, -9, 0}, Vec3{-8, -9, 0}, Vec3{-9, -8, 0}}, 0, {});
-  pieces.add({Vec3{-4, -4, 0}, Vec3{4, -4, 0}, Vec3{4, 4, 0}}, 1, {});
-  pieces.add({Vec3{-4, -4, 0}, Vec3{4, 4, 0}, Vec3{-4, 4, 0}}, 1, {});
-  pieces.attributes.colors.assign(3, {red, red, red});
-  SurfaceShader::Setup setup;
-  setup.wireframe.emplace(PixelSize{2, 2});
-  SurfaceShader shader(kOnePixel, setup);
-  shader.add(pieces, 0, Color());
-  shader.add(pieces, 1, Color());
-  const std::array<SurfaceShader::SurfaceId, 1> before = {1};
-  EXPECT_EQ(shader.shade(0, before)[0], Color(255, 0, 0));
-  KeptIds kept(2);
-  kept.keep(1);
-  kept.renumber();
-  shader.keep(kept);
-  const std::array<SurfaceShader::SurfaceId, 1> first = {0}, second = {shader.add(pieces, 2, Color())};
-  EXPECT_EQ(shader.shade(0, first)[0], Color());
-  EXPECT_EQ(shader.shade(0, second)[0], Color());
 }
 
 TEST(SurfaceShader, ColorsOfTrianglesThatAreNotKeptAreTheSame) {

@@ -7,6 +7,7 @@ accept it.
 
 usage: agreement_test.py BIN_DIR [SCENES] [FIRST]
 """
+import os
 import pathlib
 import random
 import re
@@ -143,6 +144,43 @@ class CentersOnEdges(unittest.TestCase):
 
     def test_bottom_and_right_edges_do_not(self):
         self.check(b"0.75 0.75 0\n0.75 -0.75 0\n-0.75 -0.75 0\n", ["....", "..#.", ".##.", "...."])
+
+
+class Wireframes(unittest.TestCase):
+    """Edges (T24a to T24c) between corners on centers, on sides of pixels and of the view volume, anywhere,
+    and far away; pieces and slivers among them."""
+
+    def test_pictures_are_those_of_the_reference(self):
+        for index in range(80):
+            rng = random.Random(index)
+            def number():
+                return rng.choice(("%.7f" % rng.uniform(-1.5, 1.5), repr(rng.uniform(-1.5, 1.5)),
+                                   "%g" % (rng.randint(-9, 9) / 8), "1", "-1",
+                                   repr(rng.uniform(-1, 1) * 10.0**rng.randint(-99, 99))))
+            text = ""
+            for number_of_piece in range(rng.randint(1, 6)):
+                corners = [f"{number()} {number()} {rng.uniform(-1, 1):.4f}\n" for _ in range(3)]
+                if text and rng.random() < 0.3:
+                    text += f"triangle {last}\n"
+                    corners[:2] = first, third
+                else:
+                    last = number_of_piece
+                    text += f"triangle {last}\n"
+                first, third = corners[0], corners[2]
+                text += "".join(corners)
+            config = rng.choice(("8 8\n", "17 5\n-1\n-1\n-0.83 0.87\n", "9 9\n-3\n-0.1234567891\n-1 1\n"))
+            options = ["--wireframe", *rng.choice(([], ["all"])), "--samples", rng.choice("113"),
+                       "--coverage", ("nearest", "center")[index % 2]]
+            with self.subTest(scene=index, options=options), tempfile.TemporaryDirectory() as folder:
+                os.chdir(folder)
+                pathlib.Path("config.txt").write_text(config)
+                subprocess.run([BIN / "zbuf", "config.txt", *options, "--image", "found.bmp"],
+                               input=text.encode(), check=True, capture_output=True)
+                reference.zbuf(text.encode(), reference.read_options(
+                    "zbuf", ["config.txt", *options, "--image", "expected.bmp"]))
+                self.assertEqual(*(pathlib.Path(name).read_bytes()
+                                   for name in ("found.bmp", "expected.bmp")), text)
+                os.chdir("/")
 
 
 class WideLimits(unittest.TestCase):

@@ -376,6 +376,49 @@ class Writer:  # T17 to T20: the lines of a stage text
 
 def depth_text(depths, rear): return "".join("".join(fixed(z, 6) + "\t" for z in row if z < rear) + "\n" for row in depths).encode()  # T23
 
+def is_cut(p, q): return any(p[axis] == q[axis] in (1, -1) for axis in range(3))  # T24b
+def edges_of(triangles, is_lit):  # T24b: of each triangle the corners with which one begins that is drawn
+    drawn = [[0, 1, 2] for _ in triangles]
+    for index, triangle in enumerate(triangles):
+        points, before = [corner.position for corner in triangle.corners], triangles[index - 1] if index else None
+        if triangle.whole or not is_lit:
+            drawn[index] = [i for i in range(3) if not is_cut(points[i], points[(i + 1) % 3])]
+        if before and before.number == triangle.number and [before.corners[i].position for i in (0, 2)] == points[:2]:
+            drawn[index - 1], drawn[index] = ([i for i in drawn[index - is_before] if i != 2 * is_before] for is_before in (1, 0))
+    return drawn
+
+def edge_pixels(triangle, edges, config, width):  # T24a: (row, column, depth); edges are `width` samples wide
+    points = on_grid(triangle, config)
+    for p, q in ((points[i], points[(i + 1) % 3]) for i in edges):
+        axis = int(abs(q[0] - p[0]) < abs(q[1] - p[1]))  # 1: an edge with a pixel in each row
+        low, high = sorted((p, q), key=lambda end: end[axis])
+        for along in inside(low[axis], high[axis], config[axis]) if low[axis] < high[axis] else ():
+            middle = mean(((high[axis] - along) / (high[axis] - low[axis]), (along - low[axis]) / (high[axis] - low[axis])), (low, high))
+            for across in inside(middle[1 - axis] - Fraction(width, 2), math.ceil(middle[1 - axis] + Fraction(width, 2)) - 1, config[1 - axis]):
+                yield (along, across, middle[2]) if axis else (across, along, middle[2])
+
+def farthest(triangle, z, config, width):  # T24c: the depth beyond which it hides where its own is z
+    (a, b, c), sizes = (corner.position for corner in triangle.corners), (-2 * config.left / config.width, -2 * config.bottom / config.height)
+    normal = cross(minus(b, a), minus(c, a))
+    reach = sum(abs(normal[axis] / normal[2]) * sizes[axis] * width * Fraction(501, 1000) for axis in (0, 1)) if normal[2] else LARGEST
+    return min(z + reach, max(a[2], b[2], c[2]))
+
+def wireframe(triangles, config, coverage, width, is_lit, shows_hidden):  # T24c: for each pixel the triangle that it shows, or None
+    shown, hidden_from = {}, {}
+    for order, (triangle, edges) in enumerate(zip(triangles, edges_of(triangles, is_lit))):
+        a, b, c = (corner.position for corner in triangle.corners)
+        is_clockwise = cross(minus(b, a), minus(c, a))[2] <= 0
+        for row, column, z in edge_pixels(triangle, edges, config, width):
+            if config.front <= z < config.rear:
+                shown[row, column] = min(shown.get((row, column), (config.rear,)), (z, is_clockwise, order))
+        for row, column, z in () if shows_hidden else (center if coverage == "center" else nearest)(triangle, config):
+            if config.front <= z < config.rear:
+                hidden_from[row, column] = min(hidden_from.get((row, column), LARGEST), farthest(triangle, z, config, width))
+    seen = [[None] * config.width for _ in range(config.height)]
+    for (row, column), (z, _, order) in shown.items():
+        seen[row][column] = triangles[order] if z <= hidden_from.get((row, column), LARGEST) else None
+    return seen
+
 def bmp(rows):  # T24: the file; a row is a list of (red, green, blue)
     pixels = b"".join(b"".join(bytes((b, g, r)) for r, g, b in row) + bytes(-3 * len(row) % 4) for row in reversed(rows))
     header = ("<2s6I2H6I", b"BM", 54 + len(pixels), 0, 54, 40, len(rows[0]), len(rows), 1, 24, 0, len(pixels), 0, 0, 0, 0)
@@ -620,14 +663,16 @@ def exact(word):  # Z6: the value of a written x, y or limit
     is_decimal = re.fullmatch(r"[+-]?[0-9]*(\.[0-9]{0,7})?", word) and abs(float(word)) < 1e22
     return Fraction(word if is_decimal else float(word))
 
-def center(triangle, config):  # Z1, Z5 to Z7: the same for `center`
+def on_grid(triangle, config):  # Z1, Z6: the corners, x and y in columns and rows, y downwards
     left, bottom = map(exact, config.written[:2])
     dx, dy = -2 * left / config.width, -2 * bottom / config.height
-    # From here on x and y count columns and rows, times a common denominator: whole numbers, y downwards.
-    points = [((exact(x) - left) / dx - Fraction(1, 2), (-bottom - exact(y)) / dy - Fraction(1, 2))
-              for x, y, _ in (corner.written for corner in triangle.corners)]
-    whole = math.lcm(*(x.denominator for point in points for x in point))
-    a, b, c = ((int(x * whole), int(y * whole), corner.position[2]) for (x, y), corner in zip(points, triangle.corners))
+    return [((exact(x) - left) / dx - Fraction(1, 2), (-bottom - exact(y)) / dy - Fraction(1, 2), corner.position[2])
+            for corner in triangle.corners for x, y, _ in (corner.written,)]
+
+def center(triangle, config):  # Z5, Z7: the same for `center`
+    points = on_grid(triangle, config)
+    whole = math.lcm(*(x.denominator for point in points for x in point[:2]))  # times it, x and y are whole numbers
+    a, b, c = ((int(x * whole), int(y * whole), z) for x, y, z in points)
     area = side_of_edge(c[0], c[1], a, b)
     b, c = (b, c) if area > 0 else (c, b)  # clockwise as seen
     xs, ys, zs = zip(a, b, c)
@@ -743,7 +788,7 @@ def mean_of_samples(picture, count):  # Z12: of each count x count pixels
               for y in range(0, len(picture), count)]
     return [[rounded(times(Decimal(1) / count**2, plus(*block))) for block in line] for line in blocks]
 
-def zbuf(data, options):  # Z1 to Z13, L1 to L7, T15, T23, T24: the z-buffer text; writes the image
+def zbuf(data, options):  # Z1 to Z13, L1 to L7, T15, T23 to T24c, T30: the z-buffer text; writes the image
     config, stage = read_config(Text(pathlib.Path(options["CONFIG"]).read_bytes())), Stage(data, "zbuf")
     if "--expect-framed" in options and "framed" not in stage.header:
         raise Refused(stage.end_of_header, "a text that is not framed")
@@ -752,7 +797,10 @@ def zbuf(data, options):  # Z1 to Z13, L1 to L7, T15, T23, T24: the z-buffer tex
     rules = options["--coverage"], Fraction(float(options["--depth-epsilon"]))
     depths, seen = draw(triangles, config, *rules)
     samples = config._replace(width=config.width * count, height=config.height * count)
-    seen = seen if count == 1 else draw(triangles, samples, *rules)[1]
+    if "--wireframe" in options:
+        seen = wireframe(triangles, samples, rules[0], count, "light" in stage.header, options["--wireframe"] == "all")
+    else:
+        seen = seen if count == 1 else draw(triangles, samples, *rules)[1]
     with decimal.localcontext(SHADING):
         image = [[rounded(color) for color in row] for row in shade(seen, stage.header, samples, model_name)]
         image = image if count == 1 else mean_of_samples(image, count)
@@ -768,7 +816,7 @@ OPTIONS = {  # words that follow, or their count
     "project": {"--digits": DIGITS, "--scene": 1, "--aspect": ["angle", "ratio"], "--cull": ["back", "front"], "--clip-inset": 1,
                 "--clip": ["auto", "near", "frustum", "reject", "none"], **{"--" + name: len(ARGUMENTS[name]) for name in PROJECTIONS}},
     "zbuf": {"--expect-framed": 0, "--image": 1, "--coverage": ["nearest", "center"], "--algorithm": ["zbuffer", "scanline"],
-             "--samples": [*map(str, range(1, 17))], "--rows": 1, "--depth-epsilon": 1, "--shading": ["none", "flat", "gouraud", "phong"]}}
+             "--samples": [*map(str, range(1, 17))], "--rows": 1, "--depth-epsilon": 1, "--wireframe": ["all"], "--shading": ["none", "flat", "gouraud", "phong"]}}
 
 def read_options(stage, words):  # O1 to O3, V1, P1: the options by name, with their defaults
     options = {"--digits": "7", "--clip": "auto", "--clip-inset": "0", "--image": "out.bmp", "--coverage": "nearest", "--samples": "1",
@@ -778,7 +826,7 @@ def read_options(stage, words):  # O1 to O3, V1, P1: the options by name, with t
     while words or stage not in OPTIONS or stage == "zbuf" and "CONFIG" not in options:
         word, *words = words or ["STAGE or CONFIG"]
         form = OPTIONS.get(stage, {}).get(word, -1)
-        count = form if isinstance(form, int) else 1
+        count = form if isinstance(form, int) else int(words[:1] == form) if word == "--wireframe" else 1
         if not 0 <= count <= len(words) or count == 1 and form != 1 and words[0] not in form:
             print(f"reference: {word}: not understood\n{__doc__}", file=sys.stderr)
             sys.exit(2)

@@ -301,6 +301,14 @@ class Flying(WindowTest):
         self.assertEqual(covered, [[abs(x - 30) * 3 / 61 <= 0.9 and abs(y - 20) * 2 / 41 <= 0.9
                                     for x in range(61)] for y in range(41)])
 
+    def test_the_wireframe_is_zbufs(self):
+        self.press("f")
+        self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--wireframe"]))
+        self.press("f")
+        self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--wireframe", "all"]))
+        self.press("f")
+        self.assertEqual(self.shown(), frame_of(SCENE))
+
     def test_the_first_light_moves(self):
         self.press("l")
         step = math.sqrt(30) / 20

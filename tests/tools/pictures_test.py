@@ -260,20 +260,33 @@ class Wireframes(Pictures):
         stage3 = pipe(["model"], ["view"], ["project", "--clip", clip], stdin=scene + "end\n")
         return self.pixels(stage3, "--wireframe", "--coverage", "center", "--shading", "none")
 
-    def test_pixels_near_an_edge_are_shown(self):
-        corners = [(-0.83, -0.71, 0), (0.91, -0.33, 0), (-0.12, 0.77, 0)]
+    def test_silhouettes_are_unbroken_and_no_pixel_is_far_from_an_edge(self):
+        """Of a pyramid that is seen from above."""
+        rng, step_count, lit_count = random.Random(6), 0, 0
         def on_screen(p):
             return (p[0] + 1) * COLUMNS / 2 - 0.5, (1 - p[1]) * ROWS / 2 - 0.5
-        a, b, c = map(on_screen, corners)
-        surface, image = self.pixels(triangles(corners)), self.pixels(triangles(corners), "--wireframe")
-        shown_count = 0
-        for i in range(0, len(image), 3):
-            p = (i // 3 % COLUMNS, i // 3 // COLUMNS)
-            is_near = min(distance_to_segment(p, a, b), distance_to_segment(p, b, c),
-                          distance_to_segment(p, c, a)) <= 0.5
-            shown_count += is_near and any(surface[i:i + 3])
-            self.assertEqual(image[i:i + 3], surface[i:i + 3] if is_near else bytes(3), p)
-        self.assertGreater(shown_count, 30)
+        for _ in range(9):
+            turn = rng.uniform(0, 1)
+            base = [(0.9 * math.cos(turn + i), 0.9 * math.sin(turn + i), 0.5) for i in range(6)]
+            apex = (rng.uniform(-0.4, 0.4), rng.uniform(-0.4, 0.4), -0.5)
+            image = self.pixels("".join(triangles([apex, p, q]) for p, q in zip(base, base[1:] + base[:1])),
+                                "--wireframe")
+            lit = {(i % COLUMNS, i // COLUMNS) for i in range(COLUMNS * ROWS) if any(image[3 * i:3 * i + 3])}
+            points = [*map(on_screen, base)]
+            outline = [*zip(points, points[1:] + points[:1])]
+            spokes = [(on_screen(apex), point) for point in points]
+            for p in lit:
+                self.assertLessEqual(min(distance_to_segment(p, *edge) for edge in outline + spokes),
+                                     0.5 + 1e-6)
+            for p, q in outline:
+                axis = int(abs(p[0] - q[0]) < abs(p[1] - q[1]))
+                for along in range(math.ceil(min(p[axis], q[axis])), math.floor(max(p[axis], q[axis])) + 1):
+                    part = (along - p[axis]) / (q[axis] - p[axis])
+                    across = math.ceil(p[1 - axis] + part * (q[1 - axis] - p[1 - axis]) - 0.5)
+                    step_count += 1
+                    lit_count += ((across, along) if axis else (along, across)) in lit
+        self.assertGreater(step_count, 500)
+        self.assertGreaterEqual(lit_count, 0.99 * step_count)
 
     def test_cuts_are_no_edges(self):
         for corners in self.CUT_AT_SIDES:

@@ -140,7 +140,8 @@ class Owners(Seen):
         seen = self.seen(text)
         self.assertEqual(seen, self.seen(text, "--algorithm", "scanline"))
         self.assertEqual(seen, self.seen(text, "--threads", "4"))
-        self.assertEqual(self.picture(seen, "--wireframe"), self.picture(text, "--wireframe"))
+        edges = self.seen(text, "--wireframe")
+        self.assertEqual(self.picture(edges, "--wireframe"), self.picture(text, "--wireframe"))
         self.assertEqual(self.picture(seen, "--samples", "1"), self.picture(text))
         # With the image at the same time, too.
         done = self.zbuf("--seen", "seen.txt", "--image", "both.ppm", "--z-buffer", "-", stdin=text)

@@ -165,7 +165,7 @@ constexpr const char* kReachesTheSeenSide =
 
 /// Why no light shows on surfaces whose colors are not black.
 std::string reason_of_darkness(const SurfaceShader& shader) {
-  const auto& [model, lighting, materials, view, background, wireframe, clipped] = shader.setup();
+  const auto& [model, lighting, materials, view, background] = shader.setup();
   const auto is_dark = [](const Material& material) {
     return material.diffuse == 0 && material.specular == 0;
   };
@@ -255,15 +255,15 @@ std::optional<std::string> opaque_note(const Appearance& appearance) {
          "light";
 }
 
-std::optional<std::string> invisible_colors_note(const SurfaceShader& shader) {
+std::optional<std::string> invisible_colors_note(const SurfaceShader& shader, bool is_wireframe) {
   if (shader.shown().show_something) return std::nullopt;
   const SurfaceShader::Setup& setup = shader.setup();
   const bool is_lit = setup.model != ShadingModel::none;
   if (is_black(setup.background)) {
     if (auto note = black_colors_note(shader.shown().greatest_channel)) return note;
-    if (is_lit && !setup.wireframe) return "the picture is black: " + reason_of_darkness(shader);
+    if (is_lit && !is_wireframe) return "the picture is black: " + reason_of_darkness(shader);
   }
-  if (setup.wireframe && !is_lit)
+  if (is_wireframe && !is_lit)
     return "the picture is empty: --wireframe shows edges alone, and none is in sight";
   return kColorOfBackground;
 }

@@ -38,7 +38,7 @@ std::string unseen_note(const UnseenPlaces& unseen, const Viewport& screen);
 std::optional<std::string> opaque_note(const Appearance& appearance);
 
 /// For `zbuf`: why pixels that show triangles all look like the background; none if they do not.
-std::optional<std::string> invisible_colors_note(const SurfaceShader& shader);
+std::optional<std::string> invisible_colors_note(const SurfaceShader& shader, bool is_wireframe = false);
 
 /// Spheres by their place in view space, of which z alone is known, and the limits there.
 struct UnseenSpheres {

@@ -9,11 +9,11 @@ constexpr int kRowsOfThread = 8;
 
 }  // namespace
 
-ColoredRows::ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, AllEdges* edges,
+ColoredRows::ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, Wireframe* wireframe,
                          int first_row, int thread_count, PictureOutputs& outputs)
     : store_(store),
       shader_(shader),
-      edges_(edges),
+      wireframe_(wireframe),
       outputs_(outputs),
       row_(first_row),
       pool_(shader ? thread_count : 1) {
@@ -29,7 +29,7 @@ void ColoredRows::add(std::span<const PixelTag> tags) {
     return outputs_.write_colors(colors_);
   }
   const int row = row_ + static_cast<int>(count_);
-  if (edges_ != nullptr) tags = edges_->row(row, *shader_->setup().wireframe);
+  if (wireframe_ != nullptr) tags = wireframe_->row(row);
   waiting_[count_].tags.assign(tags.begin(), tags.end());
   if (++count_ == waiting_.size()) color();
 }

@@ -7,9 +7,9 @@
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/thread_pool.h"
-#include "tools/zbuf/all_edges.h"
 #include "tools/zbuf/picture_outputs.h"
 #include "tools/zbuf/triangle_store.h"
+#include "tools/zbuf/wireframe.h"
 
 namespace pipeline {
 
@@ -17,8 +17,8 @@ namespace pipeline {
 /// at a time on threads, while those before them are written.
 class ColoredRows {
  public:
-  /// Without a shader, the store knows the colors; `edges` may be null.
-  ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, AllEdges* edges, int first_row,
+  /// Without a shader, the store knows the colors; `wireframe` may be null.
+  ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, Wireframe* wireframe, int first_row,
               int thread_count, PictureOutputs& outputs);
 
   /// Takes the next row.
@@ -35,7 +35,7 @@ class ColoredRows {
 
   TriangleStore& store_;
   std::optional<SurfaceShader>& shader_;
-  AllEdges* edges_;
+  Wireframe* wireframe_;
   PictureOutputs& outputs_;
   std::vector<Color> colors_;  // without a shader
   int row_;                    // the first that is not colored

@@ -20,7 +20,6 @@
 #include "libpipeline/visibility/fragment_log.h"
 #include "tools/rim/empty_picture_note.h"
 #include "tools/rim/progress.h"
-#include "tools/zbuf/all_edges.h"
 #include "tools/zbuf/certainty_report.h"
 #include "tools/zbuf/colored_rows.h"
 #include "tools/zbuf/drawing_report.h"
@@ -29,6 +28,7 @@
 #include "tools/zbuf/sampled_drawing.h"
 #include "tools/zbuf/screen.h"
 #include "tools/zbuf/surface_shading.h"
+#include "tools/zbuf/wireframe.h"
 
 namespace pipeline {
 namespace {
@@ -120,14 +120,14 @@ void set_exact_depths(const AnyCoverage& coverage, const TriangleStore& store, i
 
 void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewport& screen,
                const SampledDrawing& drawing, const StageReader& reader, TriangleStore& store,
-               std::optional<SurfaceShader>& shader, AllEdges* edges, CertaintyReport* certainty) {
+               std::optional<SurfaceShader>& shader, Wireframe* wireframe, CertaintyReport* certainty) {
   // To light a sample by one light takes as long as to draw four.
   const std::size_t cost = shader ? 1 + 4 * shader->setup().lighting.lights.size() : 0;
   outputs.open(screen, chosen.sample_count, store.background_color());
   TextWriter* const seen_text = outputs.open_text(chosen.seen_path);
   TextWriter* const certainty_text = outputs.open_text(chosen.certainty_path);
   const Viewport of_samples = sample_screen(screen, chosen.sample_count);
-  ColoredRows colors(store, shader, edges, chosen.sample_count * screen.drawn_rows().first,
+  ColoredRows colors(store, shader, wireframe, chosen.sample_count * screen.drawn_rows().first,
                      chosen.threads_for(cost * pixel_count(of_samples)), outputs);
   std::vector<std::int64_t> numbers;
   KeptIds seen(store.id_count());
@@ -156,6 +156,8 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
     });
   }
   colors.finish();
+  if (wireframe != nullptr && seen_text != nullptr)
+    wireframe->for_each_needed([&](PixelTag id) { seen.keep(id); });
   if (seen_text != nullptr) store.write_seen(*seen_text, reader, seen);
   if (certainty) certainty->write(*certainty_text);
   outputs.finish(covered_count);
@@ -163,12 +165,14 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
 
 /// That the picture is empty, or squeezed. The note is about the whole picture; a band of it may well show
 /// nothing.
-void note_odd_picture(const Tool& tool, const DrawingReport& report, const Viewport& screen,
-                      const std::optional<SurfaceShader>& shader, const StageHeader& header) {
+void note_odd_picture(const Tool& tool, const ZbufOptions& chosen, const DrawingReport& report,
+                      const Viewport& screen, const std::optional<SurfaceShader>& shader,
+                      const StageHeader& header) {
   if (const auto note = opaque_note(header.appearance)) tool.note(*note);
-  std::optional<std::string> note = report.empty_picture_note();
+  std::optional<std::string> note;
+  if (!chosen.wireframe || !shader->shown().show_something) note = report.empty_picture_note();
   const bool is_whole = screen.drawn_row_count() == screen.rows;
-  if (!note && shader && is_whole) note = invisible_colors_note(*shader);
+  if (!note && shader && is_whole) note = invisible_colors_note(*shader, chosen.wireframe);
   if (!note && header.projected) note = squeezed_note_of_projected(header.projected->value, screen);
   if (note) tool.note(*note);
 }
@@ -189,7 +193,7 @@ StageReader opened(Tool& tool, const ZbufOptions& chosen, bool uses_decimals) {
 }
 
 TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, const Viewport& of_samples,
-                          AllEdges* edges) {
+                          Wireframe* wireframe) {
   return {.keeps_text = !chosen.seen_path.empty(),
           .keeps_numbers = !chosen.triangle_array_path.empty() || !chosen.certainty_path.empty(),
           .keeps_corners = chosen.z_buffer_path != "none" &&
@@ -197,7 +201,7 @@ TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, 
                            std::holds_alternative<TypeValue<DepthF64>>(chosen.rules.depth),
           .background = background_color(reader.header().appearance, parse_color(chosen.background)),
           .pixel_count = pixel_count(of_samples),
-          .edges = edges};
+          .wireframe = wireframe};
 }
 
 }  // namespace
@@ -205,20 +209,24 @@ TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, 
 void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
   PictureOutputs outputs(tool, chosen, statistics);
   const bool uses_decimals =
+      chosen.wireframe ||
       std::visit([]<typename Rule>(TypeValue<Rule>) { return Rule::kUsesDecimals; }, chosen.rules.coverage);
   StageReader reader = opened(tool, chosen, uses_decimals);
   const Viewport of_samples = sample_screen(screen, chosen.sample_count);
   SurfaceOptions surfaces = surface_options(chosen);
-  if (chosen.wireframe) surfaces.wireframe = {screen.dx(), screen.dy()};
+  surfaces.is_wireframe = chosen.wireframe;
   std::optional<SurfaceShader> shader;
   if (chosen.has_image()) shader = surface_shader(reader.header(), reader.header_end(), of_samples, surfaces);
   tool.timing().lap(&Timing::read_seconds);
   Reports reports(chosen, screen, statistics.is_wanted(), outputs.open_fragments(chosen.fragments_path));
   if (!chosen.certainty_path.empty()) reports.certainty = std::make_unique<CertaintyReport>(reader, screen);
-  std::optional<AllEdges> all_edges;
-  if (chosen.has_all_edges && chosen.has_image()) all_edges.emplace(chosen.rules, of_samples);
-  AllEdges* const edges = all_edges ? &*all_edges : nullptr;
-  TriangleStore store(kept(chosen, reader, of_samples, edges), shader,
+  std::unique_ptr<Wireframe> wireframe;
+  if (chosen.wireframe && (chosen.has_image() || !chosen.seen_path.empty()))
+    wireframe = std::make_unique<Wireframe>(
+        chosen.rules, of_samples,
+        Wireframe::Setup{chosen.has_all_edges, !reader.header().appearance.lights.empty(),
+                         chosen.sample_count});
+  TriangleStore store(kept(chosen, reader, of_samples, wireframe.get()), shader,
                       reports.fragments.is_wanted() ? &reports.fragments : nullptr);
   const bool is_one_by_one = chosen.algorithm == Algorithm::scanline;
   ThreadPool pool(is_one_by_one ? 1 : chosen.threads_for(pixel_count(of_samples)));
@@ -229,8 +237,9 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
   reports.drawing.add_to(statistics);
   outputs.close_reports();
   tool.timing().lap(&Timing::work_seconds);
-  write_all(outputs, chosen, screen, drawing, reader, store, shader, edges, reports.certainty.get());
-  if (chosen.has_image()) note_odd_picture(tool, reports.drawing, screen, shader, reader.header());
+  write_all(outputs, chosen, screen, drawing, reader, store, shader, wireframe.get(),
+            reports.certainty.get());
+  if (chosen.has_image()) note_odd_picture(tool, chosen, reports.drawing, screen, shader, reader.header());
 }
 
 }  // namespace pipeline

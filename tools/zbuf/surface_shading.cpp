@@ -13,7 +13,6 @@ namespace pipeline {
 
 SurfaceOptions surface_options(const PictureOptions& chosen) {
   return {.model = chosen.shading,
-          .wireframe = {},
           .background = parse_color(chosen.background),
           .holds_alpha = chosen.has_image() && can_hold_alpha(chosen.image_path)};
 }
@@ -79,10 +78,8 @@ std::optional<SurfaceShader> surface_shader(const StageHeader& header, const Sou
     throw InputError(appearance.background ? appearance.background->location : header_end,
                      expected_but_found(expected_opaque_background(),
                                         "an alpha of " + std::to_string(setup.background.alpha())));
-  setup.says_what_was_clipped = !appearance.lights.empty();
-  if (chosen.wireframe) setup.wireframe.emplace(*chosen.wireframe);
   if (setup.model == ShadingModel::none) {
-    if (!appearance.columns().color && !appearance.is_painted() && !chosen.wireframe) return std::nullopt;
+    if (!appearance.columns().color && !appearance.is_painted() && !chosen.is_wireframe) return std::nullopt;
     return SurfaceShader(screen, std::move(setup));
   }
   if (appearance.lights.empty())

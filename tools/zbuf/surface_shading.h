@@ -14,7 +14,7 @@ namespace pipeline {
 /// Of a picture's surfaces, what a user may choose; nullopt: as the text says.
 struct SurfaceOptions {
   std::optional<ShadingModel> model;
-  std::optional<PixelSize> wireframe;  // of pixels of that size; nullopt: none
+  bool is_wireframe = false;
   std::optional<Color> background;
   bool holds_alpha = false;  // the image can
 };
@@ -42,7 +42,7 @@ void add_material_colors(const Appearance& appearance, TriangleBatch& batch);
 ShadingModel shading_model(const Appearance& appearance, std::optional<ShadingModel> chosen);
 
 /// The shader of the triangles of a projected text; none for a text without colors and lights, unless a
-/// wireframe is requested (with pixels of that size). The default model: none without lights, phong with
+/// wireframe is requested. The default model: none without lights, phong with
 /// lights and normals, flat with lights alone. The header of a text with lights must say how it was
 /// projected. An InputError if a model needs lights and there are none, or if the header's background is not
 /// opaque and the image cannot hold that. InputErrors name `header_end`, the

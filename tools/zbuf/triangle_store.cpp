@@ -52,7 +52,7 @@ void TriangleStore::add_text(const TriangleBatch& p_ndc, std::size_t index) {
 }
 
 /// Adds to those kept the needed ones, and the other pieces of each triangle, which follow one another with
-/// one number: a wireframe asks a piece's neighbors which of its edges are cuts. With `may_go_on`, more
+/// one number: by them a wireframe finds the edges of a piece that are cuts. With `may_go_on`, more
 /// pieces of the last triangle may follow, so it is kept.
 void TriangleStore::complete(KeptIds& kept, bool may_go_on) const {
   for (std::size_t begin = 0, end = 0; begin < text_ends_.size(); begin = end) {
@@ -90,10 +90,8 @@ void TriangleStore::keep_texts(const KeptIds& kept) {
   text_ends_.resize(count);
 }
 
-/// Keeps the last triangle, too: the next may be another piece of it.
 void TriangleStore::let_go(KeptIds& kept) {
   complete(kept, true);
-  if (shader_) kept.keep(static_cast<KeptIds::Id>(kept.size() - 1));
   const std::size_t count = kept.renumber();
   capacity_ = std::max(2 * count, min_capacity_);
   next_id_ = static_cast<KeptIds::Id>(count);

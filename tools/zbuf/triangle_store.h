@@ -19,9 +19,9 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/visibility/tagged_batch.h"
-#include "tools/zbuf/all_edges.h"
 #include "tools/zbuf/fragment_report.h"
 #include "tools/zbuf/sampled_drawing.h"
+#include "tools/zbuf/wireframe.h"
 
 namespace pipeline {
 
@@ -40,7 +40,7 @@ class TriangleStore {
     bool keeps_corners = false;  // likewise, for corners
     Color background;
     std::size_t pixel_count = 0;  // of the picture, or of its samples
-    AllEdges* edges = nullptr;    // then there is a shader, with a wireframe
+    Wireframe* wireframe = nullptr;
   };
 
   /// Of an ExactTriangle.
@@ -93,7 +93,7 @@ class TriangleStore {
     KeptIds kept(id_count());
     const auto for_each_tag = [&](const auto& visit) {
       drawing.for_each_drawn_row([&](std::span<PixelTag> tags) { std::ranges::for_each(tags, visit); });
-      if (setup_.edges != nullptr) setup_.edges->for_each_id(visit);
+      if (setup_.wireframe != nullptr) setup_.wireframe->for_each_id(visit);
     };
     for_each_tag([&](PixelTag& tag) { kept.keep(tag); });
     let_go(kept);
@@ -103,6 +103,7 @@ class TriangleStore {
  private:
   PixelTag tag_of(const TriangleBatch& p_ndc, std::size_t index) {
     if (report_ != nullptr) report_->add(p_ndc, index);
+    if (setup_.wireframe != nullptr) setup_.wireframe->add(p_ndc, index, next_id_);
     if (keeps_numbers()) numbers_.push_back(p_ndc.numbers[index]);
     if (keeps_text()) add_text(p_ndc, index);
     if (keeps_corners()) {
@@ -113,7 +114,6 @@ class TriangleStore {
     const Color color = colors_.of(p_ndc.numbers[index]);
     if (!shader_) return color.rgb();
     shader_->add(p_ndc, index, color);
-    if (setup_.edges != nullptr) setup_.edges->add(p_ndc, index, next_id_, *shader_->setup().wireframe);
     return next_id_++;
   }
   [[nodiscard]] bool has_ids() const { return shader_ || keeps_numbers() || keeps_corners(); }

@@ -49,8 +49,8 @@ ZbufOptions::ZbufOptions(CommandLine& options, std::span<char* const> words)
   options.begin_group("Color and light");
   add_shading(options);
   options.add_flag_with_word("--wireframe", "all", wireframe, has_all_edges,
-                             "Show only the edges of the visible surfaces: the pixels within half a pixel of "
-                             "an edge; with all, hidden edges, too");
+                             "Show only the edges of the triangles, one pixel in each column or row, where no "
+                             "surface hides them; with all, hidden edges, too");
   add_background(options);
   options.begin_group("Debugging");
   options.add_repeatable("--probe", "COLUMN,ROW", probes,

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "libpipeline/coverage/edge_pixels.h"
+#include "libpipeline/scene/pixel_grid.h"
+#include "libpipeline/stream/kept_ids.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/visibility/pixel_rules.h"
+#include "libpipeline/visibility/raster.h"
+
+namespace pipeline {
+
+/// The picture of `--wireframe`: at every pixel, or sample, the nearest of the edges there that no triangle
+/// hides. Takes triangles in the order of the stream, whatever the visibility algorithm.
+class Wireframe {
+ public:
+  struct Setup {
+    bool shows_hidden = false;
+    bool says_what_was_clipped = false;  // as texts with lights do
+    int samples_per_pixel = 1;           // in a row or a column
+  };
+
+  /// For a screen of pixels or of samples.
+  Wireframe(const PixelRules& rules, const Viewport& screen, const Setup& setup);
+
+  /// Takes the next triangle, under its id. Its edges are drawn with the next call of any function, as the
+  /// next triangle may be a piece that shares one.
+  void add(const TriangleBatch& p_ndc, std::size_t index, PixelTag id);
+  /// The ids shown in a row; after the last triangle.
+  std::span<const PixelTag> row(int row);
+  /// Calls `visit(id)` for every triangle without which the picture would be another one.
+  template <typename Visitor>
+  void for_each_needed(Visitor&& visit) {
+    for (int row = edges_.row_range().first; row < edges_.row_range().end; ++row) {
+      for (const PixelTag id : this->row(row)) visit(id);
+      for (const Cover& cover : covers(row)) visit(cover.id);
+    }
+  }
+  /// Calls `visit(id)`, which may change it, for every triangle that a later one may leave needed.
+  template <typename Visitor>
+  void for_each_id(Visitor&& visit) {
+    for (int row = edges_.row_range().first; row < edges_.row_range().end; ++row) {
+      for (Edge& edge : edges_.row(row)) visit(edge.id);
+      for (Cover& cover : covers(row)) visit(cover.id);
+    }
+    if (last_) visit(last_->id);
+  }
+
+ private:
+  static constexpr PixelTag kNone = KeptIds::kNoTriangle;
+  /// The nearest edge at a pixel.
+  struct Edge {
+    double depth;
+    PixelTag id = kNone;
+    bool is_front = true;  // the triangle's corners run counterclockwise
+  };
+  /// The triangle that hides most at a pixel: all that is farther than `farthest`.
+  struct Cover {
+    double farthest = std::numeric_limits<double>::infinity();
+    PixelTag id = kNone;
+  };
+  struct Last {
+    Triangle p_ndc, low_parts;
+    std::uint16_t decimal_marks;
+    std::uint64_t number;
+    PixelTag id;
+    std::array<bool, 3> is_drawn = {true, true, true};
+  };
+
+  [[nodiscard]] std::span<Cover> covers(int row) {
+    return setup_.shows_hidden ? std::span<Cover>() : covers_.row(row);
+  }
+  void cover(const ExactTriangle& triangle, PixelTag id);
+  void draw_last();
+
+  Setup setup_;
+  Viewport screen_;
+  ExactGrid grid_;
+  AnyCoverage coverage_;
+  Raster<Edge> edges_;
+  Raster<Cover> covers_;  // empty if hidden edges are shown
+  std::optional<Last> last_;
+  std::vector<EdgePixel> pixels_;
+  std::vector<PixelTag> ids_;
+};
+
+}  // namespace pipeline
