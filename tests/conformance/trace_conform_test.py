@@ -33,7 +33,8 @@ class Trace(unittest.TestCase):
                    "refused-ortho-not-projected", "refused-sphere"}
         of_zbuf = {"rows", "rows-all", "rows-first", "rows-last", "algorithm-scanline", "algorithm-zbuffer",
                    "depth-epsilon"}
-        of_zbuf |= {case.short_name for case in read_cases("zbuf") if case.short_name.startswith("wireframe-")}
+        of_zbuf |= {case.short_name for case in read_cases("zbuf")
+                    if case.short_name.startswith("wireframe-")}
         # Lost where the text is put behind a header.
         of_ends = {"lines-byte-order-mark", "refused-end-without-a-line-feed"}
         self.assertLessEqual({name.removeprefix("zbuf/")

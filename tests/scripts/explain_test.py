@@ -504,6 +504,40 @@ class RandomPairs(ToolTest):
         self.assertLessEqual(abs(found - Fraction(drawn)), (1 + slope)**2 * Fraction(1, 10**15))
 
 
+class TheStack(ToolTest):
+    # The table of the assignment, "Managing Push and Pop": the state after each of its lines, top first.
+    TABLE = {"push": ("I", "I"), "T1": ("T1", "I"), "push ": ("T1", "T1", "I"), "R1": ("T1 R1", "T1", "I"),
+             "pop": ("T1", "I"), "S1": ("T1 S1", "I"), "push  ": ("T1 S1", "T1 S1", "I"),
+             "R2": ("T1 S1 R2", "T1 S1", "I"), "pop ": ("T1 S1", "I"), "S2": ("T1 S1 S2", "I"),
+             "pop  ": ("I", )}
+    ARGUMENTS = {"T": "translate 1 2 3", "R": "rotate 90 0 0 1", "S": "scale 2 2 2"}
+
+    def test_is_the_table_of_the_assignment(self):
+        code = [self.ARGUMENTS.get(line[0], line.strip()) for line in self.TABLE]
+        report = explain("-", "--stack", stdin=CAMERA + "\n".join([*code, "end"]))
+        rows = report.stdout.split("\n")[3:3 + len(code)]
+        self.assertEqual([tuple(row[34:].split(" | ")) for row in rows], [*self.TABLE.values()])
+        self.assertIn("R1 = | 0  -1  0  0 |\n     | 1   0  0  0 |\n", report.stdout)
+
+    def test_fits_a_terminal_and_names_every_triangle_with_its_matrix(self):
+        deep = CAMERA + "".join(f"push\nrotate {i} 0 0.123456789012345 1e-5\ntranslate {i} {i} {i}\n"
+                                for i in range(30)) + "triangle\n0 0 0\n1 0 0\n0 1 0\n" * 2 + "end\n"
+        for words, text in ((["-"], deep), *(([sample / "scene.txt"], None) for sample in SAMPLES)):
+            report = explain(*words, "--stack", stdin=text)
+            self.assertEqual([line for line in report.stdout.splitlines()[1:] if len(line) > 79], [])
+            if text:
+                self.assertRegex(report.stdout, r" triangles 0 to 1 +a point p becomes R1 T1 R2 T2 \.\.\. "
+                                 r"[^|]*\(60 factors\)")
+
+    def test_refuses_what_it_cannot_use(self):
+        for words, found in ((["config.txt"], "'config.txt'"), (["--pixel", "1,1"], "--pixel")):
+            done = explain("-", *words, "--stack", stdin="")
+            self.assertEqual((done.returncode, done.stderr),
+                             (2, "explain: --stack: expected neither CONFIG nor --pixel with it, "
+                              f"found {found} (try explain --help)\n"))
+        self.assertEqual(explain("-", "--stack", stdin="0 0 0\n").returncode, 1)
+
+
 class LongRandomPairs(RandomPairs):
     COUNT = 100000
 
