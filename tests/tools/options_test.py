@@ -188,7 +188,22 @@ class OneLightMore(ToolTest):
                            stdin=CAMERA + own + "light 100 -2 0.5 1 0 0.25\n" + triangle)
             self.assertEqual(added, written)
 
+    def test_one_of_the_scene_moves(self):
+        triangle = "triangle\n1 2 3\n4 5 6\n7 8 9\nend\n"
+        lights = ["light 7 8 9 0.5 0.5 0.5\n", "translate 1 1 1\nlight 1 2 3 1 0 0.25\n"]
+        moved = pipe(["model"], ["view", "--light-at", "1", "1e2", "-2", ".5"],
+                     stdin=CAMERA + "".join(lights) + triangle)
+        lights[1] = "translate 1 1 1\nlight 99 -3 -0.5 1 0 0.25\n"
+        self.assertEqual(moved, pipe(["model"], ["view"], stdin=CAMERA + "".join(lights) + triangle))
+        for header, number, expected in ((HEADER, "0", "a scene with a light"),
+                                         (HEADER + "light 1 2 3 1 1 1\n", "1", "0, the scene's one light"),
+                                         (HEADER + "light 1 2 3 1 1 1\n" * 3, "-1", "a light from 0 to 2")):
+            self.assert_fails(run("view", "--light-at", number, "1", "2", "3", stdin=header), 2,
+                              f"view: --light-at: expected {expected}, found '{number}' (try view --help)")
+
     def test_it_needs_a_header_and_six_numbers(self):
+        self.assert_fails(run("view", "--bare", "--light-at", "0", "1", "2", "3"), 2,
+                          "view: expected --bare or --light-at, found both (try view --help)")
         light = ["--light", "1", "2", "3", "1", "1"]
         self.assert_fails(run("view", "--bare", *light, "1"), 2,
                           "view: expected --bare or --light, found both (try view --help)")

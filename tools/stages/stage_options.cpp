@@ -95,10 +95,29 @@ LightOption::LightOption(CommandLine& options) {
   options.begin_group("Light");
   options.add_words("--light", 6, "X Y Z R G B", words_,
                     "Add a light at a point in world space; an intensity of 1 1 1 is full and white");
+  options.add_words("--light-at", 4, "N X Y Z", at_,
+                    "Move light N of the scene, counted from 0, to a point in world space");
 }
 
-void LightOption::add_to(Appearance& appearance) const {
-  if (!is_given()) return;
+void LightOption::move_in(Appearance& appearance) const {
+  const std::size_t count = appearance.lights.size();
+  std::uint64_t number = 0;
+  if (!parse_count(at_[0], number) || number >= count)
+    throw UsageError("--light-at: " +
+                     expected_but_found(count == 0   ? "a scene with a light"
+                                        : count == 1 ? "0, the scene's one light"
+                                                     : "a light from 0 to " + std::to_string(count - 1),
+                                        pipeline::quoted(at_[0])));
+  const std::string text = joined({at_.begin() + 1, at_.end()}) + " 0 0 0", name = "--light-at";
+  LineScanner line(text, name, 0);
+  Appearance moved;
+  read_appearance_part("light", {name}, line, AttributeSource::stage_text, moved);
+  appearance.lights[number].value.position = moved.lights[0].value.position;
+}
+
+void LightOption::apply_to(Appearance& appearance) const {
+  if (!at_.empty()) move_in(appearance);
+  if (words_.empty()) return;
   const std::string text = joined(words_), name = "--light";
   LineScanner line(text, name, 0);
   read_appearance_part("light", {name}, line, AttributeSource::stage_text, appearance);

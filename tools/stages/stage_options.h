@@ -49,17 +49,22 @@ class CameraOptions {
   std::string scene_path_;
 };
 
-/// `--light`, one light more.
+/// `--light`, one light more, and `--light-at`, which moves one of the text.
 class LightOption {
  public:
   explicit LightOption(CommandLine& options);
 
-  [[nodiscard]] bool is_given() const { return !words_.empty(); }
-  /// Adds the light, if it is given; an InputError, located at the option, if a number is wrong.
-  void add_to(Appearance& appearance) const;
+  /// The option that is given; empty if neither is.
+  [[nodiscard]] std::string name() const {
+    return !words_.empty() ? "--light" : !at_.empty() ? "--light-at" : "";
+  }
+  /// Moves and adds the lights, if they are given; an error that names the option if a number is wrong.
+  void apply_to(Appearance& appearance) const;
 
  private:
-  std::vector<std::string> words_;
+  void move_in(Appearance& appearance) const;
+
+  std::vector<std::string> words_, at_;
 };
 
 /// The projection as options, `--scene`, and `--aspect`, which says how a perspective's aspect is meant.

@@ -58,10 +58,10 @@ Bounds bounds_in_view(const Located<Bounds>& world, const ViewTransform& view, c
   return {error, {}, "view"};
 }
 
-/// The text's color and light, and the light of the command line, in view space.
-Appearance in_view_space(Appearance appearance, const LightOption& added, const ViewTransform& view,
+/// The text's color and light, with the lights of the command line, in view space.
+Appearance in_view_space(Appearance appearance, const LightOption& lights, const ViewTransform& view,
                          UncertainDigits& uncertain_lights) {
-  added.add_to(appearance);
+  lights.apply_to(appearance);
   for (auto& light : appearance.lights) light = transformed(view, light, uncertain_lights);
   return appearance;
 }
@@ -79,7 +79,8 @@ int main(int argc, char** argv) {
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
-    if (bare && light.is_given()) throw UsageError(expected_but_found("--bare or --light", "both"));
+    if (bare && !light.name().empty())
+      throw UsageError(expected_but_found("--bare or " + light.name(), "both"));
     tool.expect_separate({kStandardOutput, statistics.output()}, {cameras.scene()});
     expect_kind(tool.input(), TextKind::world);
     StageReader reader(tool.input());
