@@ -13,6 +13,7 @@ import tempfile
 import time
 import traceback
 
+from grade_parts.assignment import CLOCK
 from grade_parts.contents import ContentsError, contents_of
 from grade_parts.difference import pictures
 from grade_parts.hand_ins import files_for, looked_for
@@ -27,9 +28,7 @@ from lib.running.pipe_tools import ToolKilled
 
 ENDED = "It could not be judged: its judge was ended, perhaps for lack of memory."
 LARGEST_FILE = 1 << 30  # that a tool may write for a hand-in
-# Seconds by the clock for one of the processor, which a busy machine needs, and the least that start it: a
-# judge that waits for something has an end, too.
-CLOCK, LEAST_SECONDS = 10, 6
+LEAST_SECONDS = 6  # that start a judge; one that waits for something has an end, too
 MEBIBYTE = 1 << 20
 
 

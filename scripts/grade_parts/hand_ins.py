@@ -10,6 +10,12 @@ from lib.rim.command import shown
 from lib.rim.input_file import InputError
 
 LONGEST_LABEL = 60
+# How a folder may be named after a test, the first that any folder is: by its name, by that in other letters,
+# or by its number alone.
+SHORT, LONG = r"(?:test|scene|case|task|sample)?(\d+)", r"(\d+).*"
+NAMINGS = (
+    lambda name, test: name == test, lambda name, test: plain(name) == plain(test),
+    lambda name, test: number_of(name, SHORT) == number_of(test, LONG))
 
 
 @dataclasses.dataclass
@@ -46,13 +52,22 @@ def made(folder, name, number, digits, is_anonymous):
                   digits if is_anonymous else f"{digits}-{safe}")
 
 
+def number_of(name, pattern):
+    """The number in a name of a form; the name itself if it has another one."""
+    found = re.fullmatch(pattern, plain(name), re.ASCII)
+    return int(found[1]) if found else name
+
+
 def folder_of(paths, test_name, is_only_test):
     """The folder of a test's files, as a tuple of names: the one of the test's name, or for the only test any
     that has such files; the one that lies least deep. None if there is none."""
     folders = {}
     for *folder, name in paths:
         folders.setdefault(tuple(folder), []).append(name)
-    named = [folder for folder in folders if folder and folder[-1] == test_name]
+    names = [*filter(None, (folder and folder[-1] for folder in folders))]
+    fitting = ({name for name in names if is_named(name, test_name)} for is_named in NAMINGS)
+    wanted = next(filter(None, fitting), ())
+    named = [folder for folder in folders if folder and folder[-1] in wanted]
     fitting = [folder for folder, names in folders.items()
                if any(fitting_names(names).values())] if is_only_test and not named else named
     return min(fitting, key=lambda folder: (len(folder), folder), default=None)

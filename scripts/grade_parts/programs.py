@@ -10,12 +10,12 @@ import stat
 import subprocess
 import tempfile
 
-from grade_parts.assignment import SECONDS_OF_BUILD, SECONDS_OF_RUN
+from grade_parts.assignment import CLOCK, SECONDS_OF_BUILD, SECONDS_OF_RUN
 from lib.judging.hand_in import KINDS
 from lib.judging.judge import HandIn as Judge
 from lib.judging.program import ProgramError, confined, expect_repetition, hand_in, outcome, run_program
 from lib.judging.reference import kinds_of
-from lib.judging.verdict import WRONG, Cause, FileVerdict, Verdict
+from lib.judging.verdict import UNDECIDED, WRONG, Cause, FileVerdict, Verdict
 from lib.rim.command import CommandFailure, shown
 from lib.rim.places import place
 
@@ -191,7 +191,8 @@ class Built:
         if self.user is not None:
             give(self.folder, self.user)
         try:
-            outcome(words, b"", self.folder, confined.Limits(SECONDS_OF_BUILD, MEMORY, PROCESSES), box)
+            limits = confined.Limits(SECONDS_OF_BUILD, MEMORY, PROCESSES, clock=CLOCK)
+            outcome(words, b"", self.folder, limits, box)
         finally:
             if self.user is not None:
                 remove_what_is_left(self.user, self.top)
@@ -220,7 +221,7 @@ class Built:
         """The Files by kind that it makes for a test; raises a ProgramError."""
         given, before = test.given
         options = argparse.Namespace(time_limit=SECONDS_OF_RUN, memory=MEMORY, processes=PROCESSES,
-                                     address_space=None, program=self.words, box=self.box)
+                                     address_space=None, program=self.words, box=self.box, clock=CLOCK)
         limit = max(test.reference.limit(kind) for kind in test.kinds)
         with confined.temporary_folder("run.", self.top) as top, confined.opened_folder(top / "work") as work:
             if self.user is not None:
@@ -251,7 +252,10 @@ def verdicts(contents, tests, limits):
                 files = built.files(test)
             except ProgramError as error:
                 reason = f"the program failed: {error}"
-                yield {}, failure(test, reason), f"{test.name}: {reason}"
+                verdict = failure(test, reason)
+                for file in verdict.files if error.is_asleep else ():
+                    file.verdict, file.causes = UNDECIDED, []
+                yield {}, verdict, f"{test.name}: {reason}"
                 continue
             verdict = Judge(files, test.reference, kinds_of(test.reference.config)).judge()
             expect_repetition(program.stage, verdict, files, lambda test=test: built.files(test))

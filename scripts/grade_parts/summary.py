@@ -24,11 +24,15 @@ def findings(graded):
     """What a hand-in counts for: pairs of a stage and words, each once for all tests."""
     if graded.failure:
         yield "", graded.failure.rstrip(".")
+    tests = collections.Counter(pair for test in graded.tests for pair in {
+        (file.stage, cause.text) for file in test.verdict.files for cause in file.causes})
     for test in graded.tests:
         for file in test.verdict.files:
-            if file.verdict == WRONG:
-                yield file.stage, "; or: ".join(cause.text.rstrip(".")
-                                                for cause in file.causes) or "wrong, without a cause"
+            if file.verdict == WRONG:  # of causes that one test cannot tell apart, those of most tests
+                most = max((tests[file.stage, cause.text] for cause in file.causes), default=0)
+                yield file.stage, "; or: ".join(cause.text.rstrip(".") for cause in file.causes
+                                                if tests[file.stage, cause.text] == most) or (
+                                                    "wrong, without a cause")
             elif file.verdict in FAILED or file.verdict in OPEN:
                 yield file.stage, file.verdict
             elif file.rule:

@@ -24,7 +24,10 @@ from grade_parts import graders, programs
 from grade_parts.assignment import read_tests
 from grade_parts.contents import contents_of
 from grade_parts.hand_ins import find_hand_ins
+from grade_parts.results import csv_of, gradescope
+from grade_parts.summary import findings
 from lib.judging.mistakes import fix, sentences
+from lib.judging.verdict import Cause, FileVerdict, Verdict
 from lib.rim.command import CommandFailure
 from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pseudo_terminal, run_script
 
@@ -153,6 +156,31 @@ class Results(ClassTest):
             self.assertEqual(
                 self.grade(status=2).stderr,
                 f"grade: tests/b/weight.txt: expected a number of 0 to 1,000,000, found '{word}'\n")
+
+    def test_folders_and_files_as_people_name_them(self):
+        os.rename("tests/square", "tests/2-one-square")
+        self.add_test("13-other")
+        for folder in ("2-One_Square", "2 one square", "2", "test2", "Test 02", "scene-2"):
+            self.add(f"as {folder}", folder)
+            self.add(f"as {folder}", "13")
+        numbered = [f"1905042_{name}" if name[0] == "s" else name.replace(".", "_1905042.") for name in FILES]
+        self.add("with a number", "2")
+        self.add("with a number", "13")
+        for name, other in zip(FILES, numbered):
+            os.rename(f"hand-ins/with a number/2/{name}", f"hand-ins/with a number/2/{other}")
+        self.add("of another test", "3")
+        self.grade()
+        self.assertEqual({self.scores().pop("of another test"), *self.scores().values()}, {0.0, 2.0})
+        self.assertEqual([name for name, score in self.scores().items() if not score], ["of another test"])
+
+    def test_a_cause_that_one_test_cannot_tell_is_counted_as_another_one_does(self):
+        def file(*causes):
+            return FileVerdict("view", "stage2.txt", "wrong", causes=[Cause("", text) for text in causes])
+
+        tests = [graders.GradedTest("t", 0, 1, Verdict([file(*causes)]), "", [], [])
+                 for causes in (("One.", "Other."), ("Other.",), ("A third.",))]
+        self.assertEqual([words for _, words in findings(graders.Graded(tests))],
+                         ["Other", "Other", "A third"])
 
     def test_archives(self):
         self.add("anna", "wrapped", "square")
@@ -363,6 +391,19 @@ class Results(ClassTest):
         self.grade()
         self.assertEqual(self.scores(), {"anna": 0.0})
         self.assertIn("Some numbers are random: two runs of the program on the same text", self.page(1))
+
+    def test_a_program_that_sleeps_could_not_be_judged(self):
+        """It has ten seconds of the clock for each of a processor."""
+        pathlib.Path("tests/assignment.txt").write_text("program view\nrun sleep 100\n")
+        with mock.patch.dict(os.environ, BIN=str(BIN)):
+            tests, settings = read_tests("tests")
+        os.mkdir("hand-ins/anna")
+        limits = graders.Limits(60, 2048, 1, (), settings.program)
+        with mock.patch.object(programs, "SECONDS_OF_RUN", 0.05):
+            _, verdict, remark = next(programs.verdicts(contents_of("hand-ins/anna"), tests, limits))
+        self.assertEqual([(file.verdict, file.causes) for file in verdict.files],
+                         [("could not be judged", [])])
+        self.assertEqual(remark, "square: the program failed: it does not end within 0.5 s")
 
     @unittest.skipIf(os.geteuid(), "root alone runs programs as others")
     def test_without_a_sandbox_all_open_folders_are_named_at_once(self):
@@ -660,6 +701,20 @@ class Hostile(ClassTest):
 
         graded = self.graded_by(waiting, 1)
         self.assertEqual((graded.score, graded.failure, graded.remarks), (3.0, "", []))
+
+    def test_thirty_times_the_clock_gives_the_same_table(self):
+        """A machine so busy that its clock runs thirty times as fast as its processor."""
+        self.add("anna", mistake=True)
+        self.add("ben")
+        with mock.patch.dict(os.environ, BIN=str(BIN)):
+            tests, _ = read_tests("tests")
+        hand_ins, tables, right = find_hand_ins("hand-ins", False)[0], [], time.monotonic
+        for load in 1, 30:
+            with mock.patch.object(graders.time, "monotonic", lambda load=load: load * right()):
+                graded = list(graders.grade_all(hand_ins, tests, "fix", graders.Limits(120, 2048, 2)))
+            graded.sort(key=lambda pair: pair[0].number)
+            tables.append(csv_of(graded, tests) + b"".join(gradescope(one, tests) for _, one in graded))
+        self.assertEqual(*tables)
 
     def test_a_test_that_takes_too_long_costs_no_other(self):
         def endless(judge_files, words):

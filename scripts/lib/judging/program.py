@@ -42,11 +42,12 @@ def input_of(stage, scene, tools, is_bare):
 
 
 class ProgramError(Exception):
-    """The program did not do its job; the text says why. `errors` is what it wrote to stderr."""
+    """The program did not do its job; the text says why. `errors` is its stderr, `is_asleep` tells whether it
+    waited until its time was over."""
 
-    def __init__(self, reason, errors=b""):
+    def __init__(self, reason, errors=b"", is_asleep=False):
         super().__init__(reason)
-        self.errors = errors
+        self.errors, self.is_asleep = errors, is_asleep
 
 
 def without_comments(scene):
@@ -80,7 +81,7 @@ def outcome(words, given, folder, limits, box):
         raise ProgramError("it has ended the process that ran it")
     if ending.status != 0:
         reason = f"it {ending.why}" if ending.why else f"its exit status is {ending.status}"
-        raise ProgramError(reason, ending.stderr)
+        raise ProgramError(reason, ending.stderr, ending.why.startswith(confined.NO_END))
     return ending.stdout, ending.stderr
 
 

@@ -33,10 +33,12 @@ PASSED_ON = ("PATH", "LANG", "LC_ALL")
 HINTS = {errno.EACCES: "; chmod +x makes a file a program",
          errno.ENOEXEC: "; a script begins with a line like #!/usr/bin/env python3"}
 
-# seconds of the clock, and of processors; MiB of resident memory and a number of processes, of all that the
-# program starts together; MiB of address space of each process, if not None; bytes of stdout
-Limits = collections.namedtuple("Limits", "seconds memory processes address_space output",
-                                defaults=(10, 1024, 64, None, MEBIBYTE))
+NO_END = "does not end within"
+# seconds of processors; MiB of resident memory and a number of processes, of all that the program starts
+# together; MiB of address space of each process, if not None; bytes of stdout; seconds of the clock for each
+# of a processor
+Limits = collections.namedtuple("Limits", "seconds memory processes address_space output clock",
+                                defaults=(10, 1024, 64, None, MEBIBYTE, 1))
 # status: None if it could not be started or did not end by itself: then `why` is the reason, a verb and more
 Ending = collections.namedtuple("Ending", "status why stdout stderr", defaults=(b"", b""))
 # words: of bubblewrap, empty without it; reason: why it is not used; variables: names of those passed on;
@@ -67,7 +69,8 @@ def limits_of(options, seconds):
     """The Limits of the options; raises a Refused."""
     if not 0 < seconds < math.inf or min(options.memory, options.processes, options.address_space or 1) < 1:
         raise Refused("expected limits of time, memory and processes above 0")
-    return Limits(seconds, options.memory, options.processes, options.address_space)
+    return Limits(seconds, options.memory, options.processes, options.address_space,
+                  clock=getattr(options, "clock", 1))
 
 
 def program_path(word):
@@ -201,7 +204,7 @@ def reason_of(status, sizes, limits):
 
 def watch(process, folder, limits):
     """Waits for the end of a program; the reason if a limit is reached before, else empty."""
-    end, before = time.monotonic() + limits.seconds, room(folder)
+    end, before = time.monotonic() + limits.clock * limits.seconds, room(folder)
     with contextlib.ExitStack() as stack:
         poll = None
         with contextlib.suppress(AttributeError, OSError):  # older systems
@@ -214,7 +217,7 @@ def watch(process, folder, limits):
                 return ""
             if why := excess(folder, limits) or shortage(before, room(folder)):
                 return why
-    return f"does not end within {limits.seconds:g} s"
+    return f"{NO_END} {limits.clock * limits.seconds:g} s"
 
 
 def has_ended(process, poll, seconds):
