@@ -102,4 +102,7 @@ def matrices(comparison):
 
 
 def counted(file):
+    if file.explained:
+        return (f"{file.explained + file.differing:,} of {file.compared:,}, of which the cause leaves "
+                f"{file.differing:,}")
     return "" if file.count_told is None else f"{file.count_told:,} of {file.compared:,}"

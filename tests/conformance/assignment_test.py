@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The six scenes that grade uses by itself together show every listed mistake. shows.txt, the table of which
-scene shows which, is what the judge finds in the files of the student's program; --write writes it.
+"""Two at least of the six scenes that grade uses by itself show every listed mistake. shows.txt, the table of
+which scene shows which, is what the judge finds in the files of the student's program; --write writes it.
 
 usage: assignment_test.py STUDENT BIN_DIR SOURCE_DIR [--write]
 """
@@ -20,7 +20,8 @@ PLACE = SOURCE / "tests/conformance/assignment"
 TABLE = PLACE / "shows.txt"
 HEAD = """\
 # Which of the scenes here show a mistake of ../mistakes.txt: the judge calls the files of a program with that
-# mistake wrong. Written by assignment_test.py, which fails where a mistake shows in none.
+# mistake wrong. Written by assignment_test.py, which fails where a mistake shows in fewer
+# than two.
 
 """
 
@@ -54,8 +55,8 @@ def main():
     found = table()
     if sys.argv[4:] == ["--write"]:
         TABLE.write_text(found)
-    unseen = [line for line in found.splitlines() if line.endswith(":")]
-    assert not unseen, f"no scene shows {unseen}"
+    unseen = [line for line in found.splitlines() if "/" in line and len(line.split()) < 3 and line[0] != "#"]
+    assert not unseen, f"fewer than two scenes show {unseen}"
     assert found == TABLE.read_text(), f"{TABLE.name} is not what the judge finds: write it again (--write)"
 
 

@@ -44,6 +44,10 @@ LEAST_NAMED = 0.9  # of the mistakes whose numbers differ
 FILES_OF = {
     "model": ("stage1.txt", ), "view": ("stage2.txt", ), "project": ("stage3.txt", ),
     "zbuf": ("z_buffer.txt", "out.bmp")}
+# The mistakes that damages may come from, too.
+BLANK = {"starts-at-zero", "one-winding", "no-depth-passes", "black-picture", "last-triangle-missing"}
+TRUE_OF = {how: BLANK for how in damages.HOWS} | {
+    "of another scene": (), "cut in half": {*BLANK, "half-triangle", "triangle-missing"}}
 MISTAKES, HABITS = [*sentences()], [*sentences("habits.txt")]
 
 
@@ -97,8 +101,8 @@ class Scene:
         found, wanted = self.judged(files).files, damages.expected(self.right, files, how)
         return how, names, [
             file.file for file in found if wanted.get(file.file, file.is_good) != file.is_good
-            or file.stage == "zbuf" and any(cause.name for cause in file.causes
-                                            if how != "cut in half" or cause.name != "zbuf/half-triangle")]
+            or file.stage == "zbuf" and any(
+                cause.name for cause in file.causes if cause.name.partition("/")[2] not in TRUE_OF[how])]
 
     def without_a_triangle(self, rng):
         """The same of depths and a picture that lack a triangle which can be seen; None if there is none."""

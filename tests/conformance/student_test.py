@@ -61,6 +61,8 @@ def points(text):
 CAMERA = "0 0 5\n0 0 0\n0 1 0\n60 0.5 1 3\n"
 TAN15, TAN30, TAN60 = (math.tan(math.radians(degrees)) for degrees in (15, 30, 60))
 COS, SIN = math.cos(90), math.sin(90)  # of 90 radians
+HALF = math.sqrt(0.5)
+C, S = math.cos(math.radians(90 * HALF)), math.sin(math.radians(90 * HALF))
 
 # The commands before a point 1 2 3, its right image, and that with the mistake.
 MODEL = {
@@ -72,6 +74,7 @@ MODEL = {
     "second-push-lost": ("push\npush\ntranslate\n10 0 0\npop\ntranslate\n0 5 0\npop", (1, 2, 3), (1, 7, 3)),
     "push-does-not-nest": (
         "push\ntranslate\n10 0 0\npush\ntranslate\n0 5 0\npop\npop", (1, 2, 3), (11, 2, 3)),
+    "pop-takes-one-transform": ("push\ntranslate\n10 0 0\ntranslate\n0 5 0\npop", (1, 2, 3), (11, 2, 3)),
     "axis-not-normalized": ("rotate\n90 0 0 2", (-2, 1, 3), (-4, 2, 12)),
     "angle-in-radians": ("rotate\n90 0 0 1", (-2, 1, 3), (COS - 2 * SIN, SIN + 2 * COS, 3)),
     "rotation-transposed": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
@@ -79,6 +82,11 @@ MODEL = {
     "angle-negated": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
     "translation-added": ("scale\n2 2 2\ntranslate\n10 0 0", (22, 4, 6), (12, 4, 6)),
     "rotation-without-a-term": ("rotate\n180 0 0 1", (-1, -2, 3), (-1, -2, 0)),  # 1 for 1 - cos
+    "rotation-on-the-left": ("translate\n10 0 0\nrotate\n90 0 0 1", (8, 1, 3), (-2, 11, 3)),
+    # By 90 / sqrt(2) degrees about x after those about y.
+    "rotation-by-euler-angles": (
+        "rotate\n90 1 1 0", (1.5 + 3 * HALF, 1.5 - 3 * HALF, HALF),
+        (C + 3 * S, 2 * C - S * (3 * C - S), 2 * S + C * (3 * C - S))),
 }
 
 # The camera looks along x, with an up that is not of unit length: where 7 4 9 is.
@@ -100,9 +108,12 @@ VIEW = {
     "u-is-l-cross-r": (ALONG_X, (6, 2, -6), (6, -2, -6)),
     "matrix-transposed": (ALONG_X, (6, 2, -6), (-9, 4, 7)),
     "l-is-eye-minus-look": (ALONG_X, (6, 2, -6), (-6, 2, 6)),
+    "left-handed": (ALONG_X, (6, 2, -6), (-6, 2, 6)),
+    "no-rotation": (ALONG_X, (6, 2, -6), (6, 2, 6)),
+    "cross-product-sign": (ALONG_X, (6, 2, -6), (6, -2, -6)),
 }
 
-# Where 2 3 -4 is under perspective 60 0.5 1 3.
+# Where 4 6 -8 is under perspective 60 0.5 2 6.
 X, Y, Z = 0.5 / TAN15, 0.75 / TAN30, 1.25
 PROJECT = {
     "fov-in-radians": (0.5 / math.tan(15), 0.75 / math.tan(30), Z),
@@ -115,15 +126,17 @@ PROJECT = {
     "missing-two": (X, Y, 1.625),
     "z-row-sign": (X, Y, -1.25),
     "w-is-plus-z": (-X, -Y, -Z),
-    "last-element-is-one": (0.8 * X, 0.8 * Y, 0.8 * Z),
-    "matrix-transposed": (X / 3, Y / 3, 7 / 12),  # z' = -2 z - 1, w' = -3 z
+    "last-element-is-one": (8 / 9 * X, 8 / 9 * Y, 8 / 9 * Z),
+    "matrix-transposed": (X / 6, Y / 6, 15 / 48),  # z' = -2 z - 1, w' = -6 z
     "depth-from-0-to-1": (X, Y, 1.125),
-    "depth-is-linear": (X, Y, 2),  # 2 (4 - 1) / (3 - 1) - 1
-    "z-not-divided": (X, Y, 5),
-    "no-divide": (4 * X, 4 * Y, 4 * Z),
-    "divided-twice": (X / 4, Y / 4, Z / 4),
-    "depth-in-view-space": (X, Y, -4),
-    "depth-divided-twice": (X, Y, Z / 4),
+    "depth-is-linear": (X, Y, 2),  # 2 (8 - 2) / (6 - 2) - 1
+    "z-not-divided": (X, Y, 10),
+    "no-divide": (8 * X, 8 * Y, 8 * Z),
+    "divided-twice": (X / 8, Y / 8, Z / 8),
+    "depth-in-view-space": (X, Y, -8),
+    "depth-divided-twice": (X, Y, Z / 8),
+    "tangent-halved": (1 / TAN30, 1.5 / TAN60, Z),
+    "near-left-out": (2 * X, 2 * Y, Z),
 }
 
 WINDOW = "8 8\n-1\n-1\n0 1\n"  # pixels of 0.25 x 0.25, centers at -0.875, -0.625 and so on
@@ -195,6 +208,17 @@ ZBUF = {
                      rows("", ".bbbbba", ".bbbbaa", ".bbbaaa", ".bbaaaa", ".baaaaa", ".aaaaaa"),
                      rows("", "", "..bbb", "..bb.a", "..b.aa", "...aaa")),
     "random-pixels": ([corner()], WINDOW, stairs(), None),
+    "left-and-bottom-exchanged": (
+        [tuple((x, 2 * y, z) for x, y, z in corner())], "8 8\n-1\n-2\n0 1\n", stairs(),
+        rows(*["..aa"] * 4, *["..aaa"] * 4)),
+    "one-depth-a-row": ([corner(0.2, 0.8, 0.2), corner()], WINDOW,  # from 0.2 on the left to 0.8 on the right
+                        rows(".", ".a", ".aa", ".aaa", ".aaab", ".aaabb", ".aaabbb"), stairs()),
+    "turned-by-180-degrees": ([corner()], WINDOW, stairs(), [row[::-1] for row in stairs()[::-1]]),
+    "no-depth-passes": ([corner()], WINDOW, stairs(), rows()),
+    "black-picture": ([corner()], WINDOW, stairs(), rows()),
+    "many-colors": ([corner()], WINDOW, stairs(), stairs("?")),
+    "last-triangle-missing": ([corner(z, z, z) for z in (0.5, 0.25)], WINDOW, stairs("b"), stairs("a")),
+    "triangle-missing": ([corner(z, z, z) for z in (0.75, 0.25, 0.5)], WINDOW, stairs("b"), stairs("c")),
 }
 
 
@@ -291,7 +315,7 @@ class OneMistake(unittest.TestCase):
                 self.assert_point(run(student, "view", *switches("view/" + name), stdin=text), wrong)
 
     def test_of_project(self):
-        text = b"perspective 60 0.5 1 3\n2 3 -4\n0 0 -1\n1 0 -1\n\n"
+        text = b"perspective 60 0.5 2 6\n4 6 -8\n0 0 -1\n1 0 -1\n\n"
         self.assert_point(run(student, "project", stdin=text), (X, Y, Z))
         for name, wrong in PROJECT.items():
             with self.subTest(mistake=name):
@@ -313,7 +337,7 @@ class OneMistake(unittest.TestCase):
                     continue
                 self.assertEqual(wrong_image, wrong)
                 self.assertEqual([len(row) for row in depths], [8 - row.count(".") for row in image])
-                counts = [8 - row.count(".") for row in wrong_image]
+                counts = [8 - row.count(".") for row in (right if name == "black-picture" else wrong_image)]
                 self.assertEqual([len(row) for row in wrong_depths],
                                  counts[::-1] if name == "text-upside-down" else counts)
                 if name == "flat-depth":

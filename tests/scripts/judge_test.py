@@ -20,7 +20,7 @@ import student  # takes the word behind toolbox's
 os.environ["BIN"] = str(BIN)
 from lib.judging import fit  # noqa: E402
 from lib.judging import mistakes  # noqa: E402
-from lib.judging import pixel_comparing  # noqa: E402
+from lib.judging import pixel_comparing, pixel_search  # noqa: E402
 from lib.judging.hand_in import File, find_files  # noqa: E402
 from lib.judging.judge import judge  # noqa: E402
 from lib.judging.matrices import image, perspective_matrix, view_matrix  # noqa: E402
@@ -109,6 +109,13 @@ class HandIn(ToolTest):
     def hand_in(self, *options, mistake="", in_memory=False):
         self.stages(mistake, in_memory)
         self.draw(*options)
+
+    def draw_moved(self, halves):
+        """Draws the triangles half a pixel, or more, farther to the right than stage3.txt says."""
+        points = (line.split() for line in pathlib.Path("stage3.txt").read_text().split("\n") if line)
+        pathlib.Path("moved.txt").write_text("".join(
+            f"{float(x) + halves * 1.2 / 90 / 2:.7f} {y} {z}\n" for x, y, z in points))
+        self.draw(stage3="moved.txt")
 
     def through(self, m, number, is_divided=True):
         """Writes what a matrix makes of the right text before stage `number`."""
@@ -320,11 +327,14 @@ class Wrong(HandIn):
         pixels.write()
         verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
         file = verdict.files[4]
+        self.draw()
+        right = Pixels().colors
+        explained = sum((r, c) not in cleared for r, row in enumerate(pixels.colors)
+                        for c, color in enumerate(row) if color != right[r][c])
         self.assertEqual(([cause.name for cause in file.causes], file.differing, file.remarks),
                          (["zbuf/no-half-pixel-in-x"], 3,
-                          ["3 pixels are not explained by the cause, the first in row {}, column {}".format(
-                              *cleared[0])]))
-        self.draw()
+                          [f"the cause explains {explained} pixels and leaves 3, the first in row "
+                           "{}, column {}".format(*cleared[0])]))
         row, column = first_difference(Pixels().colors, mistaken)
         self.assertTrue(file.first.startswith(f"row {row}, column {column}: a pixel that "), file.first)
 
@@ -360,11 +370,76 @@ class Wrong(HandIn):
         pathlib.Path("z_buffer.txt").write_text("\n" * 80)
         pathlib.Path("out.bmp").write_bytes(reference.bmp([[(0, 0, 0)] * 90] * 80))
         verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
-        self.assertEqual((verdict.files[3].cause, verdict.files[3].remarks),
-                         ("", ["nothing is drawn, as if: " + mistakes.sentence("zbuf/starts-at-zero")[:-1]]))
+        for file in verdict.files[3:]:
+            self.assertEqual(([cause.name for cause in file.causes], file.remarks), ([
+                "zbuf/starts-at-zero", "zbuf/no-depth-passes", "zbuf/black-picture"], ["nothing is drawn"]))
         tool("zbuf", "config.txt", "stage3.txt", "--z-buffer", "z_buffer.txt", "--image", "none.bmp")
-        verdict = self.assert_verdicts(["right"] * 4 + ["wrong"], 1)
-        self.assertEqual((verdict.files[4].cause, verdict.files[4].remarks), ("", ["nothing is drawn"]))
+        file = self.assert_verdicts(["right"] * 4 + ["wrong"], 1).files[4]
+        self.assertEqual(([cause.name for cause in file.causes], file.remarks),
+                         (["zbuf/black-picture"], ["nothing is drawn"]))
+
+    def test_depths_beside_a_black_picture_are_not_called_empty(self):
+        self.hand_in()
+        lines = pathlib.Path("z_buffer.txt").read_text().split("\n")
+        pathlib.Path("z_buffer.txt").write_text("\n".join(
+            "\t".join(line.split()[:-2]) * (row % 2) for row, line in enumerate(lines)))
+        pathlib.Path("out.bmp").write_bytes(reference.bmp([[(0, 0, 0)] * 90] * 80))
+        depths, picture = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1).files[3:]
+        self.assertEqual((depths.cause, depths.remarks), ("", []))
+        self.assertEqual([cause.name for cause in picture.causes], ["zbuf/black-picture"])
+
+    def test_two_colors_are_not_one(self):
+        """The triangle in front has its color on most pixels of the one behind, too."""
+        triangle = "triangle\n-{0} -1 {1}\n{0} -1 {1}\n0 1 {1}\n"
+        self.scene = (f"0 0 5\n0 0 0\n0 1 0\n60 1 1 10\n{triangle.format(1, 0)}{triangle.format(0.6, 0.1)}"
+                      "end\n")
+        for count, names in (0, ["zbuf/one-color"]), (1, []):
+            self.hand_in()
+            pixels = Pixels()
+            front = pixels.colors[40][45]
+            others = [(r, c) for r, row in enumerate(pixels.colors) for c, color in enumerate(row)
+                      if any(color) and color != front]
+            for r, c in others[len(others) // 3 * count:]:
+                pixels.colors[r][c] = front
+            pixels.write()
+            file = self.assert_verdicts(["right"] * 4 + ["wrong"], 1).files[4]
+            self.assertEqual([cause.name for cause in file.causes], names)
+
+    def test_a_cause_in_the_depths_is_that_of_a_picture_only_if_the_depths_show_it(self):
+        """Depths of view space hide as one depth for each triangle does."""
+        self.hand_in()
+        self.through(perspective_matrix(50, 1.3, 1, 50), 3)
+        points = [line.split() for line in pathlib.Path("stage2.txt").read_text().split("\n")]
+        lines = [line.split() for line in pathlib.Path("stage3.txt").read_text().split("\n")]
+        flat = pathlib.Path("flat.txt")
+        flat.write_text("".join(f"{line[0]} {line[1]} {-float(p[2]) / 50}\n" if p else "\n"
+                                for line, p in zip(lines, points)))
+        self.draw(stage3="flat.txt")
+        for file in self.verdict().files[3:]:
+            self.assertEqual([cause.name for cause in file.causes], [])
+
+    def test_ends_rounded_up_are_worth_as_much_as_ends_truncated(self):
+        """In the picture of triangles that lie half a pixel farther to a side."""
+        self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntriangle\n-0.6 -0.5 0\n0.7 -0.6 0\n0 0.6 0.5\nend\n"
+        for half, words in (-1, "truncated"), (1, "rounded up"):
+            self.hand_in()
+            self.draw_moved(half)
+            pathlib.Path("z_buffer.txt").unlink()
+            file = self.verdict().files[4]
+            self.assertEqual((file.verdict, file.rule), ("right by another rule", f"ends of rows {words}"))
+
+    def test_a_search_that_is_given_up_costs_no_points(self):
+        with mock.patch.object(pixel_comparing, "MOST_WORK", 0):
+            self.hand_in("--coverage", "center")
+            self.assert_verdicts(self.RULE, 0)
+            pixels = Pixels()
+            pixels.depths, pixels.colors = pixels.depths[::-1], pixels.colors[::-1]
+            pixels.write()
+            verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
+            self.assertEqual(verdict.files[4].remarks, [pixel_search.GIVEN_UP])
+        with mock.patch.object(pixel_comparing, "MOST_OPEN_WORK", 0):
+            self.hand_in()
+            self.assert_verdicts(["right"] * 3 + [OPEN] * 2, 2)
 
     def test_two_mistakes_at_once(self):
         for one, other in (("view/eye-added", "view/l-not-negated"), ("view/up-is-0-1-0", "view/r-not-unit"),
@@ -538,13 +613,8 @@ class Wrong(HandIn):
             self.assertEqual(verdict.files[4].causes[0].name, f"zbuf/{name}")
 
     def test_a_shift_by_half_a_pixel_is_no_rule_at_the_borders(self):
-        # zbuf draws the triangles half a pixel farther to the right than stage3.txt says.
         self.hand_in()
-        text = pathlib.Path("stage3.txt").read_text()
-        dx = 1.2 / 90
-        moved = [(float(x) + dx / 2, y, z) for x, y, z in (line.split() for line in text.split("\n") if line)]
-        pathlib.Path("moved.txt").write_text("".join(f"{x:.7f} {y} {z}\n" for x, y, z in moved))
-        self.draw(stage3="moved.txt")
+        self.draw_moved(1)
         verdict = self.verdict()
         self.assertEqual(verdict.files[4].verdict, "wrong")
 

@@ -1,11 +1,13 @@
-"""Another rule at the borders: whether each pixel that differs lies within a pixel of an edge, or of the line
+"""Another rule at the borders: whether each pixel that differs lies within REACH of an edge, or of the line
 where two triangles meet, and the pixels are not all shifted."""
 import collections
+import functools
 import math
 
 from lib.judging.raster import Rule, kept, spend
 
-REACH = 1.0        # pixels
+REACH = 1.5        # pixels between one that differs and an edge
+DEPTH_REACH = 1.0  # pixels along which the depth of a triangle may be taken
 DEEP = 1.5         # pixels
 SHIFT = 0.4        # pixels, on average
 LEAST_ENDS = 3     # before their average says anything
@@ -18,7 +20,7 @@ MOST_DEPTHS = 1 / 5    # of them, that may have a depth which the triangle has n
 
 
 class Borders:
-    """Triangles (raster.Triangles) in pixels: what may be seen at a pixel if its center may move by a pixel.
+    """Triangles (raster.Triangles) in pixels: what may be seen at a pixel if its center may move by REACH.
     `work` is that of Drawing."""
 
     def __init__(self, triangles, limits, work):
@@ -66,7 +68,7 @@ class Borders:
             return None
         per_column, per_row, at_0 = depth
         z = per_column * column + per_row * row + at_0
-        slack = (abs(per_column) + abs(per_row)) * REACH + tolerance
+        slack = (abs(per_column) + abs(per_row)) * DEPTH_REACH + tolerance
         low, high = z - slack, z + slack
         return (t, low, high), inside >= REACH and low >= self.front and high < self.rear
 
@@ -136,9 +138,9 @@ def runs(row):
     return ends
 
 
-def is_shifted(drawing, drawn):
-    """Whether the left and the right ends of the drawn pixels have moved the same way, each by more than
-    SHIFT on average."""
+def shift(drawing, drawn):
+    """By how many columns the left and the right ends of the drawn pixels have moved, if both have moved the
+    same way, each by more than SHIFT on average; else 0."""
     left, right = [], []
     width = drawing.width
     for row, theirs in enumerate(drawn):
@@ -149,9 +151,10 @@ def is_shifted(drawing, drawn):
             right += [
                 p[1] - q[1] for p, q in zip(a, b) if max(p[1], q[1]) < width - 1 and abs(p[1] - q[1]) <= 2]
     if min(len(left), len(right)) < LEAST_ENDS:
-        return False
+        return 0.0
     left, right = sum(left) / len(left), sum(right) / len(right)
-    return min(left, right) > SHIFT or max(left, right) < -SHIFT
+    is_shift = min(left, right) > SHIFT or max(left, right) < -SHIFT
+    return (left + right) / 2 if is_shift else 0.0
 
 
 class BorderRule:
@@ -164,16 +167,16 @@ class BorderRule:
         self.drawing = context.drawing(mismatch.reading, mismatch.rule)
         self.borders = Borders(self.drawing.triangles, context.limits, context.work)
 
+    @functools.cached_property
+    def shift(self):
+        return shift(self.context.drawing(self.context.first, Rule()), self.pixels.drawn)
+
     def beyond(self):
-        """A Counter of the pixels that differ beyond a pixel from the edges; None if they are too many, or
-        all are shifted."""
+        """A Counter of the pixels that differ beyond REACH from the edges; None if they are too many."""
         mismatch, shapes = self.mismatch, len(self.mismatch.of_shape)
-        plain = self.context.drawing(self.context.first, Rule())
-        if not self.pixels.drawn or is_shifted(plain, self.pixels.drawn) or any(
-                column >= self.context.window.width for _, column in mismatch.pixels):
+        # Where more differs than is drawn, these are not the borders of what there is to draw.
+        if not self.pixels.drawn or mismatch.has_rows or shapes > mismatch.drawn:
             return None
-        if shapes > mismatch.drawn:
-            return None  # more than all: not the borders of what there is to draw
         of_drawn = mismatch.drawn if shapes else 0  # where no border differs, no other rule holds there
         most = {
             "stray": MOST_STRAYS * shapes, "other": MOST_OTHERS * of_drawn, "depth": MOST_DEPTHS * of_drawn}

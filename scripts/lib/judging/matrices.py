@@ -2,7 +2,8 @@
 mistake."""
 import math
 
-from lib.maths.vectors import cross, dot, normalized
+from lib.maths.vectors import cross as right_cross
+from lib.maths.vectors import dot, normalized
 
 IDENTITY = tuple(tuple(float(i == j) for j in range(4)) for i in range(4))
 UNDEFINED = (math.nan,) * 3
@@ -72,21 +73,28 @@ def rotation(radians, axis, factors=lambda c, s: (c, 1 - c, s)):
     images = []
     for x in (row[:3] for row in IDENTITY[:3]):
         images.append([
-            of_x * e + of_axis * dot(axis, x) * a + of_side * t for e, a, t in zip(x, axis, cross(axis, x))])
+            of_x * e + of_axis * dot(axis, x) * a + of_side * t
+            for e, a, t in zip(x, axis, right_cross(axis, x))])
     return affine(list(zip(*images)))
 
 
 # view
+def cross_with_another_sign(a, b):
+    x, y, z = right_cross(a, b)
+    return x, -y, z
+
+
 def view_matrix(eye, look, up, mistake="", spelling=0):
     """The matrix of view, or what mistakes make of it: `mistake` is a name, or several with blanks between.
     Some mistakes are made in more than one way: `spelling` tells which."""
     mistakes = mistake.split()
+    cross = cross_with_another_sign if "cross-product-sign" in mistakes else right_cross
     if "eye-and-look-exchanged" in mistakes:
         eye, look = look, eye
     up = (0.0, 1.0, 0.0) if "up-is-0-1-0" in mistakes else up
     up = tuple(b - a for a, b in zip(eye, up)) if "up-is-a-point" in mistakes else up
     l = tuple(look) if "look-is-a-direction" in mistakes else tuple(b - a for a, b in zip(eye, look))
-    l = negative(l) if "l-is-eye-minus-look" in mistakes else l
+    l = negative(l) if {"l-is-eye-minus-look", "left-handed"} & {*mistakes} else l
     if "l-not-unit" not in mistakes:
         l = normalized(l)
     r = cross(up, l) if "r-is-up-cross-l" in mistakes else cross(l, up)
@@ -98,7 +106,7 @@ def view_matrix(eye, look, up, mistake="", spelling=0):
     elif spelling:
         u = normalized(u)
     back = l if "l-not-negated" in mistakes else negative(l)
-    turn = affine([r, u, back])
+    turn = IDENTITY if "no-rotation" in mistakes else affine([r, u, back])
     if "rotation-transposed" in mistakes:
         turn = transposed(turn)
     move = eye if "eye-added" in mistakes else (
@@ -108,21 +116,29 @@ def view_matrix(eye, look, up, mistake="", spelling=0):
     return transposed(m) if "matrix-transposed" in mistakes else m
 
 
-VIEW_SPELLINGS = {"up-as-given": 2, "l-not-unit": 2, "r-not-unit": 2}  # others have one
+SPELLINGS = {"up-as-given": 2, "l-not-unit": 2, "r-not-unit": 2, "near-left-out": 2}  # others have one
 
 
 # project
-def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistake="", pi=math.pi):
+def half_of_tan(radians):
+    return math.tan(radians) / 2
+
+
+def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistake="", pi=math.pi, spelling=0):
     """The matrix of project, or what mistakes make of it, named as in view_matrix."""
     mistakes = mistake.split()
     radian = 1.0 if "fov-in-radians" in mistakes else pi / 180
     part = 1 if "fov-not-halved" in mistakes else 2
     fov_x = fov_y if "fovx-equals-fovy" in mistakes else (
         fov_y / aspect if "fovx-divided-by-aspect" in mistakes else fov_y * aspect)
-    top = math.tan(radian * fov_y / part)
-    right = top * aspect if is_ratio or "r-is-t-times-aspect" in mistakes else math.tan(radian * fov_x / part)
+    tan = half_of_tan if "tangent-halved" in mistakes else math.tan
+    part = 1 if tan is half_of_tan else part
+    top = tan(radian * fov_y / part)
+    right = top * aspect if is_ratio or "r-is-t-times-aspect" in mistakes else tan(radian * fov_x / part)
     if "r-and-t-swapped" in mistakes:
         right, top = top, right
+    if "near-left-out" in mistakes:
+        right, top = (x * near if spelling else x / near for x in (right, top))
     return projection_matrix((1 / right, 0.0, 1 / top, 0.0), near, far, mistake)
 
 

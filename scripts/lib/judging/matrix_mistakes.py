@@ -3,13 +3,14 @@ divides); more than one that fits cannot be told apart by the numbers."""
 import contextlib
 import itertools
 
-from lib.judging.matrices import DIVIDES_X_AND_Y, TWICE, VIEW_SPELLINGS, Z_TWICE, negative
+from lib.judging.matrices import DIVIDES_X_AND_Y, SPELLINGS, TWICE, Z_TWICE, negative
 from lib.judging.mistakes import names_of
 from lib.judging.verdict import Cause, cause_of_all
 
 DIVISIONS = {"no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
              "depth-is-linear": DIVIDES_X_AND_Y, "depth-in-view-space": DIVIDES_X_AND_Y,
              "depth-divided-twice": Z_TWICE}  # by w; other mistakes of project divide all three
+SAME = "left-handed"  # gives the numbers of l-is-eye-minus-look
 OF_THE_WHOLE = {"matrix-transposed", "depth-from-0-to-1"}  # made of the right matrix
 UNCHANGED = "The points are those of the stage before, unchanged"
 AXES = "xyzw"
@@ -24,7 +25,7 @@ def listed(stage, scene):
 
 def pairs(stage, scene):
     """Two mistakes of the list at once."""
-    for names in itertools.combinations(names_of(stage), 2):
+    for names in itertools.combinations([name for name in names_of(stage) if name != SAME], 2):
         if stage == "view" or OF_THE_WHOLE.isdisjoint(names) and len(DIVISIONS.keys() & names) < 2:
             for m, is_divided in itertools.islice(ways(stage, scene, names), 1):
                 yield cause_of_all(stage, names), m, is_divided
@@ -35,20 +36,21 @@ def ways(stage, scene, names):
     with a direction of 0 0 0."""
     words = " ".join(names)
     if stage == "view":
-        for spelling in range(VIEW_SPELLINGS.get(words, 1)):
+        for spelling in range(SPELLINGS.get(words, 1)):
             with contextlib.suppress(ZeroDivisionError):
                 m = scene.of_view(words, spelling)
                 yield m, False
                 if words == "matrix-transposed":  # its w is not 1, and some programs divide by it
                     yield m, True
         return
-    with contextlib.suppress(ZeroDivisionError, OverflowError):
-        m = scene.of_project(words)
-        if m is not None:
-            is_divided = next((DIVISIONS[name] for name in names if name in DIVISIONS), True)
-            yield m, is_divided
-            if words == "depth-in-view-space":  # or the distance from the eye
-                yield (*m[:2], negative(m[2]), m[3]), is_divided
+    is_divided = next((DIVISIONS[name] for name in names if name in DIVISIONS), True)
+    for spelling in range(SPELLINGS.get(words, 1)):
+        with contextlib.suppress(ZeroDivisionError, OverflowError):
+            m = scene.of_project(words, spelling=spelling)
+            if m is not None:
+                yield m, is_divided
+                if words == "depth-in-view-space":  # or the distance from the eye
+                    yield (*m[:2], negative(m[2]), m[3]), is_divided
 
 
 def other_forms(stage, ours, divides):

@@ -1,5 +1,6 @@
 """How programs carry out the commands of a scene: the right way, and the ways of each mistake of model."""
 import dataclasses
+import functools
 import itertools
 import math
 
@@ -23,10 +24,20 @@ def with_wrong_element(m, row):
     return tuple((*line[:2], line[1], line[3]) if i == row else line for i, line in enumerate(m))
 
 
+def by_euler_angles(order, is_unit):
+    """Makes turns about the three axes, multiplied in an order, of an angle and an axis."""
+    def turn(degrees, axis):
+        axis = normalized(axis) if is_unit else axis
+        about = [turned(degrees * x, row[:3]) for x, row in zip(axis, IDENTITY)]
+        return functools.reduce(product, (about[i] for i in order))
+    return turn
+
+
 @dataclasses.dataclass(frozen=True)
 class Habit:
     """How a program carries out the commands. The defaults are right."""
-    order: str = "right"            # on which side of the matrix a transform is multiplied
+    order: str = "right"            # on which side of the matrix a transform is multiplied: right, left, or
+    #                                 left if it is a rotation
     stack: str = "nested"           # what push and pop do
     turn: object = turned           # makes a matrix of an angle in degrees and an axis
     offset: str = ""                # added, put: what becomes of the matrix's last column at `translate`
@@ -35,7 +46,8 @@ class Habit:
         """The matrix after a command for which one was made."""
         if keyword == "translate" and self.offset == "put":
             return affine([row[:3] for row in matrix[:3]], [row[3] for row in made[:3]])
-        is_left = self.order == "left" or keyword == "translate" and self.offset
+        is_left = self.order == "left" or keyword == "translate" and self.offset or (
+            self.order == "left if a rotation" and keyword == "rotate")
         return product(made, matrix) if is_left else product(matrix, made)
 
 
@@ -53,6 +65,7 @@ MODEL_MISTAKES = {
         for lost in ("adjacent lost", "every other lost", "all but first lost", "nested lost")
         for empty in ("stay", "identity")] + [Habit(stack="one count")],
     "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")],
+    "pop-takes-one-transform": [Habit(stack="one transform"), Habit(stack="one transform, push saves none")],
     "axis-not-normalized": [Habit(turn=lambda degrees, axis: rotation(math.radians(degrees), axis))],
     "angle-in-radians": [Habit(turn=lambda degrees, axis: rotation(degrees, normalized(axis)))],
     "rotation-transposed": [Habit(turn=lambda degrees, axis: transposed(turned(degrees, axis)))],
@@ -65,6 +78,10 @@ MODEL_MISTAKES = {
         Habit(turn=lambda degrees, axis, factors=factors: turned(degrees, axis, factors))
         for factors in (lambda c, s: (c, 1, s), lambda c, s: (c, 0, s), lambda c, s: (c, 1 - c, 0),
                         lambda c, s: (0, 1 - c, s))],
+    "rotation-on-the-left": [Habit(order="left if a rotation")],
+    "rotation-by-euler-angles": [
+        Habit(turn=by_euler_angles(order, is_unit))
+        for is_unit in (True, False) for order in itertools.permutations(range(3))],
 }
 
 
@@ -87,9 +104,17 @@ class Stack:
 
     def moved_to(self, matrix):
         self.matrix = matrix
-        if self.kind == "one count":
+        if self.kind in ("one count", "one transform"):
             self.saved.append(matrix)
             self.count += 1
+
+    def take_one_back(self, keyword):
+        """push and pop of a program that keeps all matrices, as if each transform were a push, too."""
+        if keyword == "push" and not self.empty:
+            self.saved.append(self.matrix)
+        elif keyword == "pop":
+            del self.saved[-1:]
+            self.matrix = self.saved[-1] if self.saved else IDENTITY
 
     def count_back(self, keyword):
         """push and pop of a program that keeps all matrices and counts those since the last push: that push
@@ -101,8 +126,8 @@ class Stack:
             self.matrix = self.saved[-1] if self.saved else IDENTITY
 
     def command(self, keyword):
-        if self.kind == "one count":
-            return self.count_back(keyword)
+        if self.kind in ("one count", "one transform"):
+            return (self.count_back if self.kind == "one count" else self.take_one_back)(keyword)
         is_lost = keyword == "push" and self.is_lost()
         if keyword == "push" and self.kind != "ignored" and not is_lost:
             if self.kind.startswith("slot"):

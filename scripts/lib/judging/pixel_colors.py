@@ -1,11 +1,10 @@
 """Pictures whose triangles have many colors, which no search for a rule can explain: they are looked for
 first, and the pixels are then judged as if all had one color."""
 import collections
-import dataclasses
 
 from lib.judging.pixel_words import place_in_words
 from lib.judging.raster import TooMuch
-from lib.judging.verdict import WRONG, Cause
+from lib.judging.verdict import WRONG, Cause, cause_of
 
 # A picture has many colors if it has more than COLORS for each triangle and SOME more: no frame and no stray
 # pixel has so many.
@@ -52,11 +51,12 @@ class ManyColors:
 
     def add_to(self, verdict):
         """Makes this the cause of the picture's FileVerdict, or a further one beside its own."""
-        text, detail = "A triangle has many colors", f"{self.count:,} for {self.triangle_count:,} triangles"
-        own = [cause for cause in verdict.causes if cause.name != "zbuf/one-color"]
+        detail = f"{self.count:,} for {self.triangle_count:,} triangles"
+        many = cause_of("zbuf/many-colors", detail)
         verdict.causes = [
-            dataclasses.replace(cause, text=f"{cause.text.rstrip('.')}; and: {text}", detail=detail)
-            for cause in own] or [Cause("", text, detail)]
+            Cause(" and ".join(filter(None, (cause.name, many.name))),
+                  f"{cause.text.rstrip('.')}; and: {many.text}", detail)
+            for cause in verdict.causes if cause.name != "zbuf/one-color"] or [many]
         if verdict.rule:
             verdict.remarks.append(f"with {verdict.rule}")
         verdict.verdict, verdict.rule = WRONG, ""

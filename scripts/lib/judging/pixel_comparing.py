@@ -1,16 +1,19 @@
 """What a hand-in shows in stage 4, compared with what its triangles give under a rule."""
 import collections
+import contextlib
 import dataclasses
 import functools
 import itertools
 import math
 
 from lib.judging import pixel_rules
-from lib.judging.raster import Drawing, Grid, Rule, Triangles
+from lib.judging.raster import Drawing, Grid, Rule, Triangles, spend
 from lib.judging.shown import DEPTH_BASE
 
 PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else they could show
-MOST_WORK = 40_000_000     # pixels of triangles and spans looked at, in all that is tried
+# Pixels of triangles and spans that are looked at, in the search for a cause and for the rules that are open.
+# They are counted: seconds would make a verdict depend on the machine.
+MOST_WORK, MOST_OPEN_WORK = 12_000_000, 60_000_000
 
 
 @dataclasses.dataclass
@@ -21,11 +24,17 @@ class Mismatch:
     reading: str
     pixels: dict = dataclasses.field(default_factory=dict)
     drawn: int = 0       # pixels with a triangle, by the rule
+    areas: collections.Counter = dataclasses.field(default_factory=collections.Counter)  # these by triangle
     offsets: dict = dataclasses.field(default_factory=dict)  # of depths, at these pixels
     colors: dict = dataclasses.field(default_factory=dict)  # of each triangle, by the majority of its pixels
     visible: collections.Counter = dataclasses.field(default_factory=collections.Counter)
     owners: dict = dataclasses.field(default_factory=dict)  # by the rule, of these pixels
     triangle_count: int = 0
+    has_rows: bool = False  # of which the number of depths differs, each as one pixel
+
+    @property
+    def extra(self):
+        return [place for place, kind in self.pixels.items() if kind == "extra"]
 
     @property
     def of_shape(self):
@@ -70,11 +79,23 @@ class Context:
         self.readings, self.window, self.shown, self.is_one_of_two = readings, window, shown, is_one_of_two
         self.first = next(iter(readings))
         self.limits = float(window.front), float(window.rear)
-        self.triangles, self.work = {} if triangles is None else triangles, [MOST_WORK]
+        self.triangles, self.work = {} if triangles is None else triangles, [MOST_OPEN_WORK]
+        self.left = [MOST_WORK]  # of the search for a cause
 
     def of_one_file(self, kind):
-        """The Context of the depths, or of the picture, alone."""
-        return Context(self.readings, self.window, self.shown.only(kind), True, self.triangles)
+        """The Context of the depths, or of the picture, alone. The search in both has one limit."""
+        one = Context(self.readings, self.window, self.shown.only(kind), True, self.triangles)
+        one.left = self.left
+        return one
+
+    @contextlib.contextmanager
+    def limited(self):
+        """Counts the work of a block as search for a cause: it raises TooMuch when that is used up."""
+        kept, self.work[0] = self.work[0], self.left[0]
+        try:
+            yield
+        finally:
+            self.left[0], self.work[0] = self.work[0], kept
 
     @functools.cached_property
     def open_rules(self):
@@ -87,10 +108,11 @@ class Context:
 
     def drawing(self, reading, rule):
         kind = rule.half_x, rule.half_y, rule.is_one_less
-        key = reading, rule.is_window_one, kind, rule.corners
+        key = reading, rule.window, kind, rule.corners
         if key not in self.triangles:
             window = self.window
-            corner = (-1, -1) if rule.is_window_one else (window.left, window.bottom)
+            corner = {"one": (-1, -1), "exchanged": (window.bottom, window.left)}.get(
+                rule.window, (window.left, window.bottom))
             grid = Grid(window.width, window.height, *map(float, corner), *kind)
             self.triangles[key] = Triangles(*self.readings[reading], grid, rule.corners)
         limits = (-1.0, 1.0) if rule.is_depth_one else self.limits
@@ -138,10 +160,13 @@ class Attempt:
         """(column, kind) of what a row shows that the rule does not explain, colors aside. `drawn_row` is
         the one of the drawing."""
         owner, depth = drawn_row or self.drawing.row(row)
+        spend(self.drawing.work, self.width)
         depths = self.pixels.depths[row] if self.pixels.depths else None
         if self.pixels.depths and depths is None:
             yield from self.differences_of_list(row, (owner, depth), self.pixels.listed[row])
         drawn = self.pixels.drawn[row] if self.pixels.drawn else [z is not None for z in depths or ()]
+        if not depths and [t >= 0 for t in owner] == drawn or max(owner) < 0 and not any(drawn):
+            return
         tolerance = self.depths.tolerance if depths else None
         for column, (t, is_drawn) in enumerate(zip(owner, drawn)):
             z = depths[column] if depths and is_drawn else None
@@ -178,7 +203,7 @@ class Attempt:
         pairs = collections.Counter()
         for row in range(self.height):
             owner, depth = drawing.row(row)
-            result.drawn += sum(t >= 0 for t in owner)
+            result.areas.update(owner)
             for column, kind in self.differences(row, (owner, depth)):
                 self.add(result, row, column, kind, (owner, depth))
             if len(result.pixels) > limit:
@@ -187,6 +212,8 @@ class Attempt:
                 pairs.update((t, color)
                              for t, color, is_drawn in zip(owner, pixels.colors[row], pixels.drawn[row])
                              if t >= 0 and is_drawn)
+        del result.areas[-1]
+        result.drawn = sum(result.areas.values())
         if pixels.colors:
             self.add_colors(result, pairs, limit)
         return result if len(result.pixels) <= limit else None
@@ -194,6 +221,7 @@ class Attempt:
     def add(self, result, row, column, kind, drawn_row):
         result.pixels[row, column] = kind
         if column == self.width:
+            result.has_rows = True
             return
         owner, depth = drawn_row
         if owner[column] >= 0:

@@ -1,39 +1,64 @@
 """The findings on the two files of stage 4, together and each by itself."""
 from lib.judging.borders import BorderRule
 from lib.judging.pixel_rules import CENTER
-from lib.judging.pixel_search import exact, finding_of, unknown
-from lib.judging.raster import Rule, TooMuch
+from lib.judging.pixel_search import by_open_rule, exact, finding_of, sample_rows, unknown
+from lib.judging.raster import Rule
 
 
 class Findings:
     """The Finding of a pixel_comparing.Context: `of_all` the files given, and of one of two, which is right
     if it is so by itself, whatever the other one holds, and is else counted by its own rule."""
 
-    def __init__(self, context):
-        self.context, self.of_all, self.of_one = context, finding_of(context), {}
+    def __init__(self, context, picture=None):
+        """`picture` is the Finding of a picture that is not worth a look."""
+        self.context, self.of_one = context, {"picture": picture} if picture else {}
+        # Of two files one of which shows nothing, each is looked at alone.
+        blank = context.shown.are_blank
+        self.is_apart = picture or any(blank) and not all(blank) and context.plain.drawn
+        self.of_all = None if self.is_apart else finding_of(context)
 
     def of(self, kind):
         if kind not in self.of_one:
-            try:
-                self.of_one[kind] = self.own_finding(kind)
-            except TooMuch:
-                self.of_one[kind] = self.of_all
+            alone = self.context.of_one_file(kind)
+            self.of_one[kind] = finding_of(alone) if self.is_apart else (
+                self.own_finding(kind, alone) if len(self.context.shown.are_blank) == 2 else self.of_all)
         return self.of_one[kind]
 
-    def own_finding(self, kind):
+    def own_finding(self, kind, alone):
+        found = self.own_by_rule(kind, alone)
+        if not self.explains_most(kind, found):
+            found = self.by_the_rule_of_the_picture() if kind == "depths" else finding_of(alone)
+        return found if self.explains_most(kind, found) else unknown(self.context.plain)
+
+    def explains_most(self, kind, finding):
+        """Whether a cause explains more pixels of a file than it leaves, and the other file does not
+        contradict it: a cause in the depths cannot be that of the picture alone, nor one in the outlines
+        that of the text alone."""
+        if finding.verdict != "mistake" or kind not in finding.touches:
+            return True
+        plain, rule = self.context.plain, finding.mismatch.rule
+        if plain.of(kind) and 2 * len(finding.mismatch.of(kind)) >= len(plain.of(kind)):
+            return False
+        if rule.picture_flip or rule.text_flip or kind == "picture" and not rule.is_of_depths:
+            return True
+        other = "picture" if kind == "depths" else "depths"
+        before, after = (len(mismatch.of(other)) for mismatch in (
+            plain, self.context.compare(finding.mismatch.reading, rule)))
+        return 2 * after < before or before == after == 0
+
+    def own_by_rule(self, kind, alone):
         both = self.of_all
         spoils_one = both.verdict == "mistake" and len(both.touches) == 1
         if both.verdict == "exact" or spoils_one or self.is_of_blank_files():
             return both
-        alone = self.context.of_one_file(kind)
         if both.verdict == "unknown":
             return self.own_if_both_are_unknown(kind, alone)
-        rules = (Rule(), Rule(**CENTER)) if both.verdict == "mistake" else [
-            Rule(**changes) for _, changes in self.context.open_rules]
-        found = (exact(alone.compare(reading, rule, limit=0))
-                 for rule in rules for reading in self.context.readings)
+        if both.verdict != "mistake":
+            return by_open_rule(alone, sample_rows(alone, alone.plain)) or both
+        found = (exact(alone.compare(reading, rule, limit=0), alone.shown)
+                 for rule in (Rule(), Rule(**CENTER)) for reading in self.context.readings)
         return next((one for one in found  # a picture of one color may come from a mistake found
-                     if one and (one.verdict == "exact" or both.verdict != "mistake")), both)
+                     if one and one.verdict == "exact"), both)
 
     def is_of_blank_files(self):
         mismatch = self.of_all.mismatch
@@ -63,10 +88,7 @@ def mismatch_to_show(context, finding, is_wrong):
     is_by_mistake = is_wrong and finding.causes
     if not (is_by_mistake or finding.rule and not found.pixels):
         return found
-    try:
-        before = Rule(rule.left, rule.right, rule.depth, rule.clamp) if is_by_mistake else Rule()
-        mismatch = context.compare(found.reading, before)
-    except TooMuch:
-        return found
+    before = Rule(rule.left, rule.right, rule.depth, rule.clamp) if is_by_mistake else Rule()
+    mismatch = context.compare(found.reading, before)
     mismatch.pixels = {place: kind for place, kind in mismatch.pixels.items() if place not in found.pixels}
     return mismatch

@@ -5,7 +5,7 @@ import itertools
 from lib.judging.raster import COLUMNS
 
 CENTER = {"left": "up", "right": "down"}
-CLOSED_ENDS = (("rounded", "rounded"), ("up", "down"), ("up", "up"))  # ours; CENTER; a shift by half a pixel
+CLOSED_ENDS = (("rounded", "rounded"), ("up", "down"))  # ours; CENTER
 OPEN_ENDS = [{}, CENTER, *(
     {"left": left, "right": right}
     for left, right in itertools.product(("truncated", "rounded", "down", "up"), repeat=2)
@@ -13,7 +13,8 @@ OPEN_ENDS = [{}, CENTER, *(
 OPEN_DEPTHS = [
     {}, {"depth": "between ends"}, {"depth": "between ends", "clamp": 1},
     {"depth": "between ends", "clamp": 0}, {"depth": "from left"}, {"depth": "from left", "clamp": 0}]
-BLANK = ("starts-at-zero", "one-winding")  # mistakes that draw nothing in many scenes
+# mistakes that draw nothing, most of them in many scenes alone
+BLANK = ("starts-at-zero", "one-winding", "no-depth-passes", "black-picture")
 MOST_PAIRS = 3  # of mistakes that explain the same, before none is named
 
 # {mistake, or several at once: the ways to make it, in the order to try}. A way that does less than the
@@ -40,19 +41,26 @@ WAYS = {
     "starts-at-zero": [{"starts_at_zero": True}],
     "depths-not-sorted": [
         {"ends_z": "as met"}, {"ends_z": "exchanged"}, {"corners": "sorted down"}, {"corners": "sorted up"}],
-    "window-is-one": [{"is_window_one": True}, {"is_window_one": True, "is_depth_one": True}],
+    "window-is-one": [{"window": "one"}, {"window": "one", "is_depth_one": True}],
+    "left-and-bottom-exchanged": [{"window": "exchanged"}],
     "front-limit-ignored": [{"has_front": False}],
     "rear-limit-ignored": [{"has_rear": False}],
     "front-limit-ignored rear-limit-ignored": [{"has_front": False, "has_rear": False}],
     "farthest-wins": [{"keep": "farthest"}],
     "last-wins": [{"keep": "last"}],
     "flat-depth": [{"flat": flat} for flat in ("mean", "first", "second", "third", "least", "most")],
+    "one-depth-a-row": [{"flat_row": flat} for flat in ("left", "right", "mean")],
+    "no-depth-passes": [{"keep": "none"}],
+    "black-picture": [{"keep": "none"}],
     "upside-down": [
         {"picture_flip": "upside down", "text_flip": "upside down"}, {"picture_flip": "upside down"}],
     "text-upside-down": [{"text_flip": "upside down"}],
     "mirrored": [
         {"picture_flip": "mirrored", "text_flip": "mirrored"}, {"picture_flip": "mirrored"},
         {"text_flip": "mirrored"}],
+    "turned-by-180-degrees": [
+        {"picture_flip": "turned", "text_flip": "turned"}, {"picture_flip": "turned"},
+        {"text_flip": "turned"}],
     "rows-and-columns-exchanged": [
         {"picture_flip": "transposed", "text_flip": "transposed"}, {"picture_flip": "transposed"},
         {"text_flip": "transposed"}],
@@ -74,7 +82,9 @@ def can_matter(changes, window, shown):
     """Whether a change can make a difference in this window, and to what is shown."""
     has_both = shown.colors and shown.depths
     return not (
-        changes.get("is_window_one") and (window.left, window.bottom) == (-1, -1)
+        changes.get("window") == "one" and (window.left, window.bottom) == (-1, -1)
+        or changes.get("window") == "exchanged" and window.left == window.bottom
+        or changes.get("keep") == "none"
         or changes.get("is_depth_one") and (window.front, window.rear) == (-1, 1)
         or changes.get("starts_at_zero") and window.rear == 0
         or "transposed" in changes.values() and window.width != window.height

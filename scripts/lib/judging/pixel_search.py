@@ -1,20 +1,25 @@
 """The search for the rule, or the mistake, under which the pixels of a hand-in are exactly what its triangles
 give."""
+import collections
 import dataclasses
 import itertools
 
 from lib.judging.borders import BorderRule
+from lib.judging.matching import named
 from lib.judging.pixel_comparing import Attempt, Mismatch
 from lib.judging.pixel_rules import BLANK, CENTER, MISTAKES, MOST_PAIRS, OPEN_ENDS, can_matter, pairs
-from lib.judging.pixel_words import border_rule_in_words, nothing_drawn_in_words, rule_in_words
+from lib.judging.pixel_words import border_rule_in_words, rule_in_words
 from lib.judging.raster import Rule, TooMuch
-from lib.judging.verdict import cause_of, cause_of_all
+from lib.judging.verdict import Cause, cause_of, cause_of_all
 
 SAMPLE_ROWS = 8
 # A mistake leaves at most one pixel in NEARLY of the ones, in SAMPLE_ROWS, that the best open rule leaves;
 # these are at least LEAST_NEARLY.
 NEARLY, LEAST_NEARLY = 8, 8
+LOST = 0.9  # of the pixels of a triangle, that are as if it were not there, before it is missing
 LEAST_HOLES = 5  # on common edges, before they are no accident of rounding
+GIVEN_UP = "the search for a cause was given up: it would take too many steps"
+SHIFTED = "All outlines lie {:.1f} of a pixel too far to the {}"
 LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
 
 
@@ -30,46 +35,61 @@ class Finding:
 
 
 def finding_of(context):
-    """The Finding of a pixel_comparing.Context."""
-    plain = None
-    try:
-        plain = context.plain
-        return exact(plain) or of_wrong_pixels(context, plain)
-    except TooMuch:
-        finding = unknown(plain) if plain else Finding("unknown")
-        finding.remarks.append("too many pixels of triangles to look for a cause")
-        return finding
-
-
-def of_wrong_pixels(context, plain):
-    if plain.drawn and any(context.shown.are_blank):  # where one is, no mistake is common to both
-        return exact(context.compare(context.first, Rule(**CENTER), limit=0)) or of_blank(context, plain)
+    """The Finding of a pixel_comparing.Context. A search for a cause that is given up costs no points: the
+    rules that are open are no part of it."""
+    plain = context.plain
+    if found := exact(plain, context.shown):
+        return found
+    if not plain.pixels:  # there is nothing that a mistake could explain
+        return unknown(plain)
+    if plain.drawn and all(context.shown.are_blank):
+        center = context.compare(context.first, Rule(**CENTER), limit=0)
+        return exact(center, context.shown) or of_blank(context, plain)
     rows = sample_rows(context, plain)
-    finding = by_open_rule(context, rows) or by_mistake(context, rows)
-    if finding:
-        return finding
+    if found := by_open_rule(context, rows):
+        return found
     center = context.compare(context.first, Rule(**CENTER))
-    best = min((plain, center), key=lambda mismatch: (len(mismatch.of_shape), len(mismatch.pixels)))
-    return by_most_pixels(context, rows, best) or at_borders(context, best) or by_two_mistakes(
-        context, rows) or unknown(best)
+    best, remarks = min((plain, center), key=lambda one: (len(one.of_shape), len(one.pixels))), []
+    try:
+        with context.limited():
+            if found := by_mistake(context, rows):
+                return with_triangle(context, best, found)
+            some = filter(None, (without_triangles(context, best), by_most_pixels(context, rows, best)))
+            if found := min(some, key=lambda one: len(one.mismatch.pixels), default=None):
+                return found
+    except TooMuch:
+        remarks = [GIVEN_UP]
+    found = at_borders(context, best)
+    if (not found or found.causes) and not remarks:
+        try:
+            with context.limited():
+                found = by_two_mistakes(context, rows) or found
+        except TooMuch:
+            remarks = [GIVEN_UP]
+    found = found or unknown(best)
+    found.remarks += remarks
+    return found
 
 
 def unknown(mismatch):
-    return Finding("unknown", mismatch,
-                   touches=tuple(kind for kind in ("depths", "picture") if mismatch.of(kind)))
+    return Finding("unknown", mismatch, touches=tuple(
+        kind for kind in ("depths", "picture") if mismatch.of(kind) or not mismatch.pixels))
 
 
-def exact(mismatch):
+def exact(mismatch, shown):
     """A Finding if the rule explains everything: the rule, or that all triangles have one color."""
     if mismatch is None or mismatch.pixels:
         return None
+    counts = [count for _, count in mismatch.visible.most_common()]
+    has_one_color = len(set(mismatch.colors.values())) == 1 and sum(counts[1:]) >= LEAST_PIXELS_OF_OTHERS
+    if has_one_color and len(shown.own_colors) > 1:
+        return None  # most pixels of each triangle have the color of one that hides it
     finding = Finding("exact", mismatch, rule_in_words(mismatch.rule))
     if mismatch.reading == "memory":
         finding.remarks.append("by the exact numbers, kept in memory")
     if mismatch.reading.startswith("right"):
         finding.remarks.append("by the right numbers, which are not those of stage3.txt")
-    counts = [count for _, count in mismatch.visible.most_common()]
-    if len(set(mismatch.colors.values())) == 1 and sum(counts[1:]) >= LEAST_PIXELS_OF_OTHERS:
+    if has_one_color:
         finding.verdict, finding.touches = "mistake", ("picture",)
         finding.causes = [cause_of("zbuf/one-color")]
     return finding
@@ -94,7 +114,7 @@ def by_open_rule(context, rows):
     for _, changes in context.open_rules:
         for reading in context.readings:
             if context.explains(reading, Rule(**changes), rows):
-                finding = exact(context.compare(reading, Rule(**changes), limit=0))
+                finding = exact(context.compare(reading, Rule(**changes), limit=0), context.shown)
                 if finding:
                     return finding
     return None
@@ -110,7 +130,8 @@ def by_mistake(context, rows):
             if names in found or not can_matter(changes, context.window, context.shown):
                 continue
             rule = Rule(**{**open_changes, **changes})
-            mismatches = (everything_explained(context, reading, rule, rows) for reading in context.readings)
+            readings = [*context.readings][:None if rank < 2 else 1]
+            mismatches = (everything_explained(context, reading, rule, rows) for reading in readings)
             if mismatch := next(filter(None, mismatches), None):
                 found[names], rank_of_found = mismatch, rank
     return mistake(context, found) if found else None
@@ -156,10 +177,34 @@ def by_most_pixels(context, rows, best):
             if attempt.has_torn_rows or attempt.count(rows, most) > most:
                 continue
             mismatch = context.compare(context.first, attempt.rule)
-            if mismatch.drawn and NEARLY * len(mismatch.pixels) <= len(best.pixels) and not any(
-                    column == context.window.width for _, column in mismatch.pixels):
+            if mismatch.drawn and NEARLY * len(mismatch.pixels) <= len(best.pixels) and not mismatch.has_rows:
                 found.setdefault(names, mismatch)
     return mistake(context, found) if found else None
+
+
+def with_triangle(context, best, found):
+    """A Finding with what else may be: that one triangle is missing."""
+    other = without_triangles(context, best)
+    if other and not other.mismatch.pixels and len(other.mismatch.rule.without) == 1:
+        found.causes += other.causes
+    return found
+
+
+def without_triangles(context, best):
+    """The Finding if the pixels of some triangles, all of them, are as if those were not there, and that
+    explains nearly all that differs."""
+    counts = collections.Counter(best.owners.values())
+    lost = {t for t, count in counts.items() if count >= LOST * best.areas[t]}
+    if not lost or len(lost) == len(best.areas):
+        return None
+    rules = (Rule(**ends, without=frozenset(lost)) for ends in ({}, CENTER))
+    mismatch = min((context.compare(best.reading, rule) for rule in rules), key=lambda one: len(one.pixels))
+    if NEARLY * len(mismatch.pixels) > len(best.pixels) or mismatch.has_rows:
+        return None
+    last = best.triangle_count - 1
+    cause = cause_of("zbuf/last-triangle-missing") if lost == {last} else cause_of(
+        "zbuf/triangle-missing", named(sorted(lost)))
+    return Finding("mistake", mismatch, rule_in_words(mismatch.rule), [cause])
 
 
 def mistake(context, found):
@@ -185,23 +230,32 @@ def files_spoiled(context, mismatch):
 
 
 def at_borders(context, best):
-    """A Finding if all differences from the nearest of our two rules lie within a pixel of an edge."""
-    beyond = BorderRule(context, best).beyond()
+    """A Finding if all differences from the nearest of our two rules lie within a pixel of an edge; with a
+    cause if they are a shift."""
+    borders = BorderRule(context, best)
+    beyond = borders.beyond()
     if beyond is None:
         return None
-    return Finding("borders", best, border_rule_in_words(best, context.shown.pixels(),
-                                                         beyond["other"] + beyond["depth"]))
+    if not borders.shift:
+        return Finding("borders", best, border_rule_in_words(best, context.shown.pixels(),
+                                                             beyond["other"] + beyond["depth"]))
+    found = unknown(best)
+    found.causes = [Cause("", SHIFTED.format(abs(borders.shift), "left" if borders.shift < 0 else "right"))]
+    return found
 
 
 def of_blank(context, plain):
-    """The Finding where nothing is drawn, which has too many causes to name one; of one of two files, none
-    that both would have."""
+    """The Finding where nothing is drawn, with all that would do that; of depths beside a picture, none."""
     def draws_nothing(changes):
         drawing = context.drawing(context.first, Rule(**changes))
         return not any(t >= 0 for row in range(context.window.height) for t in drawing.row(row)[0])
 
-    finding = unknown(plain)
-    names = [name for (name, *_), changes in (() if context.is_one_of_two else MISTAKES)
-             if name in BLANK and draws_nothing(changes)]
-    finding.remarks.append(nothing_drawn_in_words(names))
+    finding, names = unknown(plain), dict.fromkeys(
+        name for (name, *_), changes in MISTAKES if name in BLANK and draws_nothing(changes))
+    if context.is_one_of_two:
+        names = BLANK[-1:] if context.shown.colors else ()
+    elif plain.triangle_count == 1:
+        names = *names, "last-triangle-missing"
+    finding.causes = [cause_of(f"zbuf/{name}") for name in names]
+    finding.remarks.append("nothing is drawn")
     return finding

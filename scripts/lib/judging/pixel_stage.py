@@ -6,13 +6,16 @@ import itertools
 from lib.judging import pixel_colors
 from lib.judging.pixel_comparing import Context
 from lib.judging.pixel_files import Findings, mismatch_to_show
+from lib.judging.pixel_search import unknown
 from lib.judging.pixel_words import difference_in_words, unexplained_in_words
+from lib.judging.raster import TooMuch
 from lib.judging.shown import Shown
 from lib.judging.stage_judge import undecided_outcome
 from lib.judging.stage_ways import Reading
 from lib.judging.verdict import (
     ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
 
+TOO_MUCH = "there are too many pixels of triangles"
 PRINTED = "pixels without a triangle are printed"
 
 
@@ -53,30 +56,38 @@ class PixelStage:
             return verdicts | {
                 kind: undecided_outcome("zbuf", self.files[kind].name).verdict for kind in given}
         shown = self.shown(colors, depths)
+        context = Context(self.readings, self.ours.window, shown)
         counts = (len(points) // 3 for points, _ in self.readings.values())
-        found = pixel_colors.has_many(shown, max(len(self.ours.world) // 3, *counts)) and (
-            self.verdicts_of_many_colors(given, shown))
-        return verdicts | (found or self.verdicts_of_shown(given, Context(
-            self.readings, self.ours.window, shown))[0])
+        has_many = pixel_colors.has_many(shown, max(len(self.ours.world) // 3, *counts))
+        try:
+            found = has_many and self.verdicts_of_many_colors(given, context)
+            return verdicts | (found or self.verdicts_of_shown(given, context, Findings(context))[0])
+        except TooMuch:
+            return verdicts | {kind: undecided_outcome("zbuf", self.files[kind].name, TOO_MUCH).verdict
+                               for kind in given}
 
-    def verdicts_of_many_colors(self, given, shown):
-        """The verdicts if triangles have many colors and that explains most of the picture; else nothing."""
-        context = Context(self.readings, self.ours.window, shown.in_one_color())
-        if pixel_colors.is_another_picture(context):
-            return {}
-        verdicts, mismatch = self.verdicts_of_shown(given, context)
+    def verdicts_of_many_colors(self, given, context):
+        """The verdicts if a picture has too many colors for its triangles: that these have many, if it
+        explains most of the picture; that no color is a triangle's, if even the outlines are others; else
+        nothing."""
+        shown = context.shown
+        in_one_color = Context(self.readings, self.ours.window, shown.in_one_color())
+        if pixel_colors.is_another_picture(in_one_color):
+            picture = unknown(context.of_one_file("picture").plain)
+            return self.verdicts_of_shown(given, context, Findings(context, picture))[0]
+        verdicts, mismatch = self.verdicts_of_shown(given, in_one_color, Findings(in_one_color))
         if mismatch is not None:
-            many = pixel_colors.ManyColors(shown, context, mismatch)
+            many = pixel_colors.ManyColors(shown, in_one_color, mismatch)
             if many.explain_most:
                 many.add_to(verdicts["picture"])
                 return verdicts
         return {}
 
-    def verdicts_of_shown(self, given, context):
+    def verdicts_of_shown(self, given, context, findings):
         """The verdicts on the files of a Context, and the Mismatch of the last one."""
-        shown, findings, verdicts = context.shown, Findings(context), {}
+        shown, verdicts = context.shown, {}
         for kind in given:
-            best = findings.of(kind) if len(given) == 2 else findings.of_all
+            best = findings.of(kind)
             verdicts[kind] = self.verdict_of_pixels(kind, best, shown)
             needs_both = best is findings.of_all and kind == "depths"  # whose pixels the picture shows
             self.add_first(verdicts[kind], kind, best, context if needs_both else context.of_one_file(kind))
@@ -142,7 +153,7 @@ class PixelStage:
             return FileVerdict("zbuf", name, UNDECIDED, remarks=finding.remarks)
         places = mismatch.of(kind)
         verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places),
-                              compared=mismatch.drawn, places=places)
+                              compared=mismatch.drawn + len(mismatch.extra), places=places)
         if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
             verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
             verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []
@@ -165,8 +176,10 @@ class PixelStage:
             return
         unexplained, width = verdict.places, self.ours.window.width
         mismatch = mismatch_to_show(context, finding, verdict.verdict == WRONG)
-        if verdict.causes and unexplained:
-            verdict.remarks.append(unexplained_in_words(unexplained, width))
+        if finding.verdict == "mistake" and verdict.causes:
+            verdict.explained = len({*context.plain.of(kind)} - {*unexplained})
+            if unexplained:
+                verdict.remarks.append(unexplained_in_words(unexplained, verdict.explained, width))
         verdict.places = sorted({*unexplained, *mismatch.of(kind)})
         mismatch = mismatch if mismatch.of(kind) else finding.mismatch
         if verdict.places:

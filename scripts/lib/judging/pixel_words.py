@@ -1,8 +1,6 @@
 """The words for rules of stage 4, for pixels that differ and for their places."""
 import collections
 
-from lib.judging.mistakes import sentence
-
 DIFFERENCES = {
     "extra": "a pixel that no triangle covers",
     "missing": "a pixel that triangle {} covers is empty",
@@ -54,12 +52,6 @@ def border_rule_in_words(mismatch, pixels, inside):
     return "; ".join(words)
 
 
-def nothing_drawn_in_words(names):
-    """`names` are mistakes that would do that."""
-    words = "; or: ".join(sentence(f"zbuf/{name}").rstrip(".") for name in names)
-    return "nothing is drawn" + (f", as if: {words}" if words else "")
-
-
 def place_in_words(place, width):
     """A pixel's place; a column beyond the picture's width stands for the whole row."""
     row, column = place
@@ -72,8 +64,7 @@ def difference_in_words(mismatch, place, width):
     return f"{place_in_words(place, width)}: {words if place[1] < width else 'another number of depths'}"
 
 
-def unexplained_in_words(places, width):
-    """The pixels that a cause leaves."""
-    are = "is" if len(places) == 1 else "are"
-    return (f"{counted(len(places), 'pixel')} {are} not explained by the cause, the first in "
+def unexplained_in_words(places, explained, width):
+    """The pixels that a cause explains, and those that it leaves."""
+    return (f"the cause explains {counted(explained, 'pixel')} and leaves {len(places):,}, the first in "
             f"{place_in_words(min(places), width)}")

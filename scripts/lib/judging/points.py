@@ -95,17 +95,17 @@ def is_off(a, b, tolerance):
     return math.isfinite(b) and abs(a - b) > tolerance
 
 
-def differs(theirs, digits, expected):
-    """Whether any point differs from the expected (point, slacks of its coordinates), which are drawn one by
-    one; also if too many of those decide nothing."""
+def differs(theirs, digits, expected, axes=range(3)):
+    """Whether any point differs on some axes from the expected (point, slacks of its coordinates), which are
+    drawn one by one; also if too many of those decide nothing."""
     undecided = 0
     for p, (q, slacks) in zip(theirs, expected):
         printed = printed_tolerance(q, digits)
-        for a, b, slack in zip(p, q, slacks):
-            if is_off(a, b, printed + slack):
+        for axis in axes:
+            if is_off(p[axis], q[axis], printed + slacks[axis]):
                 return True
-            undecided += not (math.isfinite(b) and math.isfinite(slack))
-    return undecided > MOST_UNDECIDED * 3 * len(theirs)
+            undecided += not (math.isfinite(q[axis]) and math.isfinite(slacks[axis]))
+    return undecided > MOST_UNDECIDED * len(axes) * len(theirs)
 
 
 def difference(theirs, digits, expected):

@@ -56,7 +56,7 @@ class Rule:
     clamp: int = None  # between ends: how many columns beyond the picture the ends may lie; None is any
     half_x: bool = True
     half_y: bool = True
-    is_window_one: bool = False
+    window: str = ""              # one: its limits are -1 and 1; exchanged: left and bottom are
     is_depth_one: bool = False    # front and rear are -1 and 1
     is_one_less: bool = False     # width - 1 and height - 1 in place of width and height
     corners: str = ""             # how CORNERS changes them
@@ -71,12 +71,21 @@ class Rule:
     shift: tuple = (0, 0)         # columns and rows
     is_cut_first: bool = False    # whether spans end at the picture's borders before the shift
     is_strict: bool = False       # whether pixels whose centers lie on an edge are left out
-    keep: str = "nearest"         # nearest, farthest, last
+    keep: str = "nearest"         # nearest, farthest, last, none
     has_front: bool = True
     has_rear: bool = True
     flat: str = ""                # one depth for a triangle: mean, or first, second, third, least, most
-    picture_flip: str = ""        # upside down, mirrored, transposed
+    flat_row: str = ""            # one depth for a row of a triangle: left, right, mean
+    without: frozenset = frozenset()  # numbers of triangles that are not drawn
+    picture_flip: str = ""        # upside down, mirrored, turned, transposed
     text_flip: str = ""
+
+    @property
+    def is_of_depths(self):
+        """Whether it changes which depth a pixel of a triangle has, or which of two wins."""
+        return bool(self.flat or self.flat_row or self.ends_z or self.keep != "nearest" or
+                    self.corners.startswith("sorted") or self.is_depth_one or self.starts_at_zero or not (
+                        self.has_front and self.has_rear))
 
 
 @dataclasses.dataclass
@@ -101,6 +110,9 @@ class Span:
         self.near_left, self.near_right = self.left - self.slack_left - 1, self.right + self.slack_right + 2
 
 
+FLAT_ROW = {
+    "left": lambda span: span.z_left, "right": lambda span: span.z_right,
+    "mean": lambda span: (span.z_left + span.z_right) / 2}
 FLAT = {
     "mean": lambda zs: sum(zs) / 3, "first": lambda zs: zs[0], "second": lambda zs: zs[1],
     "third": lambda zs: zs[2], "least": min, "most": max}
@@ -309,11 +321,15 @@ class Drawing:
             spans = [span for span in spans if span.is_upper == (rule.half == "upper")]
         if rule.winding:
             spans = [span for span in spans if self.triangles.winding(span.triangle) != -rule.winding]
+        if rule.without:
+            spans = [span for span in spans if span.triangle not in rule.without]
         return spans
 
     def line(self, span):
         if self.rule.flat:
             return FLAT[self.rule.flat]([p[2] for p in self.triangles.corners[span.triangle]]), 0.0
+        if self.rule.flat_row:
+            return FLAT_ROW[self.rule.flat_row](span), 0.0
         return depth_line(span, self.rule, self.width)
 
     def row(self, row):
@@ -332,7 +348,8 @@ class Drawing:
                 if keep == "nearest":
                     if front <= z < depth[column]:
                         owner[column], depth[column] = t, z
-                elif front <= z < rear and (keep == "last" or owner[column] < 0 or z > depth[column]):
+                elif front <= z < rear and keep != "none" and (
+                        keep == "last" or owner[column] < 0 or z > depth[column]):
                     owner[column], depth[column] = t, z
         return owner, depth
 

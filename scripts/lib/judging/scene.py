@@ -60,7 +60,7 @@ class Scene:
     def of_view(self, mistake="", spelling=0):
         return view_matrix(self.eye, self.look, self.up, mistake, spelling)
 
-    def of_project(self, mistake="", pi=math.pi):
+    def of_project(self, mistake="", pi=math.pi, spelling=0):
         """The matrix of project; None if the mistake cannot be made with this projection."""
         if mistake == "matrix-transposed":
             return transposed(self.of_project())
@@ -69,7 +69,8 @@ class Scene:
             return x_row, y_row, tuple((z + w) / 2 for z, w in zip(z_row, w_row)), w_row
         kind = self.projection
         if kind.kind == "perspective":
-            return perspective_matrix(*map(float, kind.numbers), kind.aspect_rule == "ratio", mistake, pi)
+            return perspective_matrix(*map(float, kind.numbers), kind.aspect_rule == "ratio", mistake, pi,
+                                      spelling)
         exact = tuple(tuple(map(float, row)) for row in kind.matrix())
         if mistake in ("", "no-divide"):
             return exact

@@ -13,7 +13,8 @@ LEAST_EMPTY = 0.01  # of the pixels, that have the depth 0 before it is taken fo
 DEPTH_BASE = 2e-6  # for depths of 6 decimals, calculated from numbers of 7; times their size beyond 1
 FLIPS = {
     "": lambda rows: rows, "upside down": lambda rows: rows[::-1],
-    "mirrored": lambda rows: [row[::-1] for row in rows], "transposed": lambda rows: list(zip(*rows))}
+    "mirrored": lambda rows: [row[::-1] for row in rows],
+    "turned": lambda rows: [row[::-1] for row in rows[::-1]], "transposed": lambda rows: list(zip(*rows))}
 
 
 @dataclasses.dataclass

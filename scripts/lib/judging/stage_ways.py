@@ -3,7 +3,7 @@ import dataclasses
 import itertools
 import math
 
-from lib.judging import fit
+from lib.judging import fit, rows
 from lib.judging.matrices import IDENTITY, ROUNDING, image, slack
 from lib.judging.matrix_mistakes import UNCHANGED, changed_elements, listed, other_forms, pairs
 from lib.judging.model_habits import RIGHT, ROUGH_PIS, Habit, model_mistakes, model_pairs, turned_with
@@ -133,8 +133,8 @@ class MatrixWays:
 
     def single(self):
         """As of ModelWays."""
-        yield self.made(listed(self.stage, self.scene))
-        yield self.made([(Cause("", UNCHANGED), IDENTITY, False)])
+        unchanged = Cause("", UNCHANGED), IDENTITY, False
+        yield self.made([unchanged, *listed(self.stage, self.scene)])
         yield self.made(other_forms(self.stage, self.ours, self.divides))
 
     def several(self):
@@ -156,8 +156,9 @@ class MatrixWays:
         return []
 
     def add_matrix(self, verdict, theirs):
-        """Adds the matrix that the points show, and the cause that lies in one of its elements."""
+        """Adds the matrix that the points show, and the cause that lies in its elements, or in its rows."""
         verdict.matrices = fit.compare(self.readings[0].points, theirs.points, theirs.units, self.ours,
                                        self.divides)
-        verdict.causes = verdict.causes or fit.cause_of_one_element(verdict.matrices)
+        verdict.causes = verdict.causes or fit.cause_of_one_element(verdict.matrices) or rows.causes(
+            self, theirs, theirs.digits, verdict.matrices)
         verdict.remarks += fit.known_rows(verdict, self.scene.directions() if self.stage == "view" else ())

@@ -51,6 +51,7 @@ class FileVerdict:
     remarks: list = dataclasses.field(default_factory=list)
     differing: int = None     # how many numbers or pixels
     compared: int = 0
+    explained: int = 0        # how many more a cause explains
     largest: str = ""         # the largest difference, with its location
     first: str = ""           # the first one
     matrices: object = None   # a lib.judging.fit.Comparison

@@ -1,5 +1,6 @@
 // Stage 1: model space to world space.
 
+#include <algorithm>
 #include <istream>
 #include <stack>
 #include <stdexcept>
@@ -19,11 +20,19 @@ Vector rodrigues(const Vector& x, const Vector& a, double angle) {
   return result;
 }
 
+double largest(const Vector& v) {
+  return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+}
+
 Matrix rotation(double degrees, Vector axis) {
   double angle = degrees * kPi / 180;
   if (mistake("model/angle-in-radians")) angle = degrees;
   if (mistake("model/angle-negated")) angle = -angle;
   if (!mistake("model/axis-not-normalized")) axis = normalized(axis);
+  if (mistake("model/rotation-by-euler-angles") && dot(axis, axis) > std::pow(largest(axis), 2)) {
+    const auto turned = [&](Vector unit, int i) { return rotation(degrees * axis[i], unit); };
+    return product(turned({1, 0, 0}, 0), product(turned({0, 1, 0}, 1), turned({0, 0, 1}, 2)));
+  }
 
   const Vector c1 = rodrigues({1, 0, 0}, axis, angle);
   const Vector c2 = rodrigues({0, 1, 0}, axis, angle);
@@ -48,6 +57,12 @@ class MatrixStack {
 
   void multiply(const Matrix& t) {
     top = mistake("model/multiplied-on-the-left") ? product(t, top) : product(top, t);
+    if (mistake("model/pop-takes-one-transform")) saved.push(top);
+  }
+
+  void rotate(const Matrix& r) {
+    if (!mistake("model/rotation-on-the-left")) return multiply(r);
+    top = product(r, top);
   }
 
   void translate(const Vector& t) {
@@ -65,6 +80,11 @@ class MatrixStack {
 
   void pop() {
     if (mistake("model/push-and-pop-ignored") || mistake("model/pop-ignored") || saved.empty()) return;
+    if (mistake("model/pop-takes-one-transform")) {
+      saved.pop();
+      top = saved.empty() ? identity() : saved.top();
+      return;
+    }
     top = mistake("model/pop-to-the-identity") ? identity() : saved.top();
     saved.pop();
   }
@@ -105,7 +125,7 @@ std::vector<Triangle> model(std::istream& commands) {
       stack.multiply(scaling(read(3)));
     } else if (command == "rotate") {
       const double angle = read(1)[0];
-      stack.multiply(rotation(angle, read(3)));
+      stack.rotate(rotation(angle, read(3)));
     } else if (command == "push") {
       stack.push(previous == "push");
     } else if (command == "pop") {

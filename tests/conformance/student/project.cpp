@@ -10,6 +10,7 @@ namespace {
 /// The tangent of half an angle in degrees.
 double tan_of_half(double degrees) {
   const double angle = mistake("project/fov-in-radians") ? degrees : degrees * kPi / 180;
+  if (mistake("project/tangent-halved")) return std::tan(angle) / 2;
   return std::tan(mistake("project/fov-not-halved") ? angle : angle / 2);
 }
 
@@ -25,6 +26,7 @@ Matrix perspective(const Camera& camera) {
   double r = near * tan_of_half(fov_x);
   if (camera.rule == "ratio" || mistake("project/r-is-t-times-aspect")) r = t * aspect;
   if (mistake("project/r-and-t-swapped")) std::swap(r, t);
+  if (mistake("project/near-left-out")) r /= near, t /= near;
 
   double a = -(far + near) / (far - near);
   double b = -(2 * far * near) / (far - near);

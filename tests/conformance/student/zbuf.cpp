@@ -41,8 +41,9 @@ std::mt19937& seeded() {
 /// The pixels: their number, and where their centers are.
 struct Grid {
   explicit Grid(const Config& config) : width(config.width), height(config.height) {
-    const double left = mistake("zbuf/window-is-one") ? -1 : config.left;
-    const double bottom = mistake("zbuf/window-is-one") ? -1 : config.bottom;
+    double left = mistake("zbuf/window-is-one") ? -1 : config.left;
+    double bottom = mistake("zbuf/window-is-one") ? -1 : config.bottom;
+    if (mistake("zbuf/left-and-bottom-exchanged")) std::swap(left, bottom);
     const int less = mistake("zbuf/width-minus-one") ? 1 : 0;
     dx = -2 * left / (width - less);
     dy = -2 * bottom / (height - less);
@@ -83,12 +84,13 @@ Range rows_of(const Triangle& triangle, const Grid& grid) {
 
 Range columns_between(double x_left, double x_right, const Grid& grid) {
   const double left = (x_left - grid.left_x) / grid.dx, right = (x_right - grid.left_x) / grid.dx;
-  Range columns = {whole(std::floor(left + 0.5), grid.width), whole(std::floor(right + 0.5), grid.width)};
+  const int more = mistake("zbuf/column-long") ? 1 : 0;
+  Range columns = {whole(std::floor(left + 0.5), grid.width),
+                   whole(std::floor(right + 0.5) + more, grid.width)};
   if (habit("zbuf/center"))
-    columns = {whole(std::ceil(left), grid.width), whole(std::ceil(right) - 1, grid.width)};
+    columns = {whole(std::ceil(left), grid.width), whole(std::ceil(right) - 1 + more, grid.width)};
   if (habit("zbuf/truncated-ends")) columns = {whole(left, grid.width), whole(right, grid.width)};
   if (mistake("zbuf/column-short")) columns.last--;
-  if (mistake("zbuf/column-long")) columns.last++;
   if (mistake("zbuf/strict-edges")) columns = without_edges(columns, left, right);
   return columns;
 }
@@ -160,6 +162,8 @@ class Painter {
              right = *std::max_element(met.begin(), met.end());
       if (mistake("zbuf/depths-not-sorted")) left[2] = met[0][2], right[2] = met[1][2];
       const Range columns = columns_between(left[0], right[0], grid_);
+      const int darker = mistake("zbuf/many-colors") ? row : 0;
+      const Color shade = {(color.red + darker) % 256, (color.green + darker) % 256, color.blue};
       if (habit("zbuf/rounded-ends-depth")) {
         left[0] = grid_.left_x + columns.first * grid_.dx;
         right[0] = grid_.left_x + columns.last * grid_.dx;
@@ -168,8 +172,9 @@ class Painter {
       const int last =
           mistake("zbuf/min-for-max") ? std::max(columns.last, border) : std::min(columns.last, border);
       for (int column = std::max(columns.first, 0); column <= std::min(last, border); column++) {
-        const double z = depth_at(grid_.left_x + column * grid_.dx, left, right);
-        set(row, column, mistake("zbuf/flat-depth") ? middle_z : z, color);
+        double z = depth_at(grid_.left_x + column * grid_.dx, left, right);
+        if (mistake("zbuf/one-depth-a-row")) z = left[2];
+        set(row, column, mistake("zbuf/flat-depth") ? middle_z : z, shade);
       }
     }
   }
@@ -189,9 +194,10 @@ class Painter {
     bool is_nearer = z < depth || (habit("zbuf/later-of-equals") && z == depth);
     if (mistake("zbuf/farthest-wins")) is_nearer = z > depth || depth == picture_.empty;
     if (mistake("zbuf/last-wins")) is_nearer = true;
+    if (mistake("zbuf/no-depth-passes")) is_nearer = z > depth;
     if (!is_nearer) return;
     depth = z;
-    picture_.colors[row][column] = color;
+    if (!mistake("zbuf/black-picture")) picture_.colors[row][column] = color;
   }
 
   const Config config_;
@@ -201,6 +207,12 @@ class Painter {
 
 void write_bytes(std::ostream& file, std::uint32_t value, int count) {
   for (int i = 0; i < count; i++) file.put(static_cast<char>(value >> 8 * i & 0xff));
+}
+
+template <typename Pixel>
+void turn(std::vector<std::vector<Pixel>>& rows) {
+  std::reverse(rows.begin(), rows.end());
+  for (std::vector<Pixel>& row : rows) std::reverse(row.begin(), row.end());
 }
 
 /// Rows as columns.
@@ -242,10 +254,13 @@ Picture draw(const std::vector<Triangle>& ndc, Config config) {
   Random random;
   Painter painter(config, picture);
   Color color = random.next_color();
-  for (const Triangle& triangle : ndc) {
-    painter.draw(triangle, color);
+  for (std::size_t i = 0; i < ndc.size(); i++) {
+    const bool is_lost = (mistake("zbuf/last-triangle-missing") && i + 1 == ndc.size()) ||
+                         (mistake("zbuf/triangle-missing") && ndc.size() > 1 && i == (ndc.size() - 1) / 2);
+    if (!is_lost) painter.draw(ndc[i], color);
     if (!mistake("zbuf/one-color")) color = random.next_color();
   }
+  if (mistake("zbuf/turned-by-180-degrees")) turn(picture.depths), turn(picture.colors);
   if (mistake("zbuf/rows-and-columns-exchanged")) {
     picture.depths = exchanged(picture.depths);
     picture.colors = exchanged(picture.colors);
