@@ -196,6 +196,17 @@ class Program(ToolTest):
         rows = told.split("| right\n")[1].splitlines()
         self.assertEqual([row.count("*") for row in rows[:4]], [4, 4, 4, 0])
 
+    def test_a_cause_is_named_as_far_as_the_next_scene_confirms_it(self):
+        """All these write the same for the first scene, whose camera looks along z from 0 0 4."""
+        for factor, cause in ("0", "The points are those of the stage before, unchanged"), (
+                "eye", "none of those known"):
+            done = check("view", "--", script(
+                "exec awk '/^eye/ { eye = $2 } /^[elu]/ { next } "
+                f"NF == 3 {{ $2 += {factor} * $1 * $2 }} 1'"))
+            self.assertIn(
+                "1-one-triangle: wrong\n  first difference: line 2, z of vertex 1 of triangle 0: 0 in place "
+                f"of -4, off by 4\n  cause: {cause}\n", done.stdout)
+
     def test_a_zbuf_gets_its_config_and_writes_its_picture(self):
         told = self.told("zbuf", 'exec "$BIN/zbuf" --coverage center "$1"', status=0)
         self.assertRegex(told, r"^scene: right by another rule: the center rule\n  that counts as right: .*\n"
