@@ -188,6 +188,9 @@ bool is_black(Color color) {
   return std::max({color.red(), color.green(), color.blue()}) <= 1;
 }
 
+constexpr const char* kSmallColors =
+    "the surfaces are black: every color is within 0 and 1, but channels run from 0 to 255";
+
 constexpr const char* kColorOfBackground =
     "the picture is empty: what is seen has the color of the background";
 
@@ -256,8 +259,12 @@ std::optional<std::string> opaque_note(const Appearance& appearance) {
 }
 
 std::optional<std::string> invisible_colors_note(const SurfaceShader& shader, bool is_wireframe) {
-  if (shader.shown().show_something) return std::nullopt;
   const SurfaceShader::Setup& setup = shader.setup();
+  if (shader.shown().show_something) {
+    const double greatest = shader.shown().greatest_channel.value_or(0);
+    if (greatest > 0 && greatest <= 1 && !is_black(setup.background)) return kSmallColors;
+    return std::nullopt;
+  }
   const bool is_lit = setup.model != ShadingModel::none;
   if (is_black(setup.background)) {
     if (auto note = black_colors_note(shader.shown().greatest_channel)) return note;
