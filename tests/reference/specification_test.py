@@ -143,6 +143,10 @@ class Specification(unittest.TestCase):
             self.assertLessEqual(len(page_text(page).encode()), 16 * 1024, page)
             self.assertLessEqual(max(map(len, page_text(page).splitlines())), 120, page)
 
+    def test_the_changelog_counts_the_cases(self):
+        changelog = (SOURCE / "CHANGELOG.md").read_text()
+        self.assertEqual(re.findall(r"The pack has ([\d,]+)\s+cases", changelog), [f"{len(CASES):,}"])
+
     def test_every_function_names_its_paragraphs(self):
         for name, line, labels in FUNCTIONS:
             with self.subTest(function=name, line=line):
