@@ -14,7 +14,7 @@ def gives(level, what):
     return LEVELS.index(level) >= LEVELS.index(what)
 
 
-def told(verdict, level):
+def shown_of(verdict, level):
     """The Verdict without what the level keeps to itself; with `none`, only files that are missing or cannot
     be read are left."""
     if gives(level, "cause"):
@@ -35,12 +35,12 @@ def without_cause(file):
 def in_words(verdict, level):
     """The verdict as sentences."""
     if level != "none":
-        words = sentence(told(verdict, level))
+        words = sentence(shown_of(verdict, level))
         if len(verdict.files) < 3:  # of a program for one stage
             words = words.replace("all three files are", "what the program writes is")
         return upper_first(words) + "."
     good = sum(file.is_good for file in verdict.files)
-    others = [f"{file.file} is {file.verdict}." for file in told(verdict, level).files]
+    others = [f"{file.file} is {file.verdict}." for file in shown_of(verdict, level).files]
     return " ".join([f"{good} of {len(verdict.files)} files are right.", *others])
 
 

@@ -2,7 +2,7 @@
 pictures are in it."""
 import html
 
-from grade_parts.hints import gives, told
+from grade_parts.hints import gives, shown_of
 from lib.judging.fit import shown
 from lib.judging.report import remarks_of
 from lib.showing.page_policy import policy
@@ -67,7 +67,7 @@ def section(test, level):
         yield f'<p class="fix">{html.escape(text)}</p>'
     if not gives(level, "stage") or not test.verdict.files:
         return
-    verdict = told(test.verdict, level)
+    verdict = shown_of(test.verdict, level)
     yield "<table><tr>" + "".join(f"<th>{word}</th>" for word in HEADER) + "</tr>"
     for file in verdict.files:
         kind = "good" if file.is_good else "bad" if file.verdict in ("wrong", "unreadable",
@@ -105,4 +105,4 @@ def counted(file):
     if file.explained:
         return (f"{file.explained + file.differing:,} of {file.compared:,}, of which the cause leaves "
                 f"{file.differing:,}")
-    return "" if file.count_told is None else f"{file.count_told:,} of {file.compared:,}"
+    return "" if file.shown_count is None else f"{file.shown_count:,} of {file.compared:,}"

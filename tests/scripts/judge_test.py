@@ -460,6 +460,21 @@ class Wrong(HandIn):
                 self.assertEqual(mistakes.fix(file.causes[0].name),
                                  f"{mistakes.fix(one)} {mistakes.fix(other)}")
 
+    def test_mistakes_in_different_rows_are_joined(self):
+        x_row, y_row, z_row, w_row = perspective_matrix(50, 1.3, 1, 50)
+        radians = perspective_matrix(50, 1.3, 1, 50, mistake="fov-in-radians")
+        ratio = perspective_matrix(50, 1.3, 1, 50, mistake="r-is-t-times-aspect")
+        last = f"Row 3, column 4 of the matrix (counted from 1) is {-z_row[3]:.6g}, not {z_row[3]:.6g}"
+        for rows, name in (radians[:2], "project/fov-in-radians"), (ratio[:2], "project/r-is-t-times-aspect"):
+            self.through((*rows, (*z_row[:3], -z_row[3]), w_row), 3)
+            cause, = self.verdict(config=False).files[2].causes
+            self.assertEqual((cause.name, cause.text), (name, f"{mistakes.sentence(name)[:-1]}; and: {last}"))
+        self.through((tuple(3 * x for x in x_row), (0.1, *y_row[1:]), (*z_row[:3], -z_row[3]), w_row), 3)
+        self.assertEqual(
+            self.verdict(config=False).files[2].cause,
+            f"Row 1, column 1 of the matrix (counted from 1) is {3 * x_row[0]:.5g}, not {x_row[0]:.5g}; and: "
+            f"Row 2, column 1 of the matrix (counted from 1) is 0.1, not 0; and: {last}")
+
     def test_rows_that_are_known_where_no_mistake_is(self):
         """-r without its length, up as the scene has it, and l: three mistakes at once."""
         view = Reference(self.scene.encode(), None, Tools()).scene

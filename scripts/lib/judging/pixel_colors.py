@@ -3,7 +3,6 @@ first, and the pixels are then judged as if all had one color."""
 import collections
 
 from lib.judging.pixel_words import place_in_words
-from lib.judging.raster import TooMuch
 from lib.judging.verdict import WRONG, Cause, cause_of
 
 # A picture has many colors if it has more than COLORS for each triangle and SOME more: no frame and no stray
@@ -18,10 +17,7 @@ def has_many(shown, triangle_count):
 
 def is_another_picture(context):
     """Whether more pixels of the outlines differ than there are to draw: no color then is a triangle's."""
-    try:
-        return len(context.plain.of_shape) > context.plain.drawn
-    except TooMuch:
-        return True
+    return len(context.plain.of_shape) > context.plain.drawn
 
 
 class ManyColors:

@@ -61,8 +61,7 @@ class Findings:
                      if one and one.verdict == "exact"), both)
 
     def is_of_blank_files(self):
-        mismatch = self.of_all.mismatch
-        return mismatch is None or mismatch is self.context.plain and all(self.context.shown.are_blank)
+        return self.of_all.mismatch is self.context.plain and all(self.context.shown.are_blank)
 
     def own_if_both_are_unknown(self, kind, alone):
         found = finding_of(alone)

@@ -76,12 +76,11 @@ class PixelStage:
             picture = unknown(context.of_one_file("picture").plain)
             return self.verdicts_of_shown(given, context, Findings(context, picture))[0]
         verdicts, mismatch = self.verdicts_of_shown(given, in_one_color, Findings(in_one_color))
-        if mismatch is not None:
-            many = pixel_colors.ManyColors(shown, in_one_color, mismatch)
-            if many.explain_most:
-                many.add_to(verdicts["picture"])
-                return verdicts
-        return {}
+        many = pixel_colors.ManyColors(shown, in_one_color, mismatch)
+        if not many.explain_most:
+            return {}
+        many.add_to(verdicts["picture"])
+        return verdicts
 
     def verdicts_of_shown(self, given, context, findings):
         """The verdicts on the files of a Context, and the Mismatch of the last one."""
@@ -149,8 +148,6 @@ class PixelStage:
     def verdict_of_pixels(self, kind, finding, shown):
         name = self.files[kind].name
         mismatch = finding.mismatch
-        if mismatch is None:
-            return FileVerdict("zbuf", name, UNDECIDED, remarks=finding.remarks)
         places = mismatch.of(kind)
         verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places),
                               compared=mismatch.drawn + len(mismatch.extra), places=places)
@@ -172,7 +169,7 @@ class PixelStage:
 
     def add_first(self, verdict, kind, finding, context):
         """Adds the first pixel that shows why, and the ones that a named mistake does not explain."""
-        if finding.mismatch is None or verdict.verdict == RIGHT:
+        if verdict.verdict == RIGHT:
             return
         unexplained, width = verdict.places, self.ours.window.width
         mismatch = mismatch_to_show(context, finding, verdict.verdict == WRONG)

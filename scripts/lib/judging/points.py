@@ -39,8 +39,8 @@ def read_points(data, name):
     except StageTextError as error:
         is_other = is_scene(text) or begins_with_a_camera(
             text)  # of another kind, of which no line is a stray one
-        is_told = not strays or strays.startswith("1 line is ")  # the one that the error is about
-        raise StageTextError(str(error) if is_told or is_other else f"{error}; {strays}") from None
+        is_the_one = not strays or strays.startswith("1 line is ")  # the one that the error is about
+        raise StageTextError(str(error) if is_the_one or is_other else f"{error}; {strays}") from None
     lines = text.split("\n")
     words = [word for vertex in vertices for word in lines[vertex.line - 1].split("#")[0].split()[:3]]
     return Points([vertex.numbers[:3] for vertex in vertices], [vertex.line for vertex in vertices],

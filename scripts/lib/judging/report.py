@@ -12,7 +12,7 @@ HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference
 def rows(verdict):
     """The lines of a table below HEADER."""
     return [[
-        file.stage, file.file, file.verdict, "" if file.count_told is None else str(file.count_told),
+        file.stage, file.file, file.verdict, "" if file.shown_count is None else str(file.shown_count),
         file.largest or file.first, "; ".join(remarks_of(file))] for file in verdict.files]
 
 

@@ -59,7 +59,7 @@ class FileVerdict:
     worth: float = 1.0        # what another rule earns, of the points of a right file
 
     @property
-    def count_told(self):
+    def shown_count(self):
         """How many differ, if that says something: a cause that explains every pixel leaves none."""
         return None if self.verdict == WRONG and self.differing == 0 else self.differing
 
