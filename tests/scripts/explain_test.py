@@ -538,6 +538,55 @@ class TheStack(ToolTest):
         self.assertEqual(explain("-", "--stack", stdin="0 0 0\n").returncode, 1)
 
 
+class TheScanLine(ToolTest):
+    """Three triangles, each of one depth, on ten rows; every number by hand."""
+    SCENE = ("0 0 0\n0 0 -1\n0 1 0\northo -1 1 -1 1 0 2\n"
+             "triangle\n-0.95 -1 -0.5\n0.95 -1 -0.5\n0.95 0.9 -0.5\n"
+             "triangle\n-0.75 -0.75 -1.5\n0.6 -0.75 -1.5\n-0.75 0.6 -1.5\n"
+             "triangle\n-0.95 -0.55 -1.25\n0.95 -0.55 -1.25\n0 0.95 -1.25\nend\n")
+
+    def report(self, row):
+        pathlib.Path("ten.txt").write_text("10 10\n")
+        return explain("-", "ten.txt", "--scan-line", row, "--coverage", "center", stdin=self.SCENE)
+
+    def test_has_the_tables_of_a_row(self):
+        self.assertEqual(self.report(5).stdout, """<stdin>
+scan line 5 of 0 to 9, y = -0.1 in NDC, coverage center
+
+EDGE TABLE, row 5: edges begin here of none
+
+POLYGON TABLE, of those on this row
+  polygon   rows     plane
+  0         1 to 9   z = -0.5 + 0 x + 0 y
+  1         2 to 8   z = 0.5 + 0 x + 0 y
+  2         1 to 7   z = 0.25 + 0 x + 0 y
+
+ACTIVE EDGES: left ones turn their polygon's flag to in, right ones to out
+  column   edge         depth        active polygons   seen from here
+  1        left of 1    0.5000000    1                 1
+  2        left of 2    0.2500000    1, 2              2
+  5        right of 1   0.5000000    2
+  5        left of 0    -0.5000000   2, 0              0
+  8        right of 2   0.2500000    0                 0
+  10       right of 0   -0.5000000   none
+""")
+        self.assertIn("EDGE TABLE, row 1: edges begin here of 0, 2\n", self.report(1).stdout)
+        self.assertIn("\n  none: every pixel shows the background\n", self.report(0).stdout)
+
+    def test_fits_a_terminal(self):
+        for sample in SAMPLES:
+            lines = explain(sample / "scene.txt", sample / "config.txt", "--scan-line", 30).stdout.split("\n")
+            self.assertEqual([line for line in lines[1:] if len(line) > 79], [])
+
+    def test_is_of_a_row_of_the_picture_and_no_pixel(self):
+        self.assertEqual(self.report(10).stderr, "explain: --scan-line: expected a number from 0 to 9, "
+                         "found 10 (try explain --help)\n")
+        done = explain("-", "ten.txt", "--scan-line", "1", "--pixel", "1,1", stdin=self.SCENE)
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, "explain: --pixel: expected --triangle with it, found --scan-line "
+                          "(try explain --help)\n"))
+
+
 class LongRandomPairs(RandomPairs):
     COUNT = 100000
 
