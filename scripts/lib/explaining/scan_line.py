@@ -1,7 +1,6 @@
 """The tables of the scan-line algorithm on a row: edge table, polygon table, active edges and polygons with
 their in-out flags, and the polygon seen up to the next edge. The numbers are zbuf's own: the fragments
 between the depth limits, and the triangles that its scan line shows."""
-import dataclasses
 import io
 import itertools
 import pathlib
@@ -21,15 +20,6 @@ MAX_SEEN = 16    # letters about the polygons seen
 NOTHING = -1     # the number of the background
 
 
-@dataclasses.dataclass
-class Edge:
-    """An end of neighboring pixels of a polygon: its first pixel, or the one after its last."""
-    column: int
-    is_right: bool
-    polygon: int
-    depth: str
-
-
 def scan_line_lines(stages, window, name, row):
     """The report on a row of the picture."""
     text = stages.projected_whole(("--digits", "exact"))
@@ -47,7 +37,7 @@ def scan_line_lines(stages, window, name, row):
         f"{numbers(first_here)}", "", "POLYGON TABLE, of those on this row",
         *polygon_table(text, rows, depths), "",
         "ACTIVE EDGES: left ones turn their polygon's flag to in, right ones to out",
-        *active_edges(edges_of(depths), shown)]
+        *active_edges(sorted(edges_of(depths)), shown)]
 
 
 def polygons_of(log, row):
@@ -73,23 +63,19 @@ def numbers_of_row(array, width, row):
 
 
 def edges_of(depths):
-    """The edges on the row, from the left; of equal columns, right ones first."""
-    edges = []
+    """(column, is it a left edge, polygon, depth) of the first of neighboring pixels, and of the one after."""
     for polygon, by_column in depths.items():
-        for _, run in itertools.groupby(enumerate(sorted(by_column)), lambda pair: pair[1] - pair[0]):
-            columns = [column for _, column in run]
-            edges += [Edge(columns[0], False, polygon, by_column[columns[0]]),
-                      Edge(columns[-1] + 1, True, polygon, by_column[columns[-1]])]
-    return sorted(edges, key=lambda edge: (edge.column, not edge.is_right, edge.polygon))
+        for column, depth in by_column.items():
+            if column - 1 not in by_column:
+                yield column, True, polygon, depth
+            if column + 1 not in by_column:
+                yield column + 1, False, polygon, depth
 
 
 def polygon_table(text, rows, depths):
-    table = [("polygon", "rows", "plane")]
     planes = dict(planes_of(text, depths))
-    for polygon in sorted(depths):
-        first, last = rows[polygon]
-        table.append((str(polygon), f"{first} to {last}", planes[polygon]))
-    return aligned_left(table)
+    return aligned_left([("polygon", "rows", "plane")] + [
+        (str(polygon), "{} to {}".format(*rows[polygon]), planes[polygon]) for polygon in sorted(depths)])
 
 
 def planes_of(text, wanted):
@@ -111,15 +97,11 @@ def planes_of(text, wanted):
 
 def active_edges(edges, shown):
     table, active = [("column", "edge", "depth", "active polygons", "seen from here")], []
-    for edge, following in zip(edges, [*edges[1:], None]):
-        if edge.is_right:
-            active.remove(edge.polygon)
-        else:
-            active.append(edge.polygon)
-        words = f"{'right' if edge.is_right else 'left'} of {edge.polygon}"
-        is_last = following is None or following.column > edge.column
-        seen = visible(shown, edge.column, following.column) if is_last and following else ""
-        table.append((str(edge.column), words, f"{float(edge.depth):.7f}", numbers(active), seen))
+    for (column, is_left, polygon, depth), (end, *_) in zip(edges, edges[1:] + edges[-1:]):
+        active = active + [polygon] if is_left else [other for other in active if other != polygon]
+        seen = visible(shown, column, end) if end > column else ""
+        words = f"{'left' if is_left else 'right'} of {polygon}"
+        table.append((str(column), words, f"{float(depth):.7f}", numbers(active), seen))
     return aligned_left(table) if edges else ["  none: every pixel shows the background"]
 
 
