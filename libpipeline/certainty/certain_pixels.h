@@ -16,7 +16,7 @@ namespace pipeline {
 
 /// The depths of the triangles that may cover a pixel's center.
 struct PixelDepths {
-  /// Whether the pixel certainly shows the triangle of this number, or the background.
+  /// True if the pixel certainly shows the triangle of this number, or the background.
   [[nodiscard]] bool certainly_shows(std::int64_t shown) const {
     return number == shown && second_nearest > farthest;
   }

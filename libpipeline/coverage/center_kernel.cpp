@@ -60,7 +60,7 @@ struct AxisLanes {
   HWY_INLINE Doubles scaled(Doubles coordinate) const {
     return hn::Round(coordinate * all(kGridUnitsPerOne)) * factor;
   }
-  /// Whether the calculated distances from pixel 0, of which these are the extremes, are exact.
+  /// True if the calculated distances from pixel 0, of which these are the extremes, are exact.
   HWY_INLINE Mask fit(Doubles least, Doubles most) const {
     return hn::Le(hn::Max(hn::Abs(most), hn::Abs(least)), largest);
   }

@@ -34,7 +34,7 @@ DepthInPairs::DepthInPairs(const PixelGrid& grid, const Triangle& p_ndc)
 }
 
 std::optional<SpanDepth> DepthInPairs::along(int row, int first_column, int last_column) const {
-  // Of the middle of the span, in pixels: from the middle of the window.
+  // The middle of the span, in pixels from the middle of the window.
   const double columns = first_column + last_column + 1 - columns_, rows = rows_ - 2 * row - 1;
   const DoubleDouble x = two_product(half_width_, columns) / DoubleDouble{static_cast<double>(columns_)};
   const DoubleDouble y = two_product(half_height_, rows) / DoubleDouble{static_cast<double>(rows_)};

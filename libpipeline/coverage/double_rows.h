@@ -27,7 +27,7 @@ HWY_INLINE FirstPixels first_pixel(Doubles whole, Doubles rest, Doubles doubt, D
 struct DoubleEdges {
   /// The first pixel at or after the edge on its row.
   HWY_INLINE FirstPixels cross(Doubles rows, Doubles column_count) const {
-    // u is off by u 2^-53 at most, and the product by seven times that of itself.
+    // u is off by u 2^-53 at most, and the product by 7 * 2^-53 of itself.
     const Doubles shift = ((rows - v.hi) - v.lo) * slope, crossing = u + shift;
     const Doubles whole = hn::Round(crossing);
     return first_pixel(whole, crossing - whole, doubt + all(0x1p-50) * hn::Abs(shift), column_count);

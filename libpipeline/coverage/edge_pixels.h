@@ -20,7 +20,7 @@ struct EdgePixel {
 /// columns. The depth is that of the edge in the middle of the column or row. Which pixels they are is
 /// decided exactly, for any finite coordinates; the edge's two triangles get the same, with the same depths.
 ///
-/// On a grid of samples the line is as wide as a pixel, `samples_per_pixel`. `rows` are those of the screen
+/// On a grid of samples the line is as wide as a pixel, `samples_per_pixel`. `rows` are the screen's
 /// that are drawn.
 void add_edge_pixels(const ExactGrid& grid, const ExactTriangle& triangle,
                      const std::array<bool, 3>& is_drawn, int samples_per_pixel, const RowRange& rows,

@@ -30,7 +30,7 @@ using HugeInt = FixedInt<92>;
 /// set, below 10^22, is the decimal with at most 7 digits after the point that is nearest to the double plus
 /// the low part; any other is exactly its double.
 struct ExactTriangle {
-  /// Whether all of x and y are decimals.
+  /// True if all of x and y are decimals.
   [[nodiscard]] bool is_decimal() const {
     constexpr unsigned kMarksOfXAndY = 0b011'011'011;
     return (decimal_marks & kMarksOfXAndY) == kMarksOfXAndY;

@@ -60,12 +60,12 @@ struct Plane {
   double area;   // twice the signed area of the triangle in x and y
   double terms;  // the sum of the absolute values of the two terms of `area`
 
-  /// Whether no product is so near to the ends of a double's range that it may have lost digits.
+  /// True if no product is so near to the ends of a double's range that it may have lost digits.
   [[nodiscard]] bool is_in_range() const {
     return terms > 0x1p-900 && terms < 0x1p900 && std::isfinite(rise);
   }
   [[nodiscard]] bool is_seen_edge_on() const { return std::fabs(area) <= NearestRows::kAreaError * terms; }
-  /// Whether depths are to be calculated in pairs; `size` is the sum of the vertices' |z|.
+  /// True if depths are to be calculated in pairs; `size` is the sum of the vertices' |z|.
   [[nodiscard]] bool needs_pairs(const PixelGrid& grid, double size) const {
     const double rise_in_y = b.x * c.z - c.x * b.z;
     const double reach_in_x = grid.half_width + (std::fabs(b.x) + std::fabs(c.x));

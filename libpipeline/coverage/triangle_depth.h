@@ -65,8 +65,8 @@ class TriangleDepth {
   double half_slope_ = 0;    // per half column
   double unit_ = 0;          // depths are whole multiples of this:
   Int128 a_sum_ = 0;         // twice the total weight times the depth of a
-  std::int64_t b_rise_ = 0;  // from the depth of a to that of b
-  std::int64_t c_rise_ = 0;  // and to that of c
+  std::int64_t b_rise_ = 0;  // from the depth of a to the depth of b
+  std::int64_t c_rise_ = 0;  // and to the depth of c
 };
 
 template <typename Int>

@@ -8,7 +8,7 @@
 namespace pipeline {
 
 /// The kinds of processors that kernels are compiled for. Each can also run the kernels of earlier kinds of
-/// its family. `simd128` is that of WebAssembly.
+/// its family. `simd128` is WebAssembly's.
 inline constexpr std::array<std::string_view, 6> kTargets = {"scalar", "neon", "simd128",
                                                              "sse4",   "avx2", "avx512"};
 
@@ -23,7 +23,7 @@ using KernelTable = std::array<Function, kTargets.size()>;
         HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function)  \
   }
 
-/// Whether this processor, of the family compiled for, can run a target's kernels.
+/// True if this processor, of the family compiled for, can run a target's kernels.
 inline bool can_run(std::size_t target) {
 #if defined(__x86_64__) && defined(__GNUC__)
   if (target > 2 && !__builtin_cpu_supports("sse4.2")) return false;

@@ -28,7 +28,7 @@
 // Its assertions, in builds without optimization or with sanitizers, would call a library that is not linked.
 #define HWY_IS_DEBUG_BUILD 0
 
-// Of a function that is copied to many callers. With sanitizers, whose checks make each copy many times as
+// For a function that is copied to many callers. With sanitizers, whose checks make each copy many times as
 // long, builds leave the choice to the compiler.
 #ifndef PIPELINE_INLINE
 #define PIPELINE_INLINE HWY_INLINE

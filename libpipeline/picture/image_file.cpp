@@ -68,7 +68,7 @@ std::string prefix_of(const std::string& path) {
   return is_it(kPng) || std::ranges::any_of(kFormats, is_it) ? extension : std::string();
 }
 
-/// Of the format, as a prefix or at the end.
+/// The name of the format, as a prefix or at the end.
 std::string format_extension_of(const std::string& path) {
   const std::string prefix = prefix_of(path);
   if (!prefix.empty()) return prefix;

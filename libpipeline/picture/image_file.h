@@ -41,7 +41,7 @@ std::string image_file_of(const std::string& path);
 void check_image_name(const std::string& path);
 void check_image_size(const std::string& path, int columns, int rows);
 
-/// Whether an image of that name can hold the alpha of its pixels: PNG only.
+/// True if an image of that name can hold the alpha of its pixels: PNG only.
 bool can_hold_alpha(const std::string& path);
 
 /// The writer of an image, whose format `path` chooses. With alpha only where can_hold_alpha(path); it is

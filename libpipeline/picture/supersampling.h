@@ -33,7 +33,7 @@ class ColorMean {
     blue_ += color.blue();
     ++opaque_count_;
   }
-  /// Of at least one color.
+  /// The mean of at least one color.
   [[nodiscard]] Color mean() const {
     if (background_count_ > 0) return translucent_mean();
     return {quotient(red_, opaque_count_), quotient(green_, opaque_count_), quotient(blue_, opaque_count_)};

@@ -10,7 +10,7 @@
 namespace pipeline {
 namespace {
 
-// Of the surfaces ready to be shaded, 150 KiB.
+// Surfaces ready to be shaded: 150 KiB.
 constexpr std::size_t kMaxCached = 512;
 
 SurfacePoint middle(const std::array<SurfacePoint, 3>& p) {

@@ -25,7 +25,7 @@ struct ShownColors {
   void add_pixel(Color color, Color background);
   void add(const ShownColors& others);
 
-  /// Whether some pixel differs from the background, by more than one step in a channel.
+  /// True if some pixel differs from the background, by more than one step in a channel.
   bool show_something = false;
   /// The largest channel of all colors that triangles carry, or some channel above 1; none if they carry
   /// none.

@@ -9,7 +9,7 @@
 namespace pipeline {
 namespace {
 
-/// Whether the text of `value` is a decimal in exact arithmetic; `low_part` is what the double lacks of it.
+/// True if the text of `value` is a decimal in exact arithmetic; `low_part` is what the double lacks of it.
 bool is_decimal(double value, double& low_part) {
   // In this range the shortest form has no exponent, and is n / 10^7 where one is the double
   // (print_shortest).

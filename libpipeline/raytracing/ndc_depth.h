@@ -21,7 +21,7 @@ class NdcDepth {
     b_ = 2 / (projection.far - projection.near);
   }
 
-  /// Of a point at `distance`, within 2^-50 of the sum of the sizes of its two parts.
+  /// The depth of a point at `distance`, within 2^-50 of the sum of the sizes of its two parts.
   [[nodiscard]] double at(double distance) const {
     return is_perspective_ ? a_ - b_ / distance : a_ + b_ * distance;
   }

@@ -17,7 +17,7 @@ double first_distance(const PixelRays& rays) {
 
 std::vector<Bvh::Primitive> boxes_of(const TracedTriangles& triangles, const PixelRays& rays,
                                      RaysOfBoxes of) {
-  // Of the numbers that are rounded, a bound on the largest, for one triangle.
+  // A bound on the largest of the rounded numbers, for one triangle.
   const auto most = [&](const BoundingBox& box) {
     const auto largest = [&](double Vec3::*axis) {
       return std::max(std::fabs(box.low.*axis), std::fabs(box.high.*axis));
@@ -67,7 +67,7 @@ std::optional<RayCaster::Seen> RayCaster::triangle_at(TracedTriangles::Id id, in
   return is_between_limits(depth) ? std::optional(Seen{id, depth}) : std::nullopt;
 }
 
-/// Whether the pixel's center lies in the box around the triangle, or within a pixel of it: a quick test.
+/// True if the pixel's center lies in the box around the triangle, or within a pixel of it: a quick test.
 bool RayCaster::may_cover(TracedTriangles::Id id, int row, int column) const {
   const auto& [low, high] = BoundingBox(triangles_.p_ndc().triangles[id]);
   const double x = pixels_.x_of(column), y = pixels_.y_of(row);

@@ -15,10 +15,10 @@ enum class RayKind { primary, shadow, mirrored, refracted };
 /// A ray that takes part in the color of a pixel.
 struct LoggedRay {
   RayKind kind;
-  int depth;            // 0 of a primary ray, and otherwise 1 more than that of the ray it comes from
-  double weight;        // the largest part that it can have of the pixel's color
-  Vec3 origin;          // in view space
-  bool is_cut = false;  // not cast
+  int depth;                                 // 0 for a primary ray, else 1 more than the parent ray
+  double weight;                             // the largest part that it can have of the pixel's color
+  Vec3 origin;                               // in view space
+  bool is_cut = false;                       // not cast
   std::optional<std::uint64_t> object = {};  // the number of what it meets; none if it meets nothing
   std::optional<std::size_t> light = {};     // the number of the light that a shadow ray goes to
   Vec3 point = {};                           // where it meets that
@@ -44,7 +44,7 @@ struct ShownLight {
   bool has_facing_light = false;
   bool has_arriving_light = false;  // some part of a light that faces a surface
   bool is_cut = false;              // a ray
-  /// Of the surfaces whose own color counts; none if mirrors and glass alone are seen.
+  /// The greatest channel of surfaces whose own color counts; none if mirrors and glass alone are seen.
   std::optional<double> greatest_channel;
 
   void add(const ShownLight& other) {

@@ -21,7 +21,7 @@ inline double fresnel_reflectance(double ratio, double cosine) {
   return (across * across + along * along) / 2;
 }
 
-/// Of a ray in `direction` that meets a surface with `normal` on its side, both of length 1.
+/// The mirror image of a ray in `direction` that meets a surface with `normal` on its side, both of length 1.
 inline Vec3 mirrored(const Vec3& direction, const Vec3& normal) {
   return sum(direction, scaled(normal, -2 * dot(direction, normal)));
 }

@@ -18,7 +18,7 @@ enum class Sampling {
   adaptive   // as jittered, first through five cells; through the others only where those differ
 };
 
-/// Whether samples are at random points of their cells.
+/// True if samples are at random points of their cells.
 constexpr bool is_random(Sampling sampling) {
   return sampling == Sampling::jittered || sampling == Sampling::adaptive;
 }

@@ -45,7 +45,7 @@ class TracedTriangles {
   [[nodiscard]] std::uint64_t number(Id id) const { return is_sphere(id) ? sphere(id).number : numbers_[id]; }
   /// The images of the triangles: their indices are the ids. They have no numbers and no places.
   [[nodiscard]] const TriangleBatch& p_ndc() const { return p_ndc_; }
-  /// Whether this is the entry that represents the uncut triangle.
+  /// True if this is the entry that represents the uncut triangle.
   [[nodiscard]] bool is_first(Id id) const { return are_first_[id]; }
   [[nodiscard]] std::uint32_t material(Id id) const {
     if (is_sphere(id)) return sphere(id).material;

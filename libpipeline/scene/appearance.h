@@ -33,7 +33,7 @@ struct Material {
   Vec3 absorption = {};            // inside, per unit length of view space: red, green, blue, each at least 0
   std::optional<Vec3> paint = {};  // the color of triangles without one, red, green, blue from 0 to 255
 
-  /// Whether rays go on from the surface.
+  /// True if rays go on from the surface.
   [[nodiscard]] bool sends_rays() const { return reflectance != 0 || alpha != 1; }
 };
 
@@ -64,7 +64,7 @@ struct Appearance {
 
   /// The columns of the vertex lines besides x y z.
   [[nodiscard]] AttributeSet columns() const { return attributes ? attributes->value : AttributeSet{}; }
-  /// Whether triangles have the colors of their materials: one has a paint, and there is no column.
+  /// True if triangles have the colors of their materials: one has a paint, and there is no column.
   [[nodiscard]] bool is_painted() const {
     return !columns().color && std::ranges::any_of(materials, [](const auto& material) {
       return material.value.paint.has_value();

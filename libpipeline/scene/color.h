@@ -27,7 +27,7 @@ class Color {
     return from_rgb((rgb_ & 0xffffff) | std::uint32_t{255u - alpha} << 24);
   }
 
-  /// All bytes; of an opaque color only those of its channels.
+  /// All bytes; of an opaque color only its channels.
   [[nodiscard]] constexpr std::uint32_t rgb() const { return rgb_; }
   [[nodiscard]] constexpr std::uint8_t red() const { return static_cast<std::uint8_t>(rgb_ >> 16); }
   [[nodiscard]] constexpr std::uint8_t green() const { return static_cast<std::uint8_t>(rgb_ >> 8); }

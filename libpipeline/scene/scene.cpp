@@ -90,7 +90,7 @@ Command SceneReader::next() {
   line_.word();
   if (argument_lines == 0)
     line_.expect_end(quoted(word));
-  else if (argument_lines == 1)  // those of a triangle have names of their own
+  else if (argument_lines == 1)  // a triangle's lines have names of their own
     arguments.empty() ? next_argument_line("the arguments of ", word) : next_argument_line(arguments);
   switch (kind) {
     case CommandKind::object:

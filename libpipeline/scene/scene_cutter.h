@@ -24,7 +24,7 @@ class SceneCutter {
   /// Reads as far as the first triangle.
   explicit SceneCutter(TextReader& text);
 
-  /// Whether a triangle comes next; otherwise the scene is read to its end.
+  /// True if a triangle comes next; otherwise the scene is read to its end.
   [[nodiscard]] bool has_triangle() const { return has_triangle_; }
   /// The number of the next triangle.
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
@@ -39,7 +39,7 @@ class SceneCutter {
   struct Commands {
     std::uint64_t push_count = 0;
     std::string text{};
-    std::size_t in_preamble = 0;  // so many characters of `text`
+    std::size_t in_preamble = 0;  // how much of `text` belongs to the preamble
   };
   static void add_push(std::vector<Commands>& commands);
 
@@ -53,7 +53,7 @@ class SceneCutter {
 
   TextReader& text_;
   LineScanner line_;
-  bool line_is_pending_ = false;  // line_ is that of a triangle which is not copied yet
+  bool line_is_pending_ = false;  // line_ belongs to a triangle that is not copied yet
   bool has_triangle_ = false;
   bool is_in_preamble_ = true;
   bool has_color_ = false;

@@ -81,7 +81,7 @@ void VertexLineReader::read_material(LineScanner& line, std::size_t vertex, cons
     at_material.fail("the material of the triangle's first vertex, " + std::to_string(triangle.material));
 }
 
-/// Whether the values of the triangles from `begin` on are in range. In a scene, a normal may not be 0.
+/// True if the values of the triangles from `begin` on are in range. In a scene, a normal may not be 0.
 bool VertexLineReader::are_in_range(const AttributeArrays& attributes, std::size_t begin,
                                     TriangleFrame frame) const {
   bool all_are = true;  // without a jump per number

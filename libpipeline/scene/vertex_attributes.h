@@ -21,7 +21,7 @@ std::string attributes_line(const AttributeSet& attributes);
 /// The names of all columns: "x y z", then the attributes'.
 std::string column_names(const AttributeSet& attributes);
 
-/// Whether the column w must be above 0, as after the divide, or may be any number, as in clip space.
+/// True if the column w must be above 0, as after the divide, or may be any number, as in clip space.
 enum class RangeOfW { above_zero, any };
 
 /// Reads vertex lines with certain attributes. Errors name the expected columns.
@@ -32,7 +32,7 @@ class VertexLineReader {
                             std::size_t material_count = 1);
 
   [[nodiscard]] const AttributeSet& attributes() const { return attributes_; }
-  /// Reads the line of vertex `vertex` (0 to 2) to its end; that of vertex 0 comes first. An InputError if a
+  /// Reads the line of vertex `vertex` (0 to 2) to its end; vertex 0 comes first. An InputError if a
   /// column is missing or left over, w is out of its range, a color channel is not from 0 to 255, or the
   /// material is not the number of one, or not that of vertex 0.
   void read(LineScanner& line, std::size_t vertex, TriangleLines& triangle) const {

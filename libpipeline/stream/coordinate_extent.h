@@ -32,7 +32,7 @@ class CoordinateExtent {
       add(sphere.points);
     }
   }
-  /// Of x, y and z; none where there is no vertex.
+  /// The ranges of x, y and z; none where there is no vertex.
   [[nodiscard]] const std::array<std::optional<Range>, 3>& ranges() const { return ranges_; }
 
  private:

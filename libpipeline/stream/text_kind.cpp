@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// A scene's camera takes four lines, and a header tells its kind within as many.
+// A scene's camera takes four lines, and a header shows its kind within as many.
 constexpr std::size_t kLinesLookedAt = 4;
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
@@ -123,7 +123,7 @@ std::string described(TextKind found, TextKind expected) {
   return kFound[static_cast<std::size_t>(found)];
 }
 
-/// True if a text of the kind `found` cannot be one of the kind `expected`. Stage texts are told apart by
+/// True if a text of the kind `found` cannot be one of the kind `expected`. Stage texts are distinguished by
 /// their whole header, later.
 bool excludes(TextKind found, TextKind expected) {
   if (found == expected || found == TextKind::unknown) return false;

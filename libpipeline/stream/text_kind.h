@@ -8,7 +8,7 @@
 namespace pipeline {
 
 // A text in the wrong place is refused by its name: a scene given to view, or the output of model given to
-// project. Texts without a header, which any stage may have written, are taken as they read.
+// project. Texts without a header, which any stage may have written, are accepted as is.
 
 /// The texts that tools read, in the order of the pipe, and texts that none of them reads.
 enum class TextKind {

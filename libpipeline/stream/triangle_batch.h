@@ -60,7 +60,7 @@ class TriangleTexts {
   }
 
  private:
-  /// Of the first `count` triangles.
+  /// The end of the lines of the first `count` triangles.
   [[nodiscard]] std::size_t end_of(std::size_t count) const { return count == 0 ? 0 : ends_[count - 1]; }
 
   std::string lines_;

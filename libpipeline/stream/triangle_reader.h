@@ -49,7 +49,7 @@ class TriangleReader {
   bool keeps_text_ = false;
   std::uint64_t next_number_ = 0;
   int miss_count_ = 0;  // of the fast path, in a row
-  int pause_ = 0;       // so many triangles are left to the general path
+  int pause_ = 0;       // triangles to read by the general path before trying the fast one
 };
 
 /// The error of a reader that has no use for a sphere.

@@ -19,7 +19,7 @@ enum class UnseenPlace {
   above,
   without_area,     // as seen from the eye
   between_centers,  // it covers no pixel
-  elsewhere         // no ray meets it, and none of the others is all that is to be told
+  elsewhere         // no ray meets it, and no other place describes it
 };
 
 /// Triangles or spheres by their place, with their extents.

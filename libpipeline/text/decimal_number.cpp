@@ -87,12 +87,12 @@ int read_digits(const char* p, std::uint64_t& number) {
   return static_cast<int>(count);
 }
 
-/// Continues after eight decimals; null if there are too many digits. `digit_count` is that of `digits`.
+/// Continues after eight decimals; null if there are too many digits. `digit_count` counts `digits`.
 const char* read_more_decimals(const char* p, std::uint64_t& digits, int digit_count, int& decimals) {
   // Nearly all have at most nine more, and at most 19 digits, which fit in 64 bits.
   std::uint64_t next = 0;
   const int next_count = read_digits(p, next);
-  // Without a jump: whether there is a ninth is unpredictable.
+  // Branch-free: a ninth digit is unpredictable.
   const auto ninth = static_cast<unsigned>(p[next_count]) - '0';
   const bool has_ninth = ninth <= 9;
   if (digit_count + next_count < 19 && !(has_ninth && is_digit(p[9]))) {

@@ -10,7 +10,7 @@
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/vertex_lines.h"
 
-// Of more than four lanes, nine numbers would leave most empty.
+// With more than four lanes, nine numbers would leave most empty.
 #define PIPELINE_MAX_LANES 4
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/text/fixed_printing.cpp"
@@ -101,7 +101,7 @@ PIPELINE_INLINE Doubles units_of(Doubles sizes, Doubles scale, Mask& good) {
   auto units = (scaled + rounder) - rounder;
   const auto offset = scaled - units;
   if constexpr (rounding == Rounding::exactly) {
-    // If the product is a tie, it may have been rounded to one; the rounding error tells which side it came
+    // If the product is a tie, it may have been rounded to one; the rounding error shows which side it came
     // from.
     const auto lost = hn::MulSub(sizes, scale, scaled);
     const auto is_tie = hn::Eq(hn::Abs(offset), all(0.5));
@@ -170,7 +170,7 @@ class Texts {
     store(2 * step, digits_of(hn::InterleaveLower(kWords, first, last)));
     store(2 * step + 1, digits_of(hn::InterleaveUpper(kWords, first, last)));
   }
-  /// Of whole numbers from 0 to 2^52.
+  /// For whole numbers from 0 to 2^52.
   PIPELINE_INLINE static Words word_of(Doubles whole) {
     const auto shift = all(0x1p52);
     return hn::Xor(hn::BitCast(kWords, whole + shift), hn::BitCast(kWords, shift));

@@ -202,7 +202,7 @@ class ColumnReader {
   const FixedColumns& columns_;
   const bool has_w_, has_material_;
   LastRead last_;
-  /// Whether the numbers of each group have one digit before the point. Where the last ones had, a branch
+  /// True if the numbers of each group have one digit before the point. Where the last ones had, a branch
   /// lets the processor go ahead to the next number, whose beginning would otherwise depend on this one;
   /// otherwise the branch is mispredicted often.
   std::array<bool, group_count> have_one_digit_;

@@ -65,7 +65,7 @@ static_assert(attribute_count<double>(kAttributes) == 1);
 
 /// The numbers on vertex lines, by column: groups of three numbers in fixed form (the position first), w in
 /// any form after the position, and last the material, a whole number that the lines of a triangle share. All
-/// arrays have an entry per triangle; those of columns that are not there are empty.
+/// arrays have an entry per triangle; the arrays of missing columns are empty.
 template <typename Numbers, typename OneNumber, typename Whole>
 struct FixedColumnsOf {
   std::array<std::span<Numbers>, kMaxGroups> groups;
@@ -82,7 +82,7 @@ struct FixedColumnsOf {
   [[nodiscard]] char separator_after(std::size_t group) const {
     return group + 1 == group_count() && materials.empty() ? '\n' : ' ';
   }
-  /// Whether there are groups alone.
+  /// True if there are groups alone.
   [[nodiscard]] bool has_groups_alone() const { return w.empty() && materials.empty(); }
   /// Which of the kernels' loops has these columns, by groups and whether there are others.
   [[nodiscard]] std::size_t form() const { return 2 * (group_count() - 1) + (has_groups_alone() ? 0 : 1); }

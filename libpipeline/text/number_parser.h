@@ -14,7 +14,7 @@ struct ParsedNumber {
   NumberError error = NumberError::none;
 };
 
-/// Whether a word begins like a number; whether it is one shows when it is parsed.
+/// True if a word begins like a number; whether it is one shows when it is parsed.
 inline bool begins_like_number(std::string_view word) {
   return word.find_first_of("+-.0123456789") == 0;
 }

@@ -135,9 +135,9 @@ char* print_shortest_float(char* out, float value) {
   if (size >= 0x1p-9 && size < 0x1p12) {
     const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52;
     const double half_gap = std::bit_cast<double>(exponent << 52) * 0x1p-24;
-    // Decimals with so many digits after the point are farther apart than floats: at most one is near enough,
-    // and no shorter one. With two digits more they are closer. The products are exact, and no decimal lies
-    // on the border.
+    // Decimals with that many digits after the point are farther apart than floats: at most one is near
+    // enough, and no shorter one. With two digits more they are closer. The products are exact, and no
+    // decimal lies on the border.
     const std::size_t fewest = 9 - (exponent - 1023 + 9) / 3;
     for (std::size_t decimals = fewest; decimals <= fewest + 2; ++decimals) {
       const double scale = kPowersOfTen[decimals], units = nearest_whole(size * scale);

@@ -23,7 +23,7 @@ struct FilePlace {
 /// symbolic links form a circle, and for a descriptor that is not open: it might be another file's later.
 std::optional<FilePlace> place_of(const std::string& path);
 
-/// Whether an OutputFile `path` is a new file or replaces a regular one, complete or not at all.
+/// True if an OutputFile `path` is a new file or replaces a regular one, complete or not at all.
 bool is_replaced(const std::string& path);
 
 /// Notes a path that this process is about to make and that must not be left if it fails or is ended by a

@@ -14,7 +14,7 @@
 
 namespace pipeline {
 
-// What the fast paths for vertex lines share (fixed_reading.cpp, fixed_printing.cpp, column_codec.cpp).
+// Shared by the fast paths for vertex lines (fixed_reading.cpp, fixed_printing.cpp, column_codec.cpp).
 
 /// The beginning of the vertex lines; null if the line before them is missing.
 inline const char* vertex_lines(const char* p, TriangleFrame frame) {
@@ -37,7 +37,7 @@ constexpr int kMaxMissesInARow = 2;
 /// Three numbers that were read, and their text up to the separator after them.
 class LastRead {
  public:
-  /// Whether the same text stands at `p`; false where colors do not repeat.
+  /// True if the same text stands at `p`; false where colors do not repeat.
   [[nodiscard]] bool is_at(const char* p) {
     if (miss_count_ == kMaxMissesInARow) return false;
     // Texts that differ mostly do so in their first eight characters.
@@ -65,11 +65,11 @@ class LastRead {
 /// Three numbers that were printed, and their text with a blank after each.
 class LastPrinted {
  public:
-  /// Whether these are the same numbers; false where colors do not repeat.
+  /// True if these are the same numbers; false where colors do not repeat.
   [[nodiscard]] bool is_of(const Vec3& three) {
     return miss_count_ < kMaxMissesInARow && counted(length_ > 0 && three == numbers_);
   }
-  /// Whether all vertices of the triangle have them.
+  /// True if all vertices of the triangle have them.
   [[nodiscard]] bool is_of(const Triangle& triangle) {
     const auto& [a, b, c] = triangle;
     return miss_count_ < kMaxMissesInARow && counted(length_ > 0 && a == numbers_ && b == a && c == a);

@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-constexpr int kMaxExactDecimals = 1074;  // those of 2^-1074
+constexpr int kMaxExactDecimals = 1074;  // 2^-1074 has this many
 
 /// Enough decimals to write a number exactly: its last bit is worth 2^(ilogb - 52) or more, and 2^-n has n
 /// decimals.

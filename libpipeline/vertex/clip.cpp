@@ -30,7 +30,7 @@ std::size_t axis_of(ClipPlane plane) {
   return index_of(plane) / 2;
 }
 
-/// Whether a plane bounds its axis below.
+/// True if a plane bounds its axis below.
 bool is_low(ClipPlane plane) {
   return index_of(plane) % 2 == 0;
 }

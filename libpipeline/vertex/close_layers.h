@@ -26,7 +26,7 @@ class CloseLayers {
 
   /// Adds triangles in NDC, before they are rounded.
   void add(const TriangleBatch& p_ndc);
-  /// What was found; none where it is less than a hundredth of what shows.
+  /// The layers found; none if they are less than a hundredth of the visible part.
   [[nodiscard]] std::optional<Found> found() const;
 
  private:
@@ -34,7 +34,7 @@ class CloseLayers {
   static constexpr std::size_t kMostLooks = std::size_t{1}
                                             << 22;  // no more than a second, whatever the scene
 
-  /// What is nearest at a place.
+  /// The nearest surface at a place.
   struct Place {
     double z = 2;  // nothing
     double error = 0;

@@ -11,7 +11,7 @@
 namespace pipeline {
 namespace {
 
-/// How many decimals a number was written with, as far as its double tells; 10 for more.
+/// How many decimals a number was written with, as far as its double shows; 10 for more.
 int decimal_count(double value) {
   double scaled = std::fabs(value);
   for (int count = 0; count < 10; ++count, scaled *= 10)

@@ -23,10 +23,10 @@ class OddTransforms {
     --saved_count_;
     last_transform_ = {};
   }
-  /// What the transforms before it are for.
+  /// An object, which is the purpose of the transforms before it.
   void add_object() { last_transform_ = {}; }
 
-  /// At the scene's end; `has_objects` tells whether it has any.
+  /// The notes at the scene's end; `has_objects` is true if it has any object.
   [[nodiscard]] std::vector<std::string> notes(const std::string& file, bool has_objects) const;
 
  private:

@@ -156,7 +156,7 @@ void ProjectionStage::project_or_clip(const TriangleBatch& p_view, std::size_t i
   drop_outside(p_view, index, p_ndc);
 }
 
-/// Whether clipping might leave something of a triangle whose vertices are within the bounds of these.
+/// True if clipping might leave something of a triangle whose vertices are within the bounds of these.
 bool ProjectionStage::may_be_inside(const Triangle& p_view) const {
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
   for (const Vec3& p : p_view) {
@@ -198,7 +198,7 @@ void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t in
   names.w = true;
   for (std::size_t v = 0; v < 3; ++v) lines.vertices[v].w = mixes[v].w;
   for_each_attribute([&](const auto& attribute) {
-    const auto& array = corners.*attribute.array;  // that of w is empty
+    const auto& array = corners.*attribute.array;  // the one of w is empty
     for (std::size_t v = 0; v < 3 && !array.empty(); ++v) {
       auto& value = lines.vertices[v].*attribute.value = mean(array[index], mixes[v].weights);
       // Rounded weights may push a value at a limit beyond it.

@@ -68,7 +68,7 @@ class ProjectionStage {
   }
 
   [[nodiscard]] const ProjectionCounts& counts() const { return counts_; }
-  /// Whether the triangle's winding is one that the stage drops.
+  /// True if the triangle's winding is one that the stage drops.
   [[nodiscard]] bool culls(const Triangle& p_view) const {
     return cull_ != CullMode::nothing && is_culled(p_view);
   }
@@ -86,7 +86,7 @@ class ProjectionStage {
 
   [[nodiscard]] double w_of(const Vec3& p_view) const { return projection_.is_perspective ? -p_view.z : 1; }
   [[nodiscard]] bool is_culled(const Triangle& p_view) const;
-  /// Whether the clip mode looks at every triangle.
+  /// True if the clip mode looks at every triangle.
   [[nodiscard]] bool clips_all() const { return clip_ != ClipMode::automatic && clip_ != ClipMode::none; }
   [[nodiscard]] bool may_clip(const Triangle& p_view) const {
     if (clip_ != ClipMode::automatic) return clip_ != ClipMode::none;
@@ -94,7 +94,7 @@ class ProjectionStage {
     const auto is_near = [&](const Vec3& p) { return -p.z * 1024 < projection_.near; };
     return projection_.is_perspective && (is_near(p_view[0]) || is_near(p_view[1]) || is_near(p_view[2]));
   }
-  /// What clipping does to a triangle, as far as doubles can tell.
+  /// The effect of clipping on a triangle, as far as doubles decide it.
   [[nodiscard]] Fate fate_of(const CertainSides& sides) const;
   /// The planes that drop triangles: bit i for kAllClipPlanes[i].
   [[nodiscard]] unsigned planes() const {

@@ -30,7 +30,7 @@ class SphereFacets {
   [[nodiscard]] Vec3 normal(std::size_t belt, std::size_t meridian) const;
 
   std::size_t belts_;
-  // Of multiples of 180 degrees / belts_, up to 360.
+  // For multiples of 180 degrees / belts_, up to 360.
   std::vector<double> sines_, cosines_;
 };
 

@@ -49,7 +49,7 @@ struct ProjectionTransform {
   Ball y_scale, y_offset;
   double near = 0;
   double far = 0;
-  /// Of x and y; none where a tangent is no double.
+  /// The sides in x and y; none where a tangent is no double.
   std::array<std::optional<VolumeSides>, 2> sides = {};
 };
 

@@ -26,7 +26,7 @@ class VertexTransform {
   void apply(TriangleBatch& batch, CoordinateRounder& rounder) const {
     apply(batch, 0, batch.object_count(), rounder);
   }
-  /// Whether the image of a triangle has no area, as far as 31 digits can tell.
+  /// True if the image of a triangle has no area, as far as 31 digits can tell.
   [[nodiscard]] bool flattens(const Triangle& triangle) const;
   /// The sign of the determinant: -1 if space is mirrored, 0 if it is flattened, as far as 31 digits can
   /// tell.

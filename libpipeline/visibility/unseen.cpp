@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Whether the area of a triangle in x and y is more than the rounding of its coordinates to doubles, and of
+/// True if the area of a triangle in x and y is more than the rounding of its coordinates to doubles, and of
 /// the calculation here, can make it.
 bool has_area(const Triangle& p) {
   const auto& [a, b, c] = p;

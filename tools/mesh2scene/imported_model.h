@@ -82,7 +82,7 @@ class ImportedModel {
 
   /// The file's, for messages.
   [[nodiscard]] std::string name() const;
-  /// Whether a mesh holds triangles.
+  /// True if a mesh holds triangles.
   [[nodiscard]] static bool is_drawn(const aiMesh& mesh);
   [[nodiscard]] const aiScene& scene() const { return *scene_; }
   /// Every mesh, as often as a node shows it, in the order of the nodes from the root on.

@@ -142,7 +142,7 @@ ViewChoice view_of(const Options& chosen, const std::string& extension) {
   return view;
 }
 
-/// Whether an option asks for the framing camera, where a file has a camera of its own.
+/// True if an option asks for the framing camera, where a file has a camera of its own.
 bool chooses_view(const CommandLine& options) {
   return std::ranges::any_of(std::array{"--eye-from", "--fov", "--up-axis", "--at", "--zoom"},
                              [&](const char* name) { return options.is_given(name); });

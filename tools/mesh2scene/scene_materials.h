@@ -37,7 +37,7 @@ class SceneMaterials {
   /// The color of a mesh without vertex colors, from 0 to 255.
   [[nodiscard]] Vec3 color_of(const aiMesh& mesh) const;
   [[nodiscard]] bool have_paints() const { return have_paints_; }
-  /// Whether there were more than kMaxCount.
+  /// True if there were more than kMaxCount.
   [[nodiscard]] bool are_too_many() const { return are_too_many_; }
 
  private:

@@ -266,7 +266,7 @@ class SceneWriter {
     return is_direction(n) ? n : setting_.camera.up;
   }
 
-  /// Whether a scene takes it as a normal.
+  /// True if a scene takes it as a normal.
   static bool is_direction(const Vec3& n) {
     const auto is_0 = [](double value) { return static_cast<float>(value) == 0; };
     return std::isfinite(n.x + n.y + n.z) && !(is_0(n.x) && is_0(n.y) && is_0(n.z));

@@ -12,7 +12,7 @@
 namespace pipeline {
 namespace {
 
-// Of --help, in characters.
+// The widths of --help, in characters.
 constexpr std::size_t kLineWidth = 100;
 constexpr std::size_t kNameWidth = 28;
 

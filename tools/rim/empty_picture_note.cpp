@@ -124,7 +124,7 @@ std::string where_is_sphere(UnseenPlace place, const BoundingBox& extent, const 
 /// Some triangles, and where they are.
 using Group = std::pair<std::uint64_t, std::string>;
 
-/// What is there at some places, which `where` describes.
+/// The triangles at some places, which `where` describes.
 template <typename Where>
 std::vector<Group> groups_of(const UnseenPlaces& unseen, const Where& where) {
   std::vector<Group> groups;

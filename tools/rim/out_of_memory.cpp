@@ -15,7 +15,7 @@ constexpr const char* kMessage = ": not enough memory\n";
 /// Initialized at compile time: it is needed before any constructor has run.
 constinit OutOfMemoryReport current = {nullptr, false};
 
-/// "BEFORE TOOL: not enough memory" in one write, so that it stays one line among those of the other stages.
+/// "BEFORE TOOL: not enough memory" in one write, so that it stays one line among the output of other stages.
 void write_line(int descriptor, const char* before, const char* tool) noexcept {
   char line[128] = {};
   std::strncat(line, before, sizeof line / 4);

@@ -97,7 +97,7 @@ class Tool {
   /// does it.
   void close_output();
   Timing& timing() { return timing_; }
-  /// Whether standard output is no pipe, so that no further stage can report.
+  /// True if standard output is no pipe, so that no further stage can report.
   [[nodiscard]] static bool is_last_stage();
   /// "tool: note: ..." on stderr: a warning; the run continues.
   void note(const std::string& message) const;

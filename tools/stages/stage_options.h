@@ -21,7 +21,8 @@ class NumberOptions {
   [[nodiscard]] NumberFormat format() const;
   /// A rounder for coordinates whose vertices come from `file`.
   [[nodiscard]] CoordinateRounder rounder(const std::string& file) const;
-  /// What rounding adds to bounds; has `rounder` keep them. A UsageError unless the precision is extended.
+  /// The rounding error to add to bounds, which `rounder` will keep. A UsageError unless the precision is
+  /// extended.
   [[nodiscard]] ErrorBound kept_bounds(CoordinateRounder& rounder) const;
 
  private:

@@ -49,7 +49,7 @@ double row_sum(const ViewTransform& view) {
   return std::max({sum(view.right), sum(view.up), sum(view.backward)});
 }
 
-/// Of a text in world space, after the rotation and the rounding.
+/// The bounds of a text in world space, after the rotation and the rounding.
 Bounds bounds_in_view(const Located<Bounds>& world, const ViewTransform& view, const ErrorBound& rounding) {
   const ErrorBound error = error_in_view(world.value.error, view.eye, row_sum(view), rounding);
   if (!std::isfinite(error.absolute) || !std::isfinite(error.relative))

@@ -54,7 +54,7 @@ LightTransportSetup light_transport_setup(const TraceOptions& chosen, const Trac
           .max_depth = chosen.max_depth};
 }
 
-/// Whether colors need rays beyond primary ones: a shadow may fall, or a material mirrors or is clear.
+/// True if colors need rays beyond primary ones: a shadow may fall, or a material mirrors or is clear.
 bool needs_light_transport(const LightTransportSetup& setup) {
   const bool has_lights = setup.model != ShadingModel::none && !setup.lighting.lights.empty();
   return (has_lights && setup.has_shadows) ||

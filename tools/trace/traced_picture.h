@@ -29,7 +29,7 @@ struct PictureRays {
   bool counts_covered = false;
 };
 
-/// What the pixels of a screen show, row after row.
+/// The triangles, depths and colors of a screen, row after row.
 struct TracedPicture {
   /// The picture of nothing.
   TracedPicture(const PictureRays& rays, Color background);
@@ -40,7 +40,7 @@ struct TracedPicture {
   }
 
   Viewport screen;
-  // Empty if they are not requested; depths and triangles are those of the pixels' centers.
+  // Empty if they are not requested; depths and triangles belong to the pixels' centers.
   std::vector<Color> colors;
   std::vector<double> depths;
   std::vector<std::int64_t> triangles;  // their numbers, -1 for none

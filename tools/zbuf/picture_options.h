@@ -22,7 +22,7 @@ struct PictureOptions {
   PictureOptions& operator=(const PictureOptions&) = delete;
 
   std::string config_path;
-  std::string size;                     // "WIDTHxHEIGHT"; empty: that of the config
+  std::string size;                     // "WIDTHxHEIGHT"; empty: the config's
   std::string image_path;               // "-": standard output; empty: as `complete` chooses, and then none
   std::string z_buffer_path;            // "-": standard output; "none": nowhere; empty: as `complete` chooses
   std::string depth_image_path;         // empty: none
@@ -31,7 +31,7 @@ struct PictureOptions {
   int sample_count = 1;                 // along each side of a pixel, for the image alone
   int thread_count = 0;                 // 0: as threads_for() chooses
   std::optional<ShadingModel> shading;  // none: as the text's header implies
-  std::string background;               // "RRGGBB[AA]"; empty: that of the text
+  std::string background;               // "RRGGBB[AA]"; empty: the text's
   std::vector<std::string> probes;      // "COLUMN,ROW" each
   bool framed = false;                  // the input has to be
   bool summarizes = false;              // on stderr, as the depths are not shown on the terminal
@@ -46,7 +46,7 @@ struct PictureOptions {
   /// How many threads work: --threads or else one for each 2 million samples that are drawn, up to one on
   /// every core; `samples` of them, or what takes as long.
   [[nodiscard]] int threads_for(std::size_t samples) const;
-  /// Whether an image is written, once the options are complete.
+  /// True if an image is written, once the options are complete.
   [[nodiscard]] bool has_image() const { return !image_path.empty(); }
 
  private:

@@ -65,7 +65,7 @@ class PictureOutputs {
   std::unique_ptr<ImageWriter> image_;
   std::optional<Downsampler> means_;
   std::deque<TextWriter> text_files_;
-  std::vector<TextWriter*> texts_;  // standard output and those of files
+  std::vector<TextWriter*> texts_;  // standard output and files
   TextWriter* depths_ = nullptr;    // one of these; null: none
   std::optional<DepthImageWriter> depth_image_;
   std::optional<PixelArrayWriter<double>> depth_array_;

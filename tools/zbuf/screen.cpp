@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kLeastStretch = 0.01;  // that is worth a note
 
-/// Whether a file holds a config. Of a pipe, nothing can be read twice.
+/// True if a file holds a config. Of a pipe, nothing can be read twice.
 bool is_config(const std::string& path) {
   std::error_code no_error;
   if (path == "-" || !std::filesystem::is_regular_file(path, no_error)) return false;

@@ -11,7 +11,7 @@
 
 namespace pipeline {
 
-/// Of a picture's surfaces, what a user may choose; nullopt: as the text says.
+/// A user's choices for a picture's surfaces; nullopt: as the text says.
 struct SurfaceOptions {
   std::optional<ShadingModel> model;
   bool is_wireframe = false;

@@ -12,7 +12,7 @@ namespace pipeline {
 
 /// The options of `zbuf`, as members with their defaults.
 struct ZbufOptions : PictureOptions {
-  /// `words` are those of the command line.
+  /// `words` are the command line.
   ZbufOptions(CommandLine& options, std::span<char* const> words);
 
   PixelRules rules;
