@@ -78,7 +78,7 @@ std::string format_extension_of(const std::string& path) {
 const ImageFormat& format_of(const std::string& path) {
   const std::string extension = format_extension_of(path);
   if (image_file_of(path).empty())
-    throw InputError({path}, expected_but_found("a file's name behind the format", "nothing"));
+    throw InputError({path}, expected_but_found("a file name after the format", "nothing"));
   if (extension == ".bmp" && is_device_without_extension(image_file_of(path))) {
     const std::string shown = path == "bmp:/dev/stdout" ? "bmp:-" : path;
     throw InputError({shown}, expected_but_found("ppm:- or png:-, as a BMP is written from its end",

@@ -23,7 +23,7 @@ PixelArrayWriter<Number>::PixelArrayWriter(int descriptor, const std::string& pa
   std::string description = "{'descr': '" + kind + "', 'fortran_order': False, 'shape': (" +
                             std::to_string(screen.drawn_row_count()) + ", " + std::to_string(screen.columns) +
                             "), }";
-  // The numbers begin at a multiple of 64, behind a line feed; ten bytes stand before the description.
+  // The numbers begin at a multiple of 64, after a line feed; ten bytes come before the description.
   constexpr std::size_t kStart = 128;
   description.resize(kStart - 11, ' ');
   const char length = static_cast<char>(kStart - 10);

@@ -30,7 +30,7 @@ Downsampler::Downsampler(int columns, int count, Color background)
 std::optional<std::span<const Color>> Downsampler::add(std::span<const Color> samples) {
   assert(samples.size() == count_ * row_.size());
   const bool is_translucent = !means_.empty();
-  const std::size_t greens = samples.size();  // behind the sums of red and blue
+  const std::size_t greens = samples.size();  // after the sums of red and blue
   if (is_translucent) {
     for (std::size_t i = 0; i < samples.size(); ++i) means_[i / count_].add(samples[i]);
   } else {

@@ -48,7 +48,7 @@ inline Vec3 to_vec3(Color color) {
 }
 
 /// The color of six hexadecimal digits, RRGGBB, or of eight, RRGGBBAA with an alpha, in upper or lower case,
-/// perhaps behind 0x; nullopt for any other word.
+/// perhaps after 0x; nullopt for any other word.
 std::optional<Color> parse_color(std::string_view word);
 
 /// The colors of triangles that have none of their own, from the random numbers of the course's handouts

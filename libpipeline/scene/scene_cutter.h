@@ -30,12 +30,12 @@ class SceneCutter {
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
   /// Writes the beginning of a part whose first triangle is the next one.
   void begin(TextWriter& part) const;
-  /// Copies the commands from the next triangle on, up to the first triangle at or behind `end`, in bytes
+  /// Copies the commands from the next triangle on, up to the first triangle at or after `end`, in bytes
   /// from the scene's beginning.
   void copy(TextWriter& part, std::size_t end);
 
  private:
-  /// So many pushes, and the commands behind them: a repeated push takes no memory.
+  /// A number of pushes, and the commands after them: a repeated push takes no memory.
   struct Commands {
     std::uint64_t push_count = 0;
     std::string text{};
@@ -63,7 +63,7 @@ class SceneCutter {
   std::uint64_t depth_ = 0;                                    // the sum of the pushes
   std::uint64_t depth_of_preamble_ = 0;                        // at its end
   std::uint64_t depth_kept_ = 0;                               // the least since
-  std::string color_;                                          // the last one behind the preamble
+  std::string color_;                                          // the last one after the preamble
   std::string material_;                                       // the last `use` there
 };
 

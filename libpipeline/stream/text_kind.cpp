@@ -143,7 +143,7 @@ std::string duty_of_project(const StageHeader& header) {
 struct Beginning {
   TextKind kind = TextKind::unknown;
   LineScanner first_line;
-  bool is_one_triangle = false;  // three lines, and a blank one behind them
+  bool is_one_triangle = false;  // three lines, then a blank one
 };
 
 Beginning beginning_of(TextReader& text) {

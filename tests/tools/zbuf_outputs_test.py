@@ -118,7 +118,7 @@ class Image(OutputTest):
             "(try zbuf --help)")
         self.assert_fails(
             run("zbuf", "config.txt", "stage3.txt", "-o", "png:"), 2,
-            "zbuf: --image: png:: expected a file's name behind the format, found nothing (try zbuf --help)")
+            "zbuf: --image: png:: expected a file name after the format, found nothing (try zbuf --help)")
         self.assert_fails(
             run("zbuf", "config.txt", "stage3.txt", "-o", "png:x.npy", "--depth-array", "x.npy"), 2,
             "zbuf: expected a place of its own for every output, found the same one for --image 'x.npy' and "

@@ -63,7 +63,7 @@ void end_cleanly_at_signals(const std::string& tool) {
     if (std::signal(number, end_cleanly) == SIG_IGN) std::signal(number, SIG_IGN);  // by nohup
 }
 
-/// Lets the pipe behind a file descriptor hold 1 MiB, where the system can do that and allows it, so that the
+/// Lets the pipe of a file descriptor hold 1 MiB, where the system can do that and allows it, so that the
 /// stages of a pipe seldom wait for each other. A larger pipe and any other file stay as they are.
 void enlarge_pipe([[maybe_unused]] int descriptor) {
 #ifdef F_SETPIPE_SZ
