@@ -145,7 +145,7 @@ class Specification(unittest.TestCase):
 
     def test_the_changelog_counts_the_cases(self):
         changelog = (SOURCE / "CHANGELOG.md").read_text()
-        self.assertEqual(re.findall(r"The pack has ([\d,]+)\s+cases", changelog), [f"{len(CASES):,}"])
+        self.assertEqual(re.findall(r"`conform` runs ([\d,]+)\s+cases", changelog), [f"{len(CASES):,}"])
 
     def test_every_function_names_its_paragraphs(self):
         for name, line, labels in FUNCTIONS:

@@ -63,7 +63,7 @@ def numbers_of_row(array, width, row):
 
 
 def edges_of(depths):
-    """(column, is it a left edge, polygon, depth) of the first of neighboring pixels, and of the one after."""
+    """(column, is it a left edge, polygon, depth) of the first of some neighbors, and of the pixel after."""
     for polygon, by_column in depths.items():
         for column, depth in by_column.items():
             if column - 1 not in by_column:
