@@ -135,29 +135,37 @@ class Normals(ToolTest):
         self.assertGreater(min(cosines), 0.96)
         self.assertGreater(sum(cosines) / len(cosines), 0.998)
 
-    def test_exact_on_a_sphere(self):
-        """Whatever the triangles are like: that is what their weights are for (Max, 1999)."""
-        rows, columns = 9, 14
-        angles = [(math.pi * (i / rows)**1.3, math.tau * (k / columns)**1.2)
-                  for i in range(rows + 1)
-                  for k in range(columns)]
-        points = [
-            tuple(round(x, 6)
-                  for x in (math.sin(u) * math.cos(v), math.cos(u), math.sin(u) * math.sin(v)))
-            for u, v in angles]
-        triangles = []
-        for i in range(rows):
-            for k in range(columns):
-                a, b = i * columns + k, i * columns + (k + 1) % columns
-                triangles += [(a, b, b + columns), (a, b + columns, a + columns)]
-        pathlib.Path("sphere.stl").write_bytes(FORMATS["stl"](Mesh(points, [], triangles)))
-        seen = 0
-        for triangle in world_triangles(scene_of("sphere.stl", "--crease", "175")):
-            if len({vertex[:3] for vertex in triangle}) == 3:
-                seen += 1
-                for vertex in triangle:
-                    self.assertGreater(abs(sum(p * n for p, n in zip(vertex[:3], vertex[-3:]))), 1 - 1e-6)
-        self.assertEqual(seen, 2 * columns * (rows - 1))
+    def test_a_ball_stays_smooth_and_a_plane_plane(self):
+        """On a ball of 16 by 8, every vertex has one normal, within half a step of the radius. A plate with a
+        chamfer of 30 degrees has the plane's normal all over its top; so has one that goes on as a fillet."""
+        def ring(i):
+            u = math.pi * i / 8
+            return [(math.sin(u) * math.cos(v), math.sin(u) * math.sin(v), math.cos(u))
+                    for v in (math.tau * k / 16 for k in range(16))]
+
+        points = [tuple(round(x, 6) for x in p) for i in range(9) for p in ring(i)]
+        quads = [(16 * i + k, 16 * i + 16 + k, 16 * i + 16 + (k + 1) % 16, 16 * i + (k + 1) % 16)
+                 for i in range(8) for k in range(16)]
+        triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))
+                     if len({points[i] for i in t}) == 3]
+        pathlib.Path("ball.stl").write_bytes(FORMATS["stl"](Mesh(points, [], triangles)))
+        normals = {}
+        for triangle in world_triangles(scene_of("ball.stl")):
+            for vertex in triangle:
+                normals.setdefault(vertex[:3], set()).add(tuple(round(x, 4) for x in vertex[-3:]))
+                turn = sum(p * n for p, n in zip(vertex[:3], vertex[-3:]))
+                self.assertGreater(turn, math.cos(math.pi / 16))
+        self.assertEqual({len(found) for found in normals.values()}, {1})
+        for drops in ((0.58,), (0.03, 0.12, 0.27, 0.5)):  # below the top, where it is inset by 1, 2, ...
+            rings = [(0, 0)] + [(k + 1, 0.58 if len(drops) == 1 else drop) for k, drop in enumerate(drops)]
+            corners = [(x * (20 + inset), y * (15 + inset), -drop) for inset, drop in rings
+                       for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+            faces = "f 1 2 3 4\n" + "".join(
+                f"f {4 * i + k + 5} {4 * i + (k + 1) % 4 + 5} {4 * i + (k + 1) % 4 + 1} {4 * i + k + 1}\n"
+                for i in range(len(drops)) for k in range(4))
+            pathlib.Path("plate.obj").write_text("".join("v %g %g %g\n" % p for p in corners) + faces)
+            top = [t for t in world_triangles(scene_of("plate.obj")) if all(vertex[2] == 0 for vertex in t)]
+            self.assertEqual({vertex[-3:] for t in top for vertex in t}, {(0, 0, 1)})
 
     def test_many_triangles_at_a_point(self):
         """Two fans of 200 triangles in planes at right angles: from a crease of 90 degrees on, one
@@ -228,6 +236,20 @@ class Framing(ToolTest):
             with self.subTest(model=number, options=options):
                 pathlib.Path("model.ply").write_bytes(FORMATS["ply"](mesh))
                 self.check_framed(scene_of("model.ply", *options), *size)
+
+    def test_any_size_looks_the_same(self):
+        pictures = set()
+        for scale in (1, 1e-7, 1e-30, 1e9, 1e30):
+            lines = BOX.splitlines(True)
+            text = re.sub(r"\b1\b", repr(scale), "".join(lines[:8])) + "".join(lines[8:])
+            pathlib.Path("box.obj").write_text(text)
+            pictures.add(str(picture_of(scene_of("box.obj", "--up-axis", "-y"), 60, 45)))
+        self.assertEqual(len(pictures), 1)
+
+    def test_up_may_point_down(self):
+        pathlib.Path("box.obj").write_text(BOX)
+        for words in (["--up-axis", "-y"], ["--up-axis=-y"]):
+            self.assertEqual(header(scene_of("box.obj", *words))["up"], "0 -1 0")
 
     def test_directions(self):
         """Straight from the front, from the right and from above, the eye is where the axes say."""
@@ -381,7 +403,7 @@ class Nodes(ToolTest):
         document["extensions"]["KHR_lights_punctual"]["lights"] = [{
             "type": "spot", "intensity": 1, "spot": {"outerConeAngle": 0.5}}]
         pathlib.Path("model.gltf").write_text(json.dumps(document))
-        done = run("mesh2scene", "model.gltf")
+        done = run("mesh2scene", "--eye-from", "0", "0", "model.gltf")
         self.assertEqual(done.stderr.decode(),
                          "mesh2scene: note: model.gltf: no scene can hold its cones of spotlights\n")
         self.assertEqual(header(done.stdout.decode())["light"], ["7 8 9 1 1 1"])
@@ -892,8 +914,9 @@ class Notes(ToolTest):
     def test_which_way_is_up(self):
         pathlib.Path("box.obj").write_text(BOX)
         pathlib.Path("leaf.stl").write_text("solid\nfacet normal 0 0 1\nouter loop\nvertex -2 0.125 0\n"
-                                            "vertex 1e9 0 3\nvertex 0 1 7\nendloop\nendfacet\nendsolid\n")
-        for name, axis, box in (("box.obj", "y", "0 0 0 to 1 1 1"), ("leaf.stl", "z", "-2 0 0 to 1e+09 1 7")):
+                                            "vertex 1e9 0 3\nvertex 0 1e9 7\nendloop\nendfacet\nendsolid\n")
+        for name, axis, box in (("box.obj", "y", "0 0 0 to 1 1 1"), 
+                                ("leaf.stl", "z", "-2 0 0 to 1e+09 1e+09 7")):
             self.assertEqual(
                 run("mesh2scene", name).stderr.decode(),
                 f"mesh2scene: note: {axis} is taken for up, as in most {name[-3:].upper()} files (--up-axis "

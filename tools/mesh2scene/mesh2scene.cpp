@@ -27,7 +27,7 @@ struct Options {
   std::string size = "800x600";
   std::vector<std::string> eye_from, at;
   std::string color;
-  double crease_degrees = 60;
+  double crease_degrees = 40;
   bool as_nodes = false;
   int most_megabytes = 1000;
   std::optional<UpAxis> up;
@@ -51,7 +51,13 @@ void add_options(CommandLine& options, Options& chosen) {
       "--fov", "DEGREES", chosen.view.fov_y_degrees, [](double value) { return value >= 1 && value <= 120; },
       "1 to 120", "The angle of view from the picture's bottom to its top");
   options.add_choice<std::optional<UpAxis>>(
-      "--up-axis", chosen.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
+      "--up-axis", chosen.up,
+      {{"x", UpAxis::x},
+       {"y", UpAxis::y},
+       {"z", UpAxis::z},
+       {"-x", UpAxis::minus_x},
+       {"-y", UpAxis::minus_y},
+       {"-z", UpAxis::minus_z}},
       "The axis that is up in the picture. Without the option: z for STL, 3DS and 3MF, else y");
   options.add_words("--at", 3, "X Y Z", chosen.at,
                     "Look at this point of the model, in its own numbers, in place of its middle");
@@ -163,6 +169,21 @@ std::string guessed_up_note(UpAxis up, const std::string& extension, const Impor
          (extension.empty() ? "" : extension + " ") + "files (--up-axis chooses); " + extent_of(model);
 }
 
+/// Notes on pictures that show next to nothing.
+void note_what_hides(const ImportedModel& model, const SceneSetting& setting, bool is_files_camera,
+                     const Options& chosen, const Tool& tool) {
+  constexpr double kLittle = 0.01;
+  const double share = shown_share(model, setting);
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), share == 0 ? "nothing" : "%.2g %% of the picture", 100 * share);
+  const std::string covered = text.data();
+  if (share < kLittle && is_files_camera)
+    tool.note(model.name() + ": its own camera shows it on " + covered + ": --eye-from 30 15 frames it");
+  else if (share > 0 && share < kLittle && chosen.at.empty() && chosen.view.zoom == 1)
+    tool.note(model.name() + ": it covers " + covered +
+              ": parts of it lie far from each other, or it is thin; --at and --zoom look closer");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -193,6 +214,7 @@ int main(int argc, char** argv) {
       tool.note(guessed_up_note(view.up, extension, model));
     for (const std::string& note : model.notes()) tool.note(note);
     if (!model.ignored().empty()) tool.note(name + ": no scene can hold its " + listed(model.ignored()));
+    note_what_hides(model, setting, has_own_view, chosen, tool);
     setting.has_one_color = !chosen.color.empty();
     if (setting.has_one_color) setting.color = to_vec3(*parse_color(chosen.color));
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +

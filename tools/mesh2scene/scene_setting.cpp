@@ -70,6 +70,9 @@ SceneSetting setting_with(const FramingCamera& camera, double fov_y_degrees, dou
   setting.background = {232, 235, 240};
   setting.color = {228, 222, 210};
   set_lights(model, setting);
+  constexpr double kSmall = 0.03, kLarge = 1e12;
+  if (camera.distance < kSmall || camera.distance > kLarge)
+    setting.scale = std::pow(10, -std::floor(std::log10(camera.distance)));
   return setting;
 }
 
@@ -97,14 +100,16 @@ constexpr double kDepthMargin = 0.5;
 constexpr double kMostDepth = 10000;
 
 Vec3 unit_vector_of(UpAxis axis) {
-  return {axis == UpAxis::x ? 1.0 : 0.0, axis == UpAxis::y ? 1.0 : 0.0, axis == UpAxis::z ? 1.0 : 0.0};
+  constexpr std::array<Vec3, 6> kAxes = {
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
+  return kAxes[static_cast<std::size_t>(axis)];
 }
 
-/// Seen from the front, the model's -z direction (with z up: y), turned by `azimuth` degrees about the up
-/// axis to the right and by `elevation` degrees, -90 to 90, upwards.
+/// Seen from the front, from the model's z (with z up: -y, with -y or -z up: the other side), turned by
+/// `azimuth` degrees about the up axis to the right and by `elevation` degrees, -90 to 90, upwards.
 ViewAxes view_axes(UpAxis up_axis, double azimuth_degrees, double elevation_degrees) {
   const Vec3 up = unit_vector_of(up_axis);
-  const Vec3 front = up_axis == UpAxis::z ? Vec3{0, -1, 0} : Vec3{0, 0, 1};
+  const Vec3 front = up.z != 0 ? Vec3{0, -up.z, 0} : Vec3{0, 0, up.y < 0 ? -1.0 : 1.0};
   const Vec3 side = cross(up, front);
   const auto [cos_a, sin_a] = direction_of(azimuth_degrees);
   const auto [cos_e, sin_e] = direction_of(elevation_degrees);
@@ -207,6 +212,33 @@ SceneSetting setting_of_file(const ImportedModel& model, double aspect) {
   camera.distance = ahead > of_file.near ? ahead : of_file.near;
   camera.look = sum(camera.eye, scaled(direction, camera.distance));
   return setting_with(camera, of_file.fov_y_degrees, aspect, model);
+}
+
+double shown_share(const ImportedModel& model, const SceneSetting& setting) {
+  const FramingCamera& camera = setting.camera;
+  const ViewAxes axes = axes_of(camera);
+  const double slope_y = tangent(setting.fov_y_degrees / 2), slope_x = setting.aspect * slope_y;
+  std::array<Vec3, 3> corners;
+  std::size_t count = 0;
+  double area = 0;
+  model.for_each_corner([&](const Vec3& p) {
+    const Vec3 offset = difference(p, camera.eye);
+    const double depth = -dot(offset, axes.back);
+    // In NDC; a corner that is not in the view's depth spoils its triangle.
+    const bool is_seen = depth >= camera.near && depth <= camera.far;
+    corners[count++] = is_seen ? Vec3{dot(offset, axes.right) / (slope_x * depth),
+                                      dot(offset, axes.up) / (slope_y * depth), 0}
+                               : Vec3{NAN, NAN, NAN};
+    if (count < 3) return;
+    count = 0;
+    const auto& [a, b, c] = corners;
+    const double width = std::min(std::max({a.x, b.x, c.x}), 1.0) - std::max(std::min({a.x, b.x, c.x}), -1.0);
+    const double height =
+        std::min(std::max({a.y, b.y, c.y}), 1.0) - std::max(std::min({a.y, b.y, c.y}), -1.0);
+    if (width > 0 && height > 0)
+      area += std::min(std::fabs(cross(difference(b, a), difference(c, a)).z) / 2, width * height);
+  });
+  return area / 4 / 2;  // of the window, which is 2 by 2; a body has two sides
 }
 
 }  // namespace pipeline

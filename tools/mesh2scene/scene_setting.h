@@ -9,7 +9,7 @@
 
 namespace pipeline {
 
-enum class UpAxis { x, y, z };
+enum class UpAxis { x, y, z, minus_x, minus_y, minus_z };
 
 /// A camera that frames points.
 struct FramingCamera {
@@ -21,12 +21,13 @@ struct FramingCamera {
 /// The part of a scene before its first triangle.
 struct SceneSetting {
   std::vector<std::string> comments;
-  FramingCamera camera;
+  FramingCamera camera;  // in the model's space, as are the lights
+  double scale = 1;  // of the model in the scene: a power of ten, for a size that seven decimals do not suit
   double fov_y_degrees = 0;
   double aspect = 0;  // width / height
   Vec3 background;
   Vec3 ambient;
-  /// At points, in the model's space.
+  /// At points.
   std::vector<ModelLight> lights;
   /// Of meshes without a color, from 0 to 255; or of all.
   Vec3 color;
@@ -48,5 +49,8 @@ SceneSetting framed_setting(const ImportedModel& model, const ViewChoice& view);
 /// The file's own camera, which must be there; `aspect` is the picture's, width / height. Both settings take
 /// the file's own lights, and have a key, a fill and an ambient light only if there are none.
 SceneSetting setting_of_file(const ImportedModel& model, double aspect);
+
+/// The share of the picture that the model covers, about: half of its triangles' areas, overlaps included.
+double shown_share(const ImportedModel& model, const SceneSetting& setting);
 
 }  // namespace pipeline

@@ -182,19 +182,22 @@ class SceneWriter {
   void write_setting() {
     for (const std::string& comment : setting_.comments) line("# " + on_one_line(comment));
     const FramingCamera& camera = setting_.camera;
-    const Rounding rounded(camera.distance);
+    const double scale = setting_.scale, near = scale * camera.near, far = scale * camera.far;
+    const Rounding round(scale * camera.distance);
+    const auto rounded = [&](const Vec3& p) { return round(scaled(p, scale)); };
     line(text_of(rounded(camera.eye)));
     line(text_of(rounded(camera.look)));
     line(text_of(Rounding(1)(camera.up)));
     line(shortest_text(setting_.fov_y_degrees) + " " + shortest_text(setting_.aspect) + " " +
-         shortest_text(Rounding(camera.near)(camera.near)) + " " +
-         shortest_text(Rounding(camera.far)(camera.far)) + " ratio");
+         shortest_text(Rounding(near)(near)) + " " + shortest_text(Rounding(far)(far)) + " ratio");
     line("background " + text_of(setting_.background));
     line(has_color_columns_ ? "attributes color normal" : "attributes normal");
     for (const std::string& material : materials_.lines()) line(material);
     if (setting_.ambient != Vec3{}) line("ambient " + text_of(setting_.ambient));
     for (const ModelLight& light : setting_.lights)
       line("light " + text_of(rounded(light.position)) + " " + text_of(Rounding(0.1)(light.intensity)));
+    if (const std::string factor = shortest_text(scale); scale != 1)
+      line("scale " + factor + " " + factor + " " + factor);
   }
 
   void write_meshes() {

@@ -294,7 +294,10 @@ void CommandLine::add_choice_of_words(const std::string& name, const std::vector
                                       const std::string& default_word, const std::string& help,
                                       const std::function<void(std::size_t)>& take) {
   std::string type_name;
-  for (const std::string& word : words) type_name += (type_name.empty() ? "" : "|") + word;
+  for (const std::string& word : words) {
+    type_name += (type_name.empty() ? "" : "|") + word;
+    if (word.starts_with('-')) flag_words_.emplace_back(name, word);  // no option, as CLI11 takes it for
+  }
   const auto choose = [name, words, take](const std::string& found) {
     const auto word = std::find(words.begin(), words.end(), found);
     if (word == words.end())
