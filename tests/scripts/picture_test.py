@@ -251,6 +251,23 @@ class Picture(ToolTest):
         image = pathlib.Path("one.png").read_bytes()
         self.assertEqual(image[25], 6)  # the color type: with an alpha
 
+    def test_colors_of_css_and_up_axes_that_point_down(self):
+        for color in ("red", "#f00", "#ff0000", "ff0000"):
+            done = picture("vase.obj", "--color", color, "--background", "white", "--up-axis", "-y", "--size",
+                           "40x30", "-o", f"{color}.png")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(len({path.read_bytes() for path in pathlib.Path().glob("*.png")}), 1)
+
+    def test_what_is_asked_for_elsewhere_is_named(self):
+        self.assertIn("(--trace draws them)", picture("vase.obj", "--shadows", "-o", "a.png").stderr)
+        self.assertIn("draw a.png, then: convert a.png a.jpg", picture("vase.obj", "-o", "a.jpg").stderr)
+
+    def test_a_model_stands_for_a_scene(self):
+        done = subprocess.run([SOURCE / "scripts/explain", "vase.obj", "--triangle", "0"],
+                              capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("vase.obj, line ", done.stdout.splitlines()[0])
+
     def test_a_misspelt_option_names_the_nearest(self):
         done = picture("vase.obj", "--bakground", "00000000", "-o", "one.png")
         self.assertEqual(done.stderr, "picture: unrecognized arguments: --bakground 00000000 (did you mean "

@@ -12,11 +12,16 @@ from lib.rim.output_file import place_of
 
 STANDARD_OUTPUT = ("", "/dev/stdout")
 OPERANDS = ("scene", "config", "path", "model")
-OLD_NAMES = {  # {(command, option that is gone): what to use now}
-    ("picture", "--up"): "--up-axis",
-    ("compare", "--five"): "--hand-in",
-    ("grade", "--out"): "--output",
-    ("trade", "--coverage"): "--rule",
+OTHER_WAYS = {  # {(command, option that is not there, or no longer): what to use}
+    ("picture", "--up"): "now --up-axis",
+    ("picture", "--floor"): "docs/models.md adds one to the scene of --stages",
+    ("picture", "--wireframe"): "zbuf --wireframe draws edges, of stage3.txt of --stages",
+    ("picture", "--transparent"): "--background transparent; of glass: docs/models.md",
+    ("picture", "--rotate"): "--eye-from AZIMUTH ELEVATION looks from elsewhere",
+    ("picture", "--shadows"): "--trace draws them",
+    ("compare", "--five"): "now --hand-in",
+    ("grade", "--out"): "now --output",
+    ("trade", "--coverage"): "now --rule",
 }
 
 
@@ -55,15 +60,15 @@ class CommandParser(argparse.ArgumentParser):
 
     def parse_args(self, *arguments):
         for word in itertools.takewhile(lambda word: word != "--", sys.argv[1:]):
-            if now := OLD_NAMES.get((self.prog, word.split("=")[0])):
-                self.error(f"expected an option of {self.prog}, found '{word}' (now {now})")
+            if way := OTHER_WAYS.get((self.prog, word.split("=")[0])):
+                self.error(f"expected an option of {self.prog}, found '{word}' ({way})")
         return super().parse_args(*arguments)
 
     def error(self, message):
         if message.startswith("unrecognized arguments: "):
             word = message.split()[2].split("=")[0]
             known = [name for action in self._actions for name in action.option_strings]
-            for name in difflib.get_close_matches(word, known, 1):
+            for name in difflib.get_close_matches(word, known, 1, cutoff=0.75):
                 message += f" (did you mean {name}?)"
         self.exit(2, f"{self.prog}: {message} (try {self.prog} --help)\n")
 

@@ -1,0 +1,33 @@
+"""Model files in the place of scenes."""
+import os
+import re
+import sys
+import tempfile
+
+from lib.rim.input_file import read_input
+from lib.rim.output_file import write_file
+from lib.running.pipe_tools import Tools
+
+ENDINGS = (".obj", ".stl", ".ply", ".gltf", ".glb")
+KEPT = []  # folders, until the program ends
+
+
+def take_model(options, size="800x600"):
+    """Where SCENE is a model file, puts the scene that mesh2scene makes of it in its place, framed for
+    CONFIG. Without one, it makes a CONFIG of this size."""
+    path = options.scene
+    if not path.lower().endswith(ENDINGS) or not os.path.isfile(path):
+        return
+    options.model = path  # which no output may replace
+    KEPT.append(tempfile.TemporaryDirectory())
+    if options.config:
+        found = re.match(rb"\s*(\d+)\s+(\d+)", read_input(options.config))
+        size = "x".join(number.decode() for number in found.groups()) if found else size
+    model = os.path.join(os.curdir, path) if path.startswith("-") else path
+    done = Tools().run("mesh2scene", "--size", size, model)
+    sys.stderr.write(done.stderr.decode())
+    options.scene = os.path.join(KEPT[-1].name, os.path.basename(path))
+    write_file(options.scene, done.stdout)
+    if not options.config:
+        options.config = os.path.join(KEPT[-1].name, "config.txt")
+        write_file(options.config, size.replace("x", " ").encode() + b"\n")
