@@ -9,7 +9,7 @@
 #include "libpipeline/coverage/exact_rows.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/double_double.h"
-#include "libpipeline/numbers/int128.h"
+#include "libpipeline/numbers/fixed_int.h"
 
 namespace pipeline {
 

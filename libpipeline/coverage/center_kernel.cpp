@@ -1,8 +1,8 @@
 #include <array>
 
 #include "libpipeline/coverage/center.h"
-#include "libpipeline/coverage/depth_in_doubles.h"
-#include "libpipeline/coverage/kernel.h"
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/triangle_depth.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/coverage/center_kernel.cpp"

@@ -1,7 +1,7 @@
 // No include guard: included once for each target, see numbers/vector_targets.h.
 
-#include "libpipeline/coverage/depth_in_doubles.h"
 #include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/triangle_depth.h"
 #include "libpipeline/coverage/triangle_lanes.h"
 
 PIPELINE_BEGIN_KERNELS();

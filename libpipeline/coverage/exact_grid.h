@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <type_traits>
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/double_double.h"
+#include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/numbers/whole_math.h"
 #include "libpipeline/scene/viewport.h"
@@ -151,6 +153,27 @@ GridTriangle<Int> grid_triangle(const ExactGrid& grid, const AxisUnits& x, const
   result.column_step = Divisor<Int>(finer(grid.columns.half_step, x.twos + 1));
   result.row_step = Divisor<Int>(finer(grid.rows.half_step, y.twos + 1));
   return result;
+}
+
+// The coverage rules for many triangles at a time. A kernel makes the spans for one kind of processor; all
+// make the spans of NearestRows and CenterRows, to the last bit.
+
+/// Writes the spans of the triangles, one triangle after the other and row by row, within `rows`, and returns
+/// the end of the last one. There must be room for as many spans as there are rows, for every triangle; the
+/// room after the last one may be overwritten.
+using NearestSpans = TaggedSpan* (*)(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
+                                     const RowRange& rows, TaggedSpan* spans);
+using CenterSpans = TaggedSpan* (*)(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
+                                    const RowRange& rows, TaggedSpan* spans);
+
+const KernelTable<NearestSpans>& nearest_kernels();
+const KernelTable<CenterSpans>& center_kernels();
+
+/// Writes the spans of one triangle likewise; `covered` are its rows by a coverage rule.
+template <typename CoveredRows>
+TaggedSpan* append_spans(const CoveredRows& covered, PixelTag tag, const RowRange& rows, TaggedSpan* spans) {
+  for_each_span(covered, rows, [&](const Span& span) { *spans++ = {span, tag}; });
+  return spans;
 }
 
 }  // namespace pipeline

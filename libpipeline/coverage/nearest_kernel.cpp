@@ -1,5 +1,5 @@
 
-#include "libpipeline/coverage/kernel.h"
+#include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/nearest.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -5,10 +5,8 @@
 
 #include "libpipeline/coverage/center.h"
 #include "libpipeline/coverage/exact_grid.h"
-#include "libpipeline/coverage/kernel.h"
 #include "libpipeline/coverage/nearest.h"
 #include "libpipeline/coverage/type_list.h"
-#include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/scene/viewport.h"
 
 namespace pipeline {

@@ -7,6 +7,20 @@
 
 namespace pipeline {
 
+/// The first column in [first, end) for which `is_true` holds, or `end`, by bisection: the predicate must
+/// hold for all columns after the first one for which it does.
+template <typename Predicate>
+int first_column_where(int first, int end, Predicate&& is_true) {
+  while (first < end) {
+    const int middle = first + (end - first) / 2;
+    if (is_true(middle))
+      end = middle;
+    else
+      first = middle + 1;
+  }
+  return first;
+}
+
 /// A triangle's depth along one row, a linear function of the column. It is evaluated anew for every pixel:
 /// adding up a difference per column would drift.
 struct SpanDepth {

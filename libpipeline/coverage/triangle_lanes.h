@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "libpipeline/coverage/kernel.h"
+#include "libpipeline/coverage/exact_grid.h"
 // With AVX-512, masks would be converted to vectors and back all the time, which takes up to a tenth longer.
 #ifdef PIPELINE_ALL_KERNELS
 #define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4 | HWY_AVX2)

@@ -3,7 +3,7 @@
 #include <array>
 #include <bit>
 
-#include "libpipeline/numbers/int128.h"
+#include "libpipeline/numbers/fixed_int.h"
 
 namespace pipeline {
 namespace {

@@ -5,7 +5,6 @@
 #include <type_traits>
 
 #include "libpipeline/numbers/fixed_int.h"
-#include "libpipeline/numbers/int128.h"
 
 namespace pipeline {
 

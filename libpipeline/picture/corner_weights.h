@@ -3,7 +3,7 @@
 #include <array>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/scene/pixel_grid.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/vertex_columns.h"
 
 namespace pipeline {

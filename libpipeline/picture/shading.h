@@ -10,7 +10,7 @@
 #include "libpipeline/picture/corner_weights.h"
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/scene/pixel_grid.h"
+#include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
 

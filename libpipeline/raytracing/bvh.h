@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/raytracing/pixel_rays.h"
 #include "libpipeline/stream/thread_pool.h"
 

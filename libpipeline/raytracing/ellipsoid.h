@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "libpipeline/numbers/bounding_box.h"
 #include "libpipeline/numbers/double_double.h"
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/raytracing/pixel_rays.h"
 #include "libpipeline/stream/triangle_batch.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/numbers/vec_math.h"
 
 namespace pipeline {
 namespace {

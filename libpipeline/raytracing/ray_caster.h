@@ -7,7 +7,6 @@
 #include "libpipeline/coverage/center.h"
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/raytracing/bvh.h"
-#include "libpipeline/raytracing/ndc_depth.h"
 #include "libpipeline/raytracing/pixel_rays.h"
 #include "libpipeline/raytracing/traced_triangles.h"
 #include "libpipeline/scene/viewport.h"

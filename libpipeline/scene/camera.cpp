@@ -5,7 +5,7 @@
 #include <string>
 #include <type_traits>
 
-#include "libpipeline/numbers/ball_vec.h"
+#include "libpipeline/numbers/ball.h"
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/number_printer.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/numbers/vec_math.h"
 
 namespace pipeline {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "libpipeline/numbers/decimal_units.h"
-#include "libpipeline/numbers/int128.h"
+#include "libpipeline/numbers/fixed_int.h"
 #include "libpipeline/text/eight_digits.h"
 
 namespace pipeline {

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "libpipeline/numbers/decimal_units.h"
-#include "libpipeline/numbers/int128.h"
+#include "libpipeline/numbers/fixed_int.h"
 #include "libpipeline/text/eight_digits.h"
 
 namespace pipeline {

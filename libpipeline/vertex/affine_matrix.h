@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "libpipeline/numbers/ball_vec.h"
+#include "libpipeline/numbers/ball.h"
 #include "libpipeline/numbers/vec.h"
 
 namespace pipeline {

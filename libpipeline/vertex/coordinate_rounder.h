@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "libpipeline/numbers/ball_vec.h"
+#include "libpipeline/numbers/ball.h"
 #include "libpipeline/stream/bounds.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/error.h"

@@ -9,7 +9,6 @@
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/visibility/pixel_rules.h"
 #include "libpipeline/visibility/raster.h"
-#include "libpipeline/visibility/tagged_batch.h"
 
 namespace pipeline {
 

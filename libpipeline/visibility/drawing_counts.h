@@ -6,7 +6,7 @@
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/fragment_log.h"
 #include "libpipeline/visibility/raster.h"

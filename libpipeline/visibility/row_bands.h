@@ -6,7 +6,6 @@
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/scene/viewport.h"
 
 namespace pipeline {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libpipeline/numbers/column_search.h"
+#include "libpipeline/coverage/span.h"
 
 namespace pipeline {
 namespace {

@@ -10,7 +10,7 @@
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/active_edge_list.h"
 #include "libpipeline/visibility/depth_format.h"
-#include "libpipeline/visibility/polygon_table.h"
+#include "libpipeline/visibility/edge_table.h"
 #include "libpipeline/visibility/raster.h"
 
 namespace pipeline {

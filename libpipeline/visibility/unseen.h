@@ -4,13 +4,12 @@
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/numbers/bounding_box.h"
-#include "libpipeline/numbers/column_search.h"
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/unseen_places.h"
 #include "libpipeline/visibility/pixel_rules.h"
-#include "libpipeline/visibility/tagged_batch.h"
+#include "libpipeline/visibility/raster.h"
 
 namespace pipeline {
 

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <functional>
 
-#include "libpipeline/numbers/column_search.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/stream/memory.h"
 
 namespace pipeline {

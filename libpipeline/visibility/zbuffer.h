@@ -9,7 +9,6 @@
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/depth_format.h"
-#include "libpipeline/visibility/hierarchical_depth.h"
 #include "libpipeline/visibility/raster.h"
 #include "libpipeline/visibility/span_fill.h"
 

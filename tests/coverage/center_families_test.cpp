@@ -6,7 +6,7 @@
 #include <functional>
 #include <iostream>
 
-#include "libpipeline/numbers/int128.h"
+#include "libpipeline/numbers/fixed_int.h"
 #include "tests/coverage/center_reference.h"
 #include "tests/numbers/random_numbers.h"
 

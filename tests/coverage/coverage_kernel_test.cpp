@@ -1,6 +1,6 @@
 // The kernels that compute the spans of many triangles, against the coverage rules, triangle by triangle.
 
-#include "libpipeline/coverage/kernel.h"
+#include "libpipeline/coverage/exact_grid.h"
 
 #include <gtest/gtest.h>
 

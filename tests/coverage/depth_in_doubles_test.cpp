@@ -1,6 +1,6 @@
 // Depths as weighted means in doubles, against rational arithmetic (GMP).
 
-#include "libpipeline/coverage/depth_in_doubles.h"
+#include "libpipeline/coverage/triangle_depth.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "libpipeline/numbers/ball_vec.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/numbers/real.h"
 

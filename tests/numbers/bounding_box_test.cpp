@@ -1,4 +1,4 @@
-#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/numbers/vec_math.h"
 
 #include <gtest/gtest.h>
 

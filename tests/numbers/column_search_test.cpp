@@ -1,4 +1,4 @@
-#include "libpipeline/numbers/column_search.h"
+#include "libpipeline/coverage/span.h"
 
 #include <gtest/gtest.h>
 

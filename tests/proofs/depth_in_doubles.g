@@ -1,4 +1,4 @@
-# Depths under `center` while doubles hold the weights: DepthInDoubles (libpipeline/coverage/depth_in_doubles.h).
+# Depths under `center` while doubles hold the weights: DepthInDoubles (libpipeline/coverage/triangle_depth.h).
 #
 # In units of u = 2^-53 and of Z, the largest |z|. Weights are exact; in parts of their sum, that of vertex a is A, those of b and c
 # together 1 - A. In the middle of a span the depth is m, M = |m|; at a pixel it is m + h s, P = |h s|. To the error add

@@ -1,4 +1,4 @@
-# Depths under `nearest` of steep and narrow triangles: DepthInPairs (libpipeline/coverage/depth_in_pairs.h, libpipeline/coverage/depth_in_pairs.cpp).
+# Depths under `nearest` of steep and narrow triangles: DepthInPairs (libpipeline/coverage/nearest.h, libpipeline/coverage/nearest.cpp).
 #
 # In units of Z, the largest |z| of a vertex, or the |z| of the plane at the pixel if that is larger. At the middle of the span the
 # depth is m, at a pixel m + h s. Those at the ends of the span are at most 4: what the row reaches beyond the triangle is less than

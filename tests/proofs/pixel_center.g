@@ -1,5 +1,5 @@
 # The x or y of a pixel center in doubles: Viewport::dx, Viewport::left_x (libpipeline/scene/viewport.h), PixelGrid::x_of
-# (libpipeline/scene/pixel_grid.h); rows alike.
+# (libpipeline/scene/viewport.h); rows alike.
 #
 # In parts of the window's half width: the center is -1 + d (n + 1/2), where d = 2 / columns. d is rounded (e1), so is the sum
 # -1 + d / 2 (e2), the product n d (e3), and their sum (e4). walk = n d is at most 2, half = d / 2 at most 1.

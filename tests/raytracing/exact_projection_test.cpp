@@ -1,4 +1,4 @@
-#include "libpipeline/raytracing/exact_projection.h"
+#include "libpipeline/raytracing/traced_triangles.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "libpipeline/coverage/rules.h"
-#include "libpipeline/raytracing/exact_projection.h"
+#include "libpipeline/raytracing/traced_triangles.h"
 #include "libpipeline/visibility/algorithms.h"
-#include "libpipeline/visibility/tagged_batch.h"
+#include "libpipeline/visibility/raster.h"
 
 namespace pipeline {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "libpipeline/raytracing/exact_projection.h"
 #include "libpipeline/raytracing/ray_caster.h"
+#include "libpipeline/raytracing/traced_triangles.h"
 
 namespace pipeline {
 namespace {

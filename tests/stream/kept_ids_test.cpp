@@ -4,8 +4,6 @@
 
 #include <vector>
 
-#include "libpipeline/stream/chunked_array.h"
-
 namespace pipeline {
 namespace {
 

@@ -1,4 +1,3 @@
-#include "libpipeline/text/wide_decimal.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "libpipeline/numbers/bounding_box.h"
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/error.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/number_parser.h"

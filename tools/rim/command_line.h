@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -110,5 +112,13 @@ class CommandLine {
   std::vector<std::pair<std::string, std::string>> flag_words_;  // of flags that take a word
   std::shared_ptr<HelpForm> help_form_;
 };
+
+/// True if one of a command line's words begins like the option `name`, or asks for help. An option that few
+/// runs use is added only then, as each costs every start.
+inline bool is_wanted(std::string_view name, std::span<char* const> words) {
+  return std::ranges::any_of(words, [start = name.substr(0, 4)](std::string_view word) {
+    return word.starts_with(start) || word.starts_with("--help") || word == "-h";
+  });
+}
 
 }  // namespace pipeline

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/stream/coordinate_extent.h"
 #include "libpipeline/stream/unseen_places.h"
 #include "libpipeline/text/number_printer.h"

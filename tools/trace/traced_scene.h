@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "libpipeline/raytracing/exact_projection.h"
 #include "libpipeline/raytracing/traced_triangles.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/stage_reader.h"

@@ -5,7 +5,7 @@
 
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
-#include "libpipeline/visibility/tagged_batch.h"
+#include "libpipeline/visibility/raster.h"
 
 namespace pipeline {
 namespace {

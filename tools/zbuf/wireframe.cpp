@@ -5,7 +5,7 @@
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec_math.h"
-#include "libpipeline/visibility/tagged_batch.h"
+#include "libpipeline/visibility/raster.h"
 
 namespace pipeline {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libpipeline/coverage/edge_pixels.h"
-#include "libpipeline/scene/pixel_grid.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/kept_ids.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/visibility/pixel_rules.h"

@@ -5,7 +5,7 @@
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
-#include "tools/rim/rare_option.h"
+#include "tools/rim/command_line.h"
 
 namespace pipeline {
 namespace {
@@ -48,9 +48,10 @@ ZbufOptions::ZbufOptions(CommandLine& options, std::span<char* const> words)
   add_pixels(options);
   options.begin_group("Color and light");
   add_shading(options);
-  options.add_flag_with_word("--wireframe", "all", wireframe, has_all_edges,
-                             "Show only the edges of the triangles, one pixel in each column or row, where no "
-                             "surface hides them; with all, hidden edges, too");
+  options.add_flag_with_word(
+      "--wireframe", "all", wireframe, has_all_edges,
+      "Show only the edges of the triangles, one pixel in each column or row, where no "
+      "surface hides them; with all, hidden edges, too");
   add_background(options);
   options.begin_group("Debugging");
   options.add_repeatable("--probe", "COLUMN,ROW", probes,
