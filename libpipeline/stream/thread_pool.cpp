@@ -26,28 +26,26 @@ ThreadPool::~ThreadPool() {
 }
 
 void ThreadPool::start(int task_count, Task task) {
-  if (task_count == 0) return;
   {
     const std::lock_guard lock(mutex_);
-    throw_failure();
-    jobs_.push_back(std::make_shared<Job>(Job{std::move(task), task_count}));
+    assert(!has_task() && busy_count_ == 0);
+    task_ = std::move(task);
+    task_count_ = task_count;
+    next_task_ = 0;
   }
-  if (task_count == 1)
-    has_tasks_.notify_one();
-  else
-    has_tasks_.notify_all();
+  has_tasks_.notify_all();
 }
 
 void ThreadPool::finish() {
   Lock lock(mutex_);
-  while (!jobs_.empty()) do_next_task(lock, kOwner);
+  while (has_task()) do_next_task(lock, kOwner);
   is_task_done_.wait(lock, [this] { return busy_count_ == 0; });
-  throw_failure();
+  if (failure_ != nullptr) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void ThreadPool::cancel() {
   Lock lock(mutex_);
-  jobs_.clear();
+  next_task_ = task_count_;
   is_task_done_.wait(lock, [this] { return busy_count_ == 0; });
   failure_ = nullptr;
 }
@@ -55,35 +53,29 @@ void ThreadPool::cancel() {
 void ThreadPool::work(int worker) {
   Lock lock(mutex_);
   for (;;) {
-    has_tasks_.wait(lock, [this] { return is_over_ || !jobs_.empty(); });
+    has_tasks_.wait(lock, [this] { return is_over_ || has_task(); });
     if (is_over_) return;
     do_next_task(lock, worker);
   }
 }
 
 void ThreadPool::do_next_task(Lock& lock, int worker) {
-  const std::shared_ptr<Job> job = jobs_.front();
-  const int number = job->next_task++;
-  if (job->next_task == job->task_count) jobs_.pop_front();
+  const int number = next_task_++;
   ++busy_count_;
   lock.unlock();
   std::exception_ptr failure;
   try {
-    job->task(number, worker);
+    task_(number, worker);
   } catch (...) {
     failure = std::current_exception();
   }
   lock.lock();
   if (failure != nullptr) {
     failure_ = failure;
-    jobs_.clear();
+    next_task_ = task_count_;
   }
   --busy_count_;
   is_task_done_.notify_one();
-}
-
-void ThreadPool::throw_failure() {
-  if (failure_ != nullptr) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 }  // namespace pipeline

@@ -1,19 +1,17 @@
 #pragma once
 
 #include <condition_variable>
-#include <deque>
 #include <exception>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 namespace pipeline {
 
-/// A thread pool in which the owner works too. A job is a number of tasks; tasks start in order and may
-/// finish in any order. A worker runs one task at a time. Workers are numbered from 0, the owner, to size() -
-/// 1.
+/// A thread pool in which the owner works too, on one job at a time. A job is a number of tasks; tasks start
+/// in order and may finish in any order. A worker runs one task at a time. Workers are numbered from 0, the
+/// owner, to size() - 1.
 class ThreadPool {
  public:
   /// `thread_count`, at least 1, includes the owner: a pool of 1 runs all tasks in finish().
@@ -29,11 +27,10 @@ class ThreadPool {
 
   using Task = std::function<void(int number, int worker)>;
 
-  /// Queues `task(number, worker)` for numbers from 0 to task_count - 1 after the jobs already queued.
-  /// Rethrows an earlier task's exception, so no job starts after one that was dropped.
+  /// Has the others run `task(number, worker)` for numbers from 0 to task_count - 1. The job before has to be
+  /// finished.
   void start(int task_count, Task task);
-  /// Runs tasks until all are done. An exception of a task is rethrown here or in start(), and drops all
-  /// queued tasks.
+  /// Runs tasks until all are done. An exception of a task is rethrown here, and drops all queued tasks.
   void finish();
   /// Drops all queued tasks and waits for the running ones, whose exceptions are lost. For destructors of
   /// objects that tasks use.
@@ -41,22 +38,18 @@ class ThreadPool {
 
  private:
   static constexpr int kOwner = 0;
-  struct Job {
-    Task task;
-    int task_count;
-    int next_task = 0;
-  };
   using Lock = std::unique_lock<std::mutex>;
 
   void work(int worker);
   void do_next_task(Lock& lock, int worker);
-  void throw_failure();
+  [[nodiscard]] bool has_task() const { return next_task_ < task_count_; }
 
   std::mutex mutex_;
   std::condition_variable has_tasks_;
   std::condition_variable is_task_done_;
-  std::deque<std::shared_ptr<Job>> jobs_;  // with queued tasks
-  int busy_count_ = 0;                     // tasks that are running
+  Task task_;  // of the job
+  int task_count_ = 0, next_task_ = 0;
+  int busy_count_ = 0;  // tasks that are running
   bool is_over_ = false;
   std::exception_ptr failure_;
   std::vector<std::thread> threads_;

@@ -30,18 +30,6 @@ TEST_P(ThreadPoolTest, FinishesWithoutAJob) {
   pool.finish();
 }
 
-TEST_P(ThreadPoolTest, DoesJobsThatStartBeforeOthersAreDone) {
-  ThreadPool pool(GetParam());
-  std::array<std::atomic<int>, 100> times_done = {};
-  for (std::size_t job = 0; job < times_done.size(); ++job) {
-    const int task_count = job % 2 == 0 ? 1 : 3;
-    pool.start(task_count, [&times = times_done[job]](int task, int) { times += task + 1; });
-  }
-  pool.finish();
-  for (std::size_t job = 0; job < times_done.size(); ++job)
-    EXPECT_EQ(times_done[job], job % 2 == 0 ? 1 : 1 + 2 + 3) << job;
-}
-
 TEST_P(ThreadPoolTest, AWorkerDoesOneTaskAtATime) {
   ThreadPool pool(GetParam());
   std::vector<std::atomic<bool>> is_busy(static_cast<std::size_t>(pool.size()));
@@ -57,22 +45,21 @@ TEST_P(ThreadPoolTest, AWorkerDoesOneTaskAtATime) {
 TEST(ThreadPool, StartsTasksInOrder) {
   ThreadPool alone(1);
   std::vector<int> begun;
-  for (const int job : {10, 20, 30}) alone.start(3, [&, job](int task, int) { begun.push_back(job + task); });
+  alone.start(5, [&](int task, int) { begun.push_back(task); });
   alone.finish();
-  EXPECT_EQ(begun, (std::vector<int>{10, 11, 12, 20, 21, 22, 30, 31, 32}));
+  EXPECT_EQ(begun, (std::vector<int>{0, 1, 2, 3, 4}));
 }
 
 TEST(ThreadPool, DropsQueuedTasksWhenATaskThrows) {
   ThreadPool alone(1);
   std::vector<int> begun;
-  for (const int job : {10, 20})
-    alone.start(3, [&, job](int task, int) {
-      begun.push_back(job + task);
-      if (task == 1) throw std::runtime_error("task 1");
-    });
+  alone.start(3, [&](int task, int) {
+    begun.push_back(task);
+    if (task == 1) throw std::runtime_error("task 1");
+  });
   EXPECT_THROW(alone.finish(), std::runtime_error);
   alone.finish();
-  EXPECT_EQ(begun, (std::vector<int>{10, 11}));
+  EXPECT_EQ(begun, (std::vector<int>{0, 1}));
 }
 
 TEST_P(ThreadPoolTest, RethrowsTheExceptionOfATaskAndGoesOnWithTheNextJob) {
@@ -98,21 +85,6 @@ TEST_P(ThreadPoolTest, MayBeDestroyedInTheMiddleOfAJob) {
     });
   }
   EXPECT_EQ(done_count, begun_count);
-}
-
-TEST_P(ThreadPoolTest, StartsNoJobAfterADroppedTask) {
-  ThreadPool pool(GetParam());
-  std::atomic<int> next = 0;
-  const auto start_many = [&] {
-    for (int number = 0; number < 1000; ++number)
-      pool.start(1, [&, number](int, int) {
-        while (next != number) std::this_thread::yield();  // forever if an earlier task was dropped
-        next = number + 1;
-        if (number == 20) throw std::runtime_error("task 20");
-      });
-    pool.finish();
-  };
-  EXPECT_THROW(start_many(), std::runtime_error);
 }
 
 TEST_P(ThreadPoolTest, MayCancelInTheMiddleOfAJobAndGoOn) {
