@@ -43,13 +43,16 @@ FragmentReport::FragmentReport(const ZbufOptions& chosen, const Viewport& screen
   if (log != nullptr) all_.emplace(chosen.rules, screen);
 }
 
-void FragmentReport::add(const TriangleBatch& p_ndc, std::size_t index) {
-  const ExactTriangle triangle = exact_triangle(p_ndc, index);
-  const std::uint64_t number = p_ndc.numbers[index];
-  for (Probe& probe : probes_)
-    probe.test.add(triangle, number, [&](const Fragment& fragment) { probe.found.push_back(fragment); });
-  if (all_)
-    all_->add(triangle, number, [&](const Fragment& fragment) { log_->append(to_text(fragment) + "\n"); });
+void FragmentReport::add(const TriangleBatch& p_ndc) {
+  if (probes_.empty() && !all_) return;
+  for (std::size_t i = 0; i < p_ndc.size(); ++i) {
+    const ExactTriangle triangle = exact_triangle(p_ndc, i);
+    const std::uint64_t number = p_ndc.numbers[i];
+    for (Probe& probe : probes_)
+      probe.test.add(triangle, number, [&](const Fragment& fragment) { probe.found.push_back(fragment); });
+    if (all_)
+      all_->add(triangle, number, [&](const Fragment& fragment) { log_->append(to_text(fragment) + "\n"); });
+  }
 }
 
 void FragmentReport::finish() const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -24,10 +23,8 @@ class FragmentReport {
   /// probe is not on the screen.
   FragmentReport(const ZbufOptions& chosen, const Viewport& screen, TextWriter* log);
 
-  /// True if anything is requested.
-  [[nodiscard]] bool is_wanted() const { return !probes_.empty() || all_; }
-  /// Takes the next triangle.
-  void add(const TriangleBatch& p_ndc, std::size_t index);
+  /// Takes the next triangles.
+  void add(const TriangleBatch& p_ndc);
   /// Prints the fragments of the probes on stderr.
   void finish() const;
 

@@ -51,6 +51,7 @@ struct Reports {
 
   void add(const TriangleBatch& p_ndc) {
     drawing.add(p_ndc);
+    fragments.add(p_ndc);
     if (certainty) certainty->add(p_ndc);
   }
 };
@@ -226,8 +227,7 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
         chosen.rules, of_samples,
         Wireframe::Setup{chosen.has_all_edges, !reader.header().appearance.lights.empty(),
                          chosen.sample_count});
-  TriangleStore store(kept(chosen, reader, of_samples, wireframe.get()), shader,
-                      reports.fragments.is_wanted() ? &reports.fragments : nullptr);
+  TriangleStore store(kept(chosen, reader, of_samples, wireframe.get()), shader);
   const bool is_one_by_one = chosen.algorithm == Algorithm::scanline;
   ThreadPool pool(is_one_by_one ? 1 : chosen.threads_for(pixel_count(of_samples)));
   SampledDrawing drawing(chosen, screen, store.background(), pool);

@@ -13,14 +13,11 @@ constexpr std::size_t kPixelsPerTriangle = 4;
 
 }  // namespace
 
-TriangleStore::TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader, FragmentReport* report)
+TriangleStore::TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader)
     : setup_(setup),
       shader_(shader),
-      report_(report),
       min_capacity_(std::max(setup.pixel_count / kPixelsPerTriangle, kMinCapacity)),
-      capacity_(min_capacity_) {
-  tags_are_colors_ = report_ == nullptr && !has_ids();
-}
+      capacity_(min_capacity_) {}
 
 void TriangleStore::color(std::span<const PixelTag> tags, std::span<Color> colors) {
   if (!has_ids()) {

@@ -18,15 +18,13 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/visibility/raster.h"
-#include "tools/zbuf/fragment_report.h"
 #include "tools/zbuf/sampled_drawing.h"
 #include "tools/zbuf/wireframe.h"
 
 namespace pipeline {
 
 /// Assigns every triangle of the stream, in order, the tag of its pixels: the id under which it is kept, for
-/// the surface shader or for its text, or, if it is kept for neither, the RGB value of its color. Hands each
-/// to the report, if there is one.
+/// the surface shader or for its text, or, if nothing is kept, the RGB value of its color.
 ///
 /// Of the triangles kept only those that are seen need to stay. They are found whenever twice as many are
 /// kept as were seen the last time; so memory is bounded by the picture. That takes two passes over its
@@ -48,7 +46,7 @@ class TriangleStore {
     std::uint16_t decimal_marks;
   };
 
-  TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader, FragmentReport* report);
+  TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader);
 
   /// The tag of a pixel without a triangle.
   [[nodiscard]] PixelTag background() const {
@@ -60,10 +58,10 @@ class TriangleStore {
   /// The tags of the next triangles.
   void set_tags(const TriangleBatch& p_ndc, std::vector<PixelTag>& tags) {
     tags.resize(p_ndc.size());
-    if (tags_are_colors_)
-      for (std::size_t i = 0; i < tags.size(); ++i) tags[i] = colors_.of(p_ndc.numbers[i]).rgb();
+    if (has_ids())
+      for (std::size_t i = 0; i < tags.size(); ++i) tags[i] = kept(p_ndc, i);
     else
-      for (std::size_t i = 0; i < tags.size(); ++i) tags[i] = tag_of(p_ndc, i);
+      for (std::size_t i = 0; i < tags.size(); ++i) tags[i] = colors_.of(p_ndc.numbers[i]).rgb();
   }
   /// The colors of pixels with these tags, unless there is a shader.
   void color(std::span<const PixelTag> tags, std::span<Color> colors);
@@ -100,8 +98,8 @@ class TriangleStore {
   }
 
  private:
-  PixelTag tag_of(const TriangleBatch& p_ndc, std::size_t index) {
-    if (report_ != nullptr) report_->add(p_ndc, index);
+  /// The id under which a triangle is kept from now on.
+  KeptIds::Id kept(const TriangleBatch& p_ndc, std::size_t index) {
     if (setup_.wireframe != nullptr) setup_.wireframe->add(p_ndc, index, next_id_);
     if (keeps_numbers()) numbers_.push_back(p_ndc.numbers[index]);
     if (keeps_text()) add_text(p_ndc, index);
@@ -109,10 +107,8 @@ class TriangleStore {
       const auto [corners, low_parts, marks] = exact_triangle(p_ndc, index);
       corners_.push_back({corners, low_parts == nullptr ? Triangle() : *low_parts, marks});
     }
-    if (has_ids() && !shader_) return next_id_++;
-    const Color color = colors_.of(p_ndc.numbers[index]);
-    if (!shader_) return color.rgb();
-    shader_->add(p_ndc, index, color);
+    if (!shader_) return next_id_++;
+    shader_->add(p_ndc, index, colors_.of(p_ndc.numbers[index]));
     return next_id_++;
   }
   [[nodiscard]] bool has_ids() const { return shader_ || keeps_numbers() || keeps_corners(); }
@@ -138,8 +134,6 @@ class TriangleStore {
   ChunkedArray<std::uint64_t> numbers_;
   ChunkedArray<Corners> corners_;
   KeptIds::Id next_id_ = 0;
-  FragmentReport* report_;
-  bool tags_are_colors_;  // and nothing else is to be done
   TriangleColors colors_;
   std::size_t min_capacity_;
   std::size_t capacity_;
