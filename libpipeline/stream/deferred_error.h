@@ -14,8 +14,6 @@ class DeferredError {
   /// Keeps the exception being handled; the next call of `read` throws it.
   void keep() { deferred_error_ = std::current_exception(); }
 
-  [[nodiscard]] bool is_kept() const { return deferred_error_ != nullptr; }
-
   /// Clears the batch and calls `fill`, which adds triangles to it; false if it added none. An error that
   /// `fill` throws is thrown at once if the batch is empty, else by the next call.
   template <typename Fill>

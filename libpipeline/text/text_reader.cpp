@@ -1,6 +1,5 @@
 #include "libpipeline/text/text_reader.h"
 
-#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -209,22 +208,10 @@ bool TextReader::has_buffered_lines(std::size_t count) const {
   return true;
 }
 
-/// True if the next read will not block.
-bool TextReader::input_is_ready() const {
-  pollfd input = {.fd = descriptor_, .events = POLLIN, .revents = 0};
-  return ::poll(&input, 1, 0) != 0;
-}
-
 void TextReader::skip(std::size_t length, std::size_t line_count) {
   begin_ += length;
   scanned_ = std::max(scanned_, begin_);
   line_number_ += line_count;
-}
-
-bool TextReader::buffer_more() {
-  if (at_end_of_file_ || read_error_ != 0 || !input_is_ready()) return false;
-  read_block();
-  return !at_end_of_file_ && read_error_ == 0;
 }
 
 SourceLocation TextReader::end_location() const {
@@ -233,9 +220,7 @@ SourceLocation TextReader::end_location() const {
 
 /// Reads one more block after the unread part; false at the end of the file. May block.
 bool TextReader::fill() {
-  if (at_end_of_file_) return false;
-  if (read_error_ == 0) read_block();
-  if (read_error_ != 0) throw IoError("read", file_, read_error_);
+  if (!at_end_of_file_) read_block();
   return !at_end_of_file_;
 }
 
@@ -252,10 +237,7 @@ void TextReader::read_block() {
   do {
     count = ::read(descriptor_, buffer_.get() + end_, kBlockSize);
   } while (count < 0 && errno == EINTR);
-  if (count < 0) {
-    read_error_ = errno;
-    return;
-  }
+  if (count < 0) throw IoError("read", file_, errno);
   at_end_of_file_ = count == 0;
   end_ += static_cast<std::size_t>(count);
   bytes_read_ += static_cast<std::size_t>(count);

@@ -100,9 +100,6 @@ class TextReader {
   static constexpr std::size_t kSlack = 512;
   /// Consumes `length` buffered characters, `line_count` whole lines.
   void skip(std::size_t length, std::size_t line_count);
-  /// Appends one more block of the input to the buffer; false at the end of the input, or if reading would
-  /// block or has failed. A failure is thrown when the text before it is used up.
-  bool buffer_more();
 
   [[nodiscard]] const std::string& file() const { return file_; }
   /// The number of the line read last, 0 before the first.
@@ -116,7 +113,6 @@ class TextReader {
   bool fill();
   void read_block();
   void enlarge_buffer();
-  [[nodiscard]] bool input_is_ready() const;
   LineScanner take_line(std::size_t length, bool is_ended);
 
   int descriptor_ = -1;
@@ -130,7 +126,6 @@ class TextReader {
   std::size_t bytes_read_ = 0;
   bool last_line_was_ended_ = false;
   bool at_end_of_file_ = false;
-  int read_error_ = 0;  // an errno; thrown when the text before it is used up
 };
 
 }  // namespace pipeline

@@ -208,59 +208,14 @@ TEST(TextReader, BlankLinesAndCommentsDoNotCountAsBuffered) {
   EXPECT_FALSE(reader.has_buffered_lines(1));
 }
 
-TEST(TextReader, BuffersMoreOfTheTextBehindWhatItHas) {
-  std::string text;
-  for (int i = 0; i < 100000; ++i) text += std::to_string(i) + "\n";
-  const TextFile file(text);
-  TextReader reader(file.descriptor(), "in.txt");
-  LineScanner line;
-  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(reader.next_line(line));
-  const std::string behind(text.substr(text.find("1000\n")));
-  while (reader.buffer_more()) EXPECT_TRUE(behind.starts_with(reader.buffered()));
-  EXPECT_TRUE(reader.buffered() == behind);
-  for (int i = 1000; i < 100000; ++i) {
-    ASSERT_TRUE(reader.next_line(line));
-    EXPECT_EQ(line.rest(), std::to_string(i));
-  }
-  EXPECT_FALSE(reader.next_line(line));
-}
-
-TEST(TextReader, KeepsAsMuchBufferedAsIsAskedFor) {
-  constexpr std::size_t kSize = 300000;
-  std::string text;
-  for (int i = 0; i < 300000; ++i) text += std::to_string(i) + "\n";
-  const TextFile file(text);
-  TextReader reader(file.descriptor(), "in.txt");
-  LineScanner line;
-  for (int i = 0; i < 300000; ++i) {
-    while (reader.buffered().size() < kSize && reader.buffer_more()) {
-    }
-    ASSERT_TRUE(reader.next_line(line));
-    EXPECT_EQ(line.rest(), std::to_string(i));
-  }
-  EXPECT_EQ(reader.bytes_read(), text.size());
-}
-
-TEST(TextReader, DoesNotWaitToBufferMore) {
-  const TextInPieces input({"a\nb\n"}, TextInPieces::Then::silence);
-  TextReader reader(input.descriptor(), "in.txt");
-  LineScanner line;
-  ASSERT_TRUE(reader.next_line(line));
-  EXPECT_FALSE(reader.buffer_more());
-  EXPECT_EQ(reader.buffered(), "b\n");
-}
-
 // The text before it is delivered first.
-TEST(TextReader, AFailureToBufferMoreComesBehindTheTextBeforeIt) {
+TEST(TextReader, AFailureToReadComesAfterTheTextBeforeIt) {
   int ends[2];
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
   ASSERT_EQ(::send(ends[1], "a\n\nb\n", 5, 0), 5);
   ASSERT_EQ(::send(ends[0], "never read", 10, 0), 10);
   ::close(ends[1]);  // with unread data: the connection is reset
   TextReader reader(ends[0], "in.txt");
-  EXPECT_TRUE(reader.buffer_more());
-  EXPECT_FALSE(reader.buffer_more());
-  EXPECT_EQ(reader.buffered(), "a\n\nb\n");
   LineScanner line;
   int line_count = 0;
   const std::string message = message_of([&] {
