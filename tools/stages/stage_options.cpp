@@ -37,7 +37,7 @@ NumberOptions::NumberOptions(CommandLine& options) {
 }
 
 NumberFormat NumberOptions::format() const {
-  std::uint64_t decimals = 7;
+  std::uint64_t decimals = 0;
   if (!parse_count(digits_, decimals)) return {.shortest = true};
   return {.decimals = static_cast<int>(decimals)};
 }

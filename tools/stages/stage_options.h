@@ -26,7 +26,7 @@ class NumberOptions {
   [[nodiscard]] ErrorBound kept_bounds(CoordinateRounder& rounder) const;
 
  private:
-  std::string digits_ = "7";
+  std::string digits_ = std::to_string(NumberFormat().decimals);
   Precision precision_ = Precision::extended;
 };
 
