@@ -57,7 +57,7 @@ class RayCaster {
 
  private:
   // Neighboring pixels show the same few triangles.
-  static constexpr std::size_t kCached = 256;
+  static constexpr std::size_t kCached = 1024;
   struct CachedSpan {
     std::optional<TracedTriangles::Id> id;
     std::optional<CenterRows> rows;

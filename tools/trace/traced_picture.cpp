@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 #include <memory>
 
 #include "libpipeline/picture/supersampling.h"
@@ -9,30 +10,99 @@
 #include "tools/rim/progress.h"
 
 namespace pipeline {
+
 namespace {
 
-// Rays near each other find the same boxes and triangles in the processor's caches.
-constexpr int kTile = 16;
+/// With three digits.
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
 
-/// The pixels of a screen in squares, row after row.
-struct Tiles {
-  explicit Tiles(const Viewport& of_pixels)
-      : screen(of_pixels), across((screen.columns + kTile - 1) / kTile) {}
+std::string millions(std::uint64_t count) {
+  return rounded(static_cast<double>(count) / 1e6) + " million ";
+}
 
-  [[nodiscard]] int count() const { return across * ((screen.rows + kTile - 1) / kTile); }
-  template <typename Visitor>
-  void for_each_pixel(int tile, Visitor&& visit) const {
-    const int top = tile / across * kTile, left = tile % across * kTile;
-    for (int row = top; row < std::min(top + kTile, screen.rows); ++row) {
-      std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(screen.columns) +
-                          static_cast<std::size_t>(left);
-      for (int column = left; column < std::min(left + kTile, screen.columns); ++column)
-        visit(row, column, pixel++);
-    }
+}  // namespace
+
+std::string to_text(const TraceWork& work) {
+  const double seconds = std::max(work.cast_seconds, 1e-9);
+  const auto speed = [&](std::uint64_t count, const char* kind) {
+    return millions(count) + kind + " rays at " + rounded(static_cast<double>(count) / 1e6 / seconds) +
+           " million a second";
+  };
+  char build[48];
+  std::snprintf(build, sizeof build, "build %.3f s, ", work.build_seconds);
+  std::string all = build + speed(work.primary_rays, "primary");
+  if (work.rays.shadow > 0) all += ", " + speed(work.rays.shadow, "shadow");
+  if (work.rays.mirrored > 0) all += ", " + speed(work.rays.mirrored, "mirrored");
+  if (work.rays.refracted > 0) all += ", " + speed(work.rays.refracted, "refracted");
+  if (work.rays.cut > 0)
+    all += ", " + millions(work.rays.cut) + "rays cut, at most " + rounded(work.rays.largest_cut_weight) +
+           " of a pixel's color";
+  return all;
+}
+
+namespace {
+
+/// Gives samples their colors, for one thread. A sample is a pixel of the screen whose rays are cast: of the
+/// picture's, or of a finer one.
+class SampleColors {
+ public:
+  SampleColors(const TracedScene& scene, const Bvh& bvh, const PixelRays& rays, const ColorSetup& setup)
+      : triangles_(scene.triangles()), rays_(rays), setup_(setup), cache_(kCached) {
+    if (setup.light != nullptr) light_.emplace(triangles_, bvh, *setup.light);
   }
 
-  const Viewport& screen;
-  int across;
+  /// The color of a sample that shows `seen`; one that shows nothing has the background's. Rays' colors are
+  /// clamped and rounded as `zbuf` does.
+  Color color(int row, int column, const RayCaster::Seen& seen) {
+    Color color;
+    if (light_) {
+      color = rounded_color(light_->radiance(seen.id, rays_.ray(row, column)));
+    } else {
+      const CachedSurface& shown = surface(seen.id);
+      if (setup_.shader == nullptr) return shown.own_color;
+      color = setup_.shader->color_at(shown.surface, row, column);
+    }
+    shown_.add_pixel(color, setup_.background);
+    return color;
+  }
+  [[nodiscard]] const ShownColors& shown() const { return shown_; }
+  /// None if no rays bring colors.
+  [[nodiscard]] const std::optional<LightTransport>& light() const { return light_; }
+
+ private:
+  using Id = TracedTriangles::Id;
+
+  // Neighboring samples show the same few triangles; 75 KiB.
+  static constexpr std::size_t kCached = 256;
+  struct CachedSurface {
+    std::optional<Id> id;
+    Color own_color;  // of triangles without a shader
+    SurfaceShader::Surface surface;
+  };
+
+  const CachedSurface& surface(Id id) {
+    CachedSurface& cached = cache_[id % kCached];
+    if (cached.id == id) return cached;
+    cached.id = id;
+    cached.own_color = own_colors_.of(triangles_.number(id));
+    if (setup_.shader == nullptr) return cached;
+    const TriangleBatch& p_ndc = triangles_.p_ndc();
+    if (!p_ndc.attributes.colors.empty()) shown_.add_triangle(p_ndc.attributes.colors[id]);
+    cached.surface = setup_.shader->surface_of(p_ndc, id, cached.own_color);
+    return cached;
+  }
+
+  const TracedTriangles& triangles_;
+  PixelRays rays_;
+  ColorSetup setup_;
+  std::optional<LightTransport> light_;
+  TriangleColors own_colors_;
+  std::vector<CachedSurface> cache_;
+  ShownColors shown_;
 };
 
 /// The rays of one thread.
@@ -124,20 +194,20 @@ TracedPicture::TracedPicture(const PictureRays& rays, Color background) : screen
 TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const PictureRays& rays,
                              const ColorSetup& colors, ThreadPool& pool) {
   TracedPicture picture(rays, colors.background);
-  const Tiles tiles(rays.screen);
   std::vector<std::unique_ptr<PixelTracer>> tracers(static_cast<std::size_t>(pool.size()));
   Progress progress("trace", "ray");
   std::atomic<std::uint64_t> ray_count = 0;
-  std::atomic<int> tile_count = 0;
-  pool.start(tiles.count(), [&](int tile, int worker) {
+  std::atomic<int> row_count = 0;
+  pool.start(rays.screen.rows, [&](int row, int worker) {
     auto& tracer = tracers[static_cast<std::size_t>(worker)];
     if (!tracer) tracer = std::make_unique<PixelTracer>(scene, bvh, rays, colors);
     const std::uint64_t before = tracer->ray_count();
-    tiles.for_each_pixel(
-        tile, [&](int row, int column, std::size_t pixel) { tracer->trace(row, column, pixel, picture); });
+    const auto columns = static_cast<std::size_t>(rays.screen.columns);
+    for (std::size_t column = 0; column < columns; ++column)
+      tracer->trace(row, static_cast<int>(column), static_cast<std::size_t>(row) * columns + column, picture);
     ray_count += tracer->ray_count() - before;
-    ++tile_count;
-    if (worker == 0) progress.show(ray_count, static_cast<double>(tile_count) / tiles.count());
+    ++row_count;
+    if (worker == 0) progress.show(ray_count, static_cast<double>(row_count) / rays.screen.rows);
   });
   pool.finish();
   picture.work.primary_rays = ray_count;

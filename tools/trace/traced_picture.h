@@ -2,18 +2,37 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/raytracing/bvh.h"
+#include "libpipeline/raytracing/light_transport.h"
 #include "libpipeline/raytracing/sampling.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/thread_pool.h"
-#include "tools/trace/sample_colors.h"
-#include "tools/trace/trace_work.h"
 #include "tools/trace/traced_scene.h"
 
 namespace pipeline {
+
+/// How samples get their colors.
+struct ColorSetup {
+  Color background;
+  const SurfaceShader* shader = nullptr;       // of zbuf; without one, every triangle has a color of its own
+  const LightTransportSetup* light = nullptr;  // if set, rays bring the colors, and not the shader
+};
+
+/// How long the parts of a run of `trace` took, and how many rays there were.
+struct TraceWork {
+  double build_seconds = 0;
+  double cast_seconds = 0;
+  std::uint64_t primary_rays = 0;
+  LightTransport::RayCounts rays;  // the others
+};
+
+/// The line of `--timing`.
+std::string to_text(const TraceWork& work);
 
 /// The rays that are cast for a picture.
 struct PictureRays {
