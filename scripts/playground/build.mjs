@@ -1,4 +1,4 @@
-// Makes the page's files from its modules: node build.mjs NPM_FOLDER TOOLS_FOLDER VERSION DIR. scripts/build-playground calls it.
+// Makes the page's files from its modules: node build.mjs NPM_FOLDER TOOLS_FOLDER VERSION DIR LICENSES. scripts/build-playground calls it.
 
 import crypto from "node:crypto";
 import fs from "node:fs";
@@ -7,7 +7,7 @@ import path from "node:path";
 import {fileURLToPath} from "node:url";
 import zlib from "node:zlib";
 
-const [npmFolder, toolsFolder, version, target] = process.argv.slice(2);
+const [npmFolder, toolsFolder, version, target, licensesFile] = process.argv.slice(2);
 const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, "../..");
 const {build} = createRequire(path.resolve(npmFolder, "package.json"))("esbuild");
 const TITLE = "<title>Pipeline playground</title>";
@@ -55,8 +55,10 @@ const modules = THEIR_FOLDERS.flatMap(folder => fs.readdirSync(path.join(root, "
 const sources = Object.fromEntries([...COMMANDS.map(name => `scripts/${name}`), ...modules, ...THEIR_FILES].map(name => [`/pipeline/${name}`, read(root, name)]));
 const PYODIDE = ["pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json"];
 
+// In the one page, they are a comment.
+const licenses = `${read(root, "LICENSE")}\n${read(licensesFile)}`, page = `${single}\n<!--\n${licenses.replaceAll("-->", "->")}-->\n`;
 const files = {"index.html": folder, "main.js": await bundled("main.js", "resources_of_folder.js"), "worker.js": worker,
-  "samples.json": JSON.stringify(samples), "tools.wasm": wasm, "mesh2scene.wasm": importer, "python.js": await bundled("python.js", "resources_of_folder.js"),
+  "samples.json": JSON.stringify(samples), "tools.wasm": wasm, "mesh2scene.wasm": importer, "LICENSES.txt": licenses, "python.js": await bundled("python.js", "resources_of_folder.js"),
   "commands.json": JSON.stringify({sources, driver: read(here, "run_command.py")}),
   ...Object.fromEntries(PYODIDE.map(name => [name, fs.readFileSync(path.join(npmFolder, "node_modules/pyodide", name))]))};
 
@@ -76,7 +78,7 @@ function install() {
   expectOurs(places.folder, true);
   const work = fs.mkdtempSync(path.join(target, ".playground-"));
   try {
-    const written = [["playground.html", single], ...Object.entries(files).map(([name, contents]) => [path.join("playground", name), contents])];
+    const written = [["playground.html", page], ...Object.entries(files).map(([name, contents]) => [path.join("playground", name), contents])];
     fs.mkdirSync(path.join(work, "playground"));
     for (const [name, contents] of written) fs.writeFileSync(path.join(work, name), contents);
     if (fs.existsSync(places.folder)) fs.renameSync(places.folder, path.join(work, "before"));

@@ -6,6 +6,7 @@ usage: make_release_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -24,6 +25,7 @@ echo archive > "$2/out/pipeline-9.8.7-source.tar.xz"
 echo list > "$2/out/built-with.txt"
 """
 PLAYGROUND = """#!/bin/sh
+echo run >> "${PATH%%:*}/playground.runs"
 mkdir -p "$2/playground"
 echo page > "$2/playground.html"
 """
@@ -52,7 +54,6 @@ class MakeRelease(unittest.TestCase):
         self.put(self.bin / "dpkg-query", "#!/bin/sh\necho $#\n")
         self.git("init", "--quiet")
         self.commit()
-        self.git("tag", "v9.8.7")
 
     def put(self, path, text):
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -106,36 +107,57 @@ class MakeRelease(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(self.out)), ["file", "folder", "link"])
         self.assertEqual((self.out / "file").read_text(), "mine")
 
-    def test_only_a_clean_tag_is_released(self):
-        self.refused("there is no tag v9.8.6", version="9.8.6")
+    def test_only_a_clean_commit_is_released(self):
+        self.git("tag", "v9.8.7")
         self.refused("expected a version such as 1.0.0, found 'HEAD'", version="HEAD", status=2)
         (self.tree / "new file").write_text("")
         self.refused("files have been changed or added since the last commit (git status)")
         (self.tree / "new file").unlink()
         self.commit()
-        self.refused("v9.8.7 is not what is checked out")
+        self.refused("the tag v9.8.7 names another commit")
 
-    def test_version_and_changelog_are_those_of_the_tag(self):
-        self.git("tag", "v9.8.6")
+    def test_the_tag_is_the_last_step(self):
+        self.put(self.bin / "bwrap.fails", "")
+        tags = self.tree / ".git/refs/tags"
+        for words, status, names in ((["--tag"], 1, []), ([], 0, []), (["--tag"], 0, ["v9.8.7"])):
+            self.assertEqual(self.run_it(*words, "9.8.7", f"new{len(words)}")[0], status)
+            self.assertEqual(os.listdir(tags), names)
+            (self.bin / "bwrap.fails").unlink(missing_ok=True)
+
+    def test_all_that_is_missing_is_told_at_once(self):
+        shutil.rmtree(self.tree / "build")
+        (self.bin / "node").unlink()
+        for name in ("sh", "dirname", "readlink", "git", "grep", "awk"):
+            os.symlink(shutil.which(name), self.bin / name)
+        done = subprocess.run([self.tree / "scripts/package/make-release", "9.8.7", "new"], cwd=self.out,
+                              capture_output=True, text=True, env={"PATH": str(self.bin)})
+        self.assertEqual(done.stderr, "make-release: missing: node flock build/playground/root; run "
+                         "scripts/install-packages --checks and then --playground\n")
+
+    def test_version_and_changelog_are_those_of_the_commit(self):
         self.refused("CMakeLists.txt has another version than 9.8.6", version="9.8.6")
         self.put(self.tree / "CHANGELOG.md", "# Log\n\n## Unreleased\n\n- New.\n")
         self.commit()
-        self.git("tag", "-f", "v9.8.7")
         self.refused("CHANGELOG.md has no section '## 9.8.7 - DATE'")
 
-    def test_a_build_that_fails_leaves_nothing_and_says_why(self):
+    def test_a_build_that_fails_says_why_and_is_gone_on_with(self):
         self.put(self.bin / "bwrap.fails", "")
         status, _, messages = self.run_it("9.8.7", "new")
         self.assertEqual((status, messages),
                          (1, "no namespaces\nmake-release: the programs and archives: failed\n"))
         self.assertEqual(os.listdir(self.out), [])
+        (self.bin / "bwrap.fails").unlink()
+        self.assertEqual(self.run_it("9.8.7", "new")[::2], (0, ""))
+        self.assertEqual((self.bin / "playground.runs").read_text(), "run\n")
+        kept = sorted(os.listdir(self.tree / "build/package"))
+        self.assertEqual(kept, ["lock", "root", "root.log", "root.recipe"])
 
     def test_without_a_network_the_root_is_not_made(self):
         self.put(self.bin / "mmdebstrap", "#!/bin/sh\necho no network >&2\nexit 1\n")
         status, _, messages = self.run_it("9.8.7", "new")
         problem = "build/package/root could not be made; see build/package/root.log"
         self.assertEqual((status, messages), (1, f"no network\nmake-release: {problem}\n"))
-        self.assertEqual(os.listdir(self.tree / "build/package"), ["root.log"])
+        self.assertEqual(sorted(os.listdir(self.tree / "build/package")), ["lock", "root.log"])
 
     def test_stopped_half_way_it_leaves_nothing(self):
         self.put(self.bin / "bwrap.hangs", "")
@@ -146,6 +168,35 @@ class MakeRelease(unittest.TestCase):
         os.killpg(process.pid, signal.SIGTERM)
         process.communicate(timeout=60)
         self.assertEqual((process.returncode, os.listdir(self.out)), (1, []))
+
+    def test_home_is_one_setting(self):
+        for name in ("README.md", "CMakeLists.txt", "scripts/package/set-home"):
+            shutil.copy(SOURCE / name, self.tree / name)
+        paths = self.tree / "README.md", self.tree / "CMakeLists.txt"
+        before = [path.read_text() for path in paths]
+        for address, page in (("https://github.com/a/b/", "https://a.github.io/b"),
+                              ("https://h.org/b", "https://h.org/b/playground")):
+            subprocess.run([self.tree / "scripts/package/set-home", address], check=True)
+            after = [path.read_text() for path in paths]
+            home = address.rstrip("/")
+            self.assertIn(f"({home}/releases/latest) · [**Try it in the browser**]({page})\n", after[0])
+            self.assertIn(f'HOMEPAGE_URL "{home}"', after[1])
+        for address, status in (("h.org", 2), ("https://h.org/|", 2), ("", 0)):
+            done = subprocess.run([self.tree / "scripts/package/set-home", address], capture_output=True)
+            self.assertEqual(done.returncode, status)
+        self.assertEqual([path.read_text() for path in paths], before)
+
+    def test_workflows_call_what_is_here(self):
+        folder, own = SOURCE / ".github/workflows", "(apt-get|git|gh|mkdir|tar) "
+        lines = "".join(path.read_text() for path in folder.iterdir()).splitlines()
+        self.assertLessEqual(len(lines), 80)
+        for word in [line.partition("- run: ")[2] for line in lines if "- run: " in line]:
+            self.assertRegex(word, f"^({own}|scripts/)")
+            self.assertTrue(re.match(own, word) or (SOURCE / word.split()[0]).exists(), word)
+        if not shutil.which("yamllint"):
+            self.skipTest("yamllint is missing (Debian: yamllint)")
+        done = subprocess.run(["yamllint", "--strict", folder], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (0, ""))
 
 
 if __name__ == "__main__":
