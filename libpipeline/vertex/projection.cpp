@@ -218,22 +218,21 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
     vertex_kernel().project(coefficients_, rounder_.rounding_test(), vertices_, block_);
     has_images_ = true;
   }
-  const std::size_t target = p_ndc.size();
-  p_ndc.add({}, p_view.numbers[index], p_view.locations[index]);
-  for (std::size_t v = 0; v < 3; ++v) {
-    const Vec3& p = p_view.triangles[index][v];
-    if (projection_.is_perspective && p.z >= 0)
+  const std::size_t target = p_ndc.size(), in_block = index % VertexBlock::kTriangles;
+  const Triangle& triangle = p_view.triangles[index];
+  p_ndc.add(block_.triangle(in_block), p_view.numbers[index], p_view.locations[index]);
+  const auto* const passes = &block_.passes_rounding_test[3 * in_block];
+  const bool is_in_front =
+      !projection_.is_perspective || (triangle[0].z < 0 && triangle[1].z < 0 && triangle[2].z < 0);
+  for (std::size_t v = 0; v < 3 && !(is_in_front && (passes[0] & passes[1] & passes[2]) != 0); ++v) {
+    if (projection_.is_perspective && triangle[v].z >= 0)
       throw InputError(
           rounder_.location_of(p_view.locations[index][v]),
           expected_but_found("a vertex in front of the eye (z below 0; --clip auto cuts the others)",
-                             "z = " + shortest_text(p.z)));
-    const std::size_t in_block = 3 * (index % VertexBlock::kTriangles) + v;
-    if (block_.passes_rounding_test[in_block] != 0) {
-      p_ndc.triangles[target][v] = block_.vertex(in_block);
-    } else {
-      rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)),
-                                  size_of(p_view.triangles[index]));
-    }
+                             "z = " + shortest_text(triangle[v].z)));
+    if (passes[v] == 0)
+      rounder_.set_vertex_exactly(
+          p_ndc, target, v, perspective_divide(to_clip_space(projection_, triangle[v])), size_of(triangle));
   }
   if (!writes_w_) return;
   const auto& [a, b, c] = p_view.triangles[index];
@@ -268,7 +267,7 @@ std::vector<ClipVertex> ProjectionStage::clipped(const std::array<ClipVertex, 3>
 
 // P10, P11
 void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
-  const std::array<ClipVertex, 3> corners = corners_in_clip_space(p_view.triangles[index]);
+  const auto& corners = corners_ = corners_in_clip_space(p_view.triangles[index]);
   const TriangleOutcode outside = outcode(corners);
   if ((outside.all & planes()) != 0) return drop_outside(p_view, index, p_ndc);
   if ((outside.any & planes()) == 0 || clip_ == ClipMode::reject)
@@ -310,6 +309,16 @@ std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
   return std::make_shared<const ClipTriangle>(triangle);
 }
 
+/// The image of a vertex of a piece that is a corner of its triangle, if it passed the rounding test.
+std::optional<Vec3> ProjectionStage::image_of_corner(const ClipVertex& vertex, std::size_t index) const {
+  if (!has_images_ || clip_inset_ != 0) return std::nullopt;
+  const std::size_t first = 3 * (index % VertexBlock::kTriangles);
+  for (std::size_t v = 0; v < 3; ++v)
+    if (vertex.weights[v] == 1 && block_.passes_rounding_test[first + v] != 0 && vertex == corners_[v])
+      return block_.vertex(first + v);
+  return std::nullopt;
+}
+
 /// Adds the image of a piece of triangle `index`, with that triangle's number.
 void ProjectionStage::add_piece(const TriangleBatch& p_view, std::size_t index, const Piece& piece,
                                 TriangleBatch& p_ndc) {
@@ -329,7 +338,11 @@ void ProjectionStage::add_piece(const TriangleBatch& p_view, std::size_t index, 
     PrintableNumber w;
     if (writes_w_) w = round_to_shortest(piece[v]->w, input_size);
     mixes[v] = {piece[v]->weights, w.hi};
-    rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(*piece[v]), input_size, w.is_certain);
+    const auto image = w.is_certain ? image_of_corner(*piece[v], index) : std::nullopt;
+    if (image)
+      p_ndc.triangles[target][v] = *image;
+    else
+      rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(*piece[v]), input_size, w.is_certain);
   }
   if (writes_w_) add_attributes(p_view, index, mixes, p_ndc);
 }

@@ -116,6 +116,7 @@ class ProjectionStage {
   void add_possible(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   [[nodiscard]] std::vector<ClipVertex> clipped(const std::array<ClipVertex, 3>& corners,
                                                 const Triangle& p_view) const;
+  [[nodiscard]] std::optional<Vec3> image_of_corner(const ClipVertex& vertex, std::size_t index) const;
   void add_piece(const TriangleBatch& p_view, std::size_t index, const Piece& piece, TriangleBatch& p_ndc);
   [[nodiscard]] std::shared_ptr<const ClipTriangle> unclipped_in_clip_space(
       const std::array<ClipVertex, 3>& corners, const TriangleBatch& p_view, std::size_t index);
@@ -129,8 +130,9 @@ class ProjectionStage {
   VertexBlock vertices_;  // the block around the current triangle
   ImageBlock block_;      // their images
   bool has_images_ = false;
-  SideBlock sides_;  // and where they lie, unless the clip mode is automatic or none
-  bool mirrored_;    // one axis is, so clockwise and counterclockwise change places
+  std::array<ClipVertex, 3> corners_;  // of the triangle that is being cut
+  SideBlock sides_;                    // and where they lie, unless the clip mode is automatic or none
+  bool mirrored_;                      // one axis is, so clockwise and counterclockwise change places
   bool keeps_unclipped_ = false;
   std::optional<ErrorBound> error_;  // of what is read, if bounds are kept
   bool writes_w_ = false;            // with the triangles of this batch
