@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -105,7 +104,6 @@ void StageWriter::write_header(const StageHeader& header) {
 
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
-  if (!keeps_four_digits_) note_sizes(batch);
   for (std::size_t i = 0, end = 0; i < batch.size(); i = end) {
     end = begin_run(batch, i);
     write_columns(fixed_columns(batch.triangles, batch.attributes, columns_, i, end - i),
@@ -130,23 +128,6 @@ std::size_t StageWriter::begin_run(const TriangleBatch& batch, std::size_t begin
   while (last < limit && (bare_ || batch.numbers[last] == next_number_ + (last - begin - 1))) ++last;
   next_number_ = batch.numbers[last - 1] + 1;
   return last;
-}
-
-/// Looks at every coordinate until one keeps four digits in the text, which settles the question.
-void StageWriter::note_sizes(const TriangleBatch& batch) {
-  double smallest_with_four_digits = 1000;
-  for (int i = 0; i < format_.decimals; ++i) smallest_with_four_digits /= 10;
-  const auto look_at = [&](const auto& points) {
-    for (const Vec3& point : points) {
-      for (const double coordinate : {point.x, point.y, point.z}) {
-        has_filled_coordinate_ |= coordinate != 0;
-        keeps_four_digits_ |= format_.shortest || std::fabs(coordinate) >= smallest_with_four_digits;
-      }
-    }
-    return keeps_four_digits_;
-  };
-  if (std::ranges::any_of(batch.triangles, look_at)) return;
-  for (const Sphere& sphere : batch.spheres) look_at(sphere.points);
 }
 
 void StageWriter::write_sphere(const Sphere& sphere) {

@@ -20,14 +20,9 @@ class StageWriter {
   /// Ends the text, and flushes it.
   void finish();
 
-  /// False if some coordinates written so far are not 0, but all are so small that the text holds fewer than
-  /// four of their significant digits.
-  [[nodiscard]] bool keeps_four_digits() const { return keeps_four_digits_ || !has_filled_coordinate_; }
-
  private:
   void write_sphere(const Sphere& sphere);
   void write_number(std::uint64_t number);
-  void note_sizes(const TriangleBatch& batch);
   std::size_t begin_run(const TriangleBatch& batch, std::size_t begin);
   void write_clipped(const ClipTriangle& unclipped, const AttributeArrays& attributes, std::size_t index);
 
@@ -39,8 +34,6 @@ class StageWriter {
   std::uint64_t next_number_ = 0;
   std::shared_ptr<const ClipTriangle> last_unclipped_;
   AttributeArrays clipped_;  // of the one being written
-  bool keeps_four_digits_ = false;
-  bool has_filled_coordinate_ = false;
 };
 
 }  // namespace pipeline

@@ -17,7 +17,6 @@ from lib.running.pipe_tools import ToolFailure
 from lib.showing.pictures import size_of, with_pixels_of
 
 DIGITS = "12"  # of the first run; 7 take a tenth less, and leave pixels of most large pictures uncertain
-OF_COLORS = "significant digits"  # a note on what bounds do not tell of
 MOST_LISTED = 100
 FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)\Z", re.DOTALL)
 
@@ -105,7 +104,6 @@ class CertainPicture:
         except ToolFailure as failure:
             first.notes.append(f"picture: note: no more digits than {first.digits}: {failure}")
             return first
-        run.notes += [note for note in first.notes if OF_COLORS in note]
         if first.certainty.is_complete:
             run.picture = with_pixels_of(first.picture, [(run.picture, first.certainty.places)])
             run.certainty.leave(first.certainty.places)

@@ -1,8 +1,7 @@
 // project: clips triangles behind the eye and divides by w. View space in, normalized device coordinates out.
 
 #include <array>
-#include <charconv>
-#include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,7 +9,7 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
-#include "libpipeline/vertex/close_layers.h"
+#include "libpipeline/vertex/lost_digits.h"
 #include "libpipeline/vertex/projection.h"
 #include "tools/rim/command_line.h"
 #include "tools/rim/statistics.h"
@@ -80,19 +79,16 @@ void add_rounding(Bounds& bounds, const ProjectOptions& chosen, CoordinateRounde
   bounds.space = "ndc";
 }
 
-/// A number in words for people: two digits of it.
-std::string in_two_digits(double value) {
-  std::array<char, 32> text = {};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 2);
-  return {text.data(), end.ptr};
-}
-
-std::string close_layers_note(const CloseLayers::Found& found, int decimals) {
+std::string lost_digits_note(const LostDigits::Found& found) {
+  std::array<char, 32> percent = {};
+  std::snprintf(percent.data(), percent.size(), "%.2g", 100 * found.share);
+  const std::string digits = std::to_string(found.decimals) + " digits ";
   const std::string enough = found.enough ? std::to_string(*found.enough) : "exact";
-  return "in " + std::to_string(std::lround(100 * found.share)) + " % of what is drawn, " +
-         std::to_string(decimals) + " digits cannot tell which of two layers is nearer, up to " +
-         in_two_digits(found.gap) + " apart; try --digits " + enough + " for every stage, or a larger near";
+  return std::string("in ") + percent.data() + " % of what is drawn, " + digits +
+         (found.is_of_edges ? "are too few to tell where the edges are"
+                            : "cannot tell which of two surfaces is nearer") +
+         "; try --digits " + enough + " for every stage" + (found.near_helps ? ", or a larger near" : "") +
+         (found.may_be_one_plane ? "; if they lie in one plane, no digits can: move them apart" : "");
 }
 
 std::string to_text(const ProjectionCounts& counts) {
@@ -120,20 +116,20 @@ void project(Tool& tool, const ProjectOptions& chosen, Statistics& statistics) {
   ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
   report.suspect_radians(given);
   const NumberFormat format = chosen.numbers.format();
-  CloseLayers layers(projection, format.shortest ? std::nullopt : std::optional(format.decimals));
+  LostDigits lost_digits(projection, format.shortest ? std::nullopt : std::optional(format.decimals));
   TriangleBatch p_view;
   const auto transform = [&](TriangleBatch& batch) {
     std::swap(batch, p_view);
     stage.project(p_view, batch);
     report.add(p_view, batch);
-    layers.add(batch);
+    lost_digits.add(p_view, batch);
   };
   StageLoop loop(tool, writer, rounder, statistics);
   loop.run(reader, transform);
   tool.timing().details = to_text(stage.counts());
   loop.note_if_no_triangle_came();
   if (const auto note = report.note()) tool.note(*note);
-  if (const auto found = layers.found()) tool.note(close_layers_note(*found, format.decimals));
+  if (const auto found = lost_digits.found()) tool.note(lost_digits_note(*found));
   report.add_to(statistics);
   loop.write_statistics(format);
 }

@@ -12,14 +12,12 @@ void StageLoop::write(const TriangleBatch& batch) {
   tool_.timing().lap(&Timing::write_seconds);
 }
 
-/// Completes the text, and notes on stderr where its digits are uncertain or too few.
+/// Completes the text, and notes on stderr where its digits are uncertain.
 void StageLoop::finish(const UncertainDigits& uncertain_lights) {
   writer_.finish();
   statistics_.add("triangles", tool_.timing().triangle_count);
   note_uncertain("light", uncertain_lights);
   note_uncertain("vertex", rounder_.uncertain());
-  if (!writer_.keeps_four_digits())
-    tool_.note("the largest coordinate keeps fewer than 4 significant digits; use --digits exact");
 }
 
 void StageLoop::note_if_no_triangle_came() const {

@@ -88,8 +88,8 @@ def shortened(note):
     """The stage, and what it is about."""
     stage, words = re.fullmatch(r"(\w+): note: (?:\S+:\d+:\d+: )?(.*)", note).groups()
     kinds = {
-        "fewer than 4 significant digits": "few digits", "not certain": "uncertain digits",
-        "two layers": "close layers", "picture": "empty picture"}
+        "which of two surfaces": "close surfaces", "where the edges are": "moved edges",
+        "not certain": "uncertain digits", "picture": "empty picture"}
     return f"{stage}: " + next((name for words_of_it, name in kinds.items() if words_of_it in words), words)
 
 

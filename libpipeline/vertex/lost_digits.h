@@ -1,0 +1,152 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "libpipeline/numbers/vec.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/vertex/transform.h"
+
+namespace pipeline {
+
+/// Estimates the share of a picture that shows another surface than it would with all digits. Draws the scene
+/// at some places of the window. Where the two nearest surfaces are closer in depth than the decimals can
+/// tell, it asks whether they are printed in the true order; of every triangle, how much of its area the
+/// decimals move its edges over. These shares do not depend on the size of the picture.
+///
+/// The numbers written are known before they are rounded. What the text read has lost is not: some equally
+/// likely truths are tried.
+class LostDigits {
+ public:
+  struct Found {
+    double share = 0;               // of what is drawn
+    bool is_of_edges = false;       // or most of it is
+    int decimals = 0;               // too few of them
+    std::optional<int> enough;      // with these, no pixel should be wrong; none if 12 are too few
+    bool may_be_one_plane = false;  // most of it is surfaces that perhaps no digits tell apart
+    bool near_helps = false;        // a larger one would lose fewer digits and hide nothing
+  };
+
+  /// `decimals` of the text that is written; none if it is exact.
+  LostDigits(const ProjectionTransform& projection, std::optional<int> decimals);
+
+  /// Adds triangles as they were read and as they are before they are printed.
+  void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc);
+  /// What was found, after the last triangle; none where it is less than a two-hundredth of what is drawn.
+  [[nodiscard]] std::optional<Found> found();
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::size_t kRows = 54, kColumns = 81;
+
+  /// Half of a last decimal, of the text read and of the text written; 0 if that one is exact.
+  struct HalfUnits {
+    double read = 0, written = 0;
+  };
+  /// Depths over the window.
+  struct Plane {
+    Plane() = default;
+    explicit Plane(const Triangle& p_ndc);
+    [[nodiscard]] double at(double x, double y) const {
+      return z + z_x * (x - corner.x) + z_y * (y - corner.y);
+    }
+
+    Vec3 corner;
+    double z = 0, z_x = 0, z_y = 0;
+    double area = 0;  // twice the triangle's, with a sign
+  };
+  struct Place {
+    double z = 2;                   // nothing
+    double reach = 0;               // no error is larger
+    double gap = 0;                 // to the rival
+    std::uint32_t nearest = kNone;  // an index of seen_
+    std::uint32_t rival = kNone;    // one that may be nearer
+  };
+  struct Row {
+    double farthest = 2;  // no place is farther, with its reach
+    unsigned look_count = 0;
+    std::vector<Place> places;
+  };
+  /// Some values of x or y over the window.
+  struct Steps {
+    /// `step_count` is a power of 3, or twice one.
+    explicit Steps(std::size_t step_count);
+    [[nodiscard]] double at(std::size_t index) const {
+      return (static_cast<double>(index) - static_cast<double>(count) / 2 + 0.5) / per_unit;
+    }
+    /// The index of the first that is at least `value`.
+    [[nodiscard]] std::size_t from(double value) const;
+    /// Keeps every third, from the second on.
+    void thin_out() {
+      count /= 3;
+      per_unit /= 3;
+    }
+
+    std::size_t count;
+    double per_unit;
+  };
+  /// A triangle, as it is before it is printed and as it was read: whole, if this is a piece.
+  struct Look {
+    const Triangle &p_ndc, &p_view;
+    Plane plane = {};
+    double reach = 0, nearest = 0;
+    std::uint32_t seen = kNone;
+  };
+  struct Seen {
+    Triangle p_ndc, p_view;
+  };
+
+  /// A place where the decimals cannot tell which surface is nearer.
+  struct Close {
+    double gap, z;
+    Plane a, b;
+  };
+  /// Counts of places, those that may be wrong by their share.
+  struct Losses {
+    double shown = 0, wrong = 0, at_edges = 0, in_one_plane = 0;
+    double by_writing = 0;  // error in depth, minus that by reading
+    double nearest = 2;     // the least z
+    std::vector<Close> close;
+  };
+
+  void look_for_decimals();
+  [[nodiscard]] HalfUnits half_units(int more_decimals) const;
+  void look_at_kept();
+  [[nodiscard]] std::size_t count_between_rows(std::span<const Triangle> p_ndc) const;
+  void look_at(Look look);
+  void look_along(Row& row, double y, Look& look);
+  void look_at(Place& place, double z, Look& look);
+  void thin_out_over(std::size_t most_work);
+  [[nodiscard]] Seen unrounded(const Look& look) const;
+  [[nodiscard]] Triangle projected(const Triangle& p_view) const;
+  [[nodiscard]] double depth_error(const Plane& plane, double z, const HalfUnits& half) const;
+  [[nodiscard]] double edge_share(const Triangle& p_ndc) const;
+  [[nodiscard]] Triangle possible_truth(const Seen& seen, unsigned trial) const;
+  [[nodiscard]] double depth_error(const Close& close, const HalfUnits& half) const;
+  void add_rival(const Place& place, double x, double y, Losses& losses) const;
+  [[nodiscard]] Losses losses() const;
+  [[nodiscard]] bool suffice(int more_decimals, const Losses& losses) const;
+  [[nodiscard]] double wrong_share(const Place& place, double x, double y) const;
+
+  ProjectionTransform projection_;
+  ViewFromClip view_from_clip_;
+  double x_scale_, y_scale_;
+  std::optional<int> decimals_;  // of the text written
+  int decimals_read_ = 0;
+  HalfUnits half_;
+
+  std::vector<Triangle> first_read_;  // and some later ones
+  std::size_t next_read_ = 0;         // of them, an index of the next batch
+  std::vector<Seen> kept_;            // all triangles, while they are few
+  std::size_t triangle_count_ = 0, work_ = 0;
+  std::size_t stride_ = 1, next_ = 0;  // the next that is looked at, in the next batch
+  Steps ys_{kRows}, columns_{kColumns};
+  double farthest_ = 2;     // of all rows
+  std::vector<Row> rows_;   // none while triangles are kept
+  std::vector<Seen> seen_;  // somewhere when they came, in the order of the stream
+};
+
+}  // namespace pipeline
