@@ -8,7 +8,7 @@ const OPTION = /^ {2}(?:-\w,)?(--[a-z-]+)(?: (\S+(?: [A-Z]\S*)*))?(?: {2,}|$)/;
 const FILES = {model: "< scene.txt", zbuf: "config.txt", trace: "config.txt"};
 const TOOLS = [...STAGES, "trace"];
 
-// [words, what they do] of the options of a tool, of the text of its --help: a choice has one for each of its values.
+// [words, what they do] of the options of a tool, of the text of its --help-all: a choice has one for each of its values.
 export function optionsIn(help) {
   const lines = help.split("\n"), found = [];
   lines.forEach((line, i) => {
@@ -16,7 +16,7 @@ export function optionsIn(help) {
     if (!name || OWN.test(name)) return;
     let end = i + 1;
     while (/^ {20}/.test(lines[end])) ++end;
-    const told = [line.slice(28), ...lines.slice(i + 1, end)].map(part => part.trim()).join(" ").trim().split(/[.;:] /)[0];
+    const told = [line.slice(25), ...lines.slice(i + 1, end)].map(part => part.trim()).join(" ").trim().split(/[.;:] /)[0];
     const choices = !values ? [name] : values.includes("|") ? values.split("|").map(value => `${name} ${value}`) : [`${name} ${values}`];
     found.push(...choices.map(words => [words, told]));
   });

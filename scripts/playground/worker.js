@@ -10,7 +10,7 @@ import {zipOf} from "./zip.js";
 let pipe = null, tools = null;
 
 // What is asked for: {module} once, then {id, state, isQuick} for a run, which first answers with its picture, {id, help} for the text of a
-// tool's --help, {id, saved}, a state, for a zip of its files, or {id, model}, for the scene that mesh2scene makes of files.
+// tool's --help-all, {id, saved}, a state, for a zip of its files, or {id, model}, for the scene that mesh2scene makes of files.
 self.onmessage = async ({data: {module, id, state, isQuick, help, saved, model}}) => {
   if (module) {
     tools = new Tools(createTool, module);
@@ -18,7 +18,7 @@ self.onmessage = async ({data: {module, id, state, isQuick, help, saved, model}}
     return;
   }
   try {
-    if (help) return self.postMessage({id, text: textOf((await tools.run(help, ["--help"])).output)});
+    if (help) return self.postMessage({id, text: textOf((await tools.run(help, ["--help-all"])).output)});
     if (model) return self.postMessage({id, ...await sceneOf(model)});
     if (saved) return self.postMessage({id, zip: zipOf(await pipe.filesOf(saved))});
     self.postMessage({id, ...await pipe.run(state, isQuick, picture => self.postMessage({id, picture}))});

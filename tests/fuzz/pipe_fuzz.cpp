@@ -156,9 +156,10 @@ void check_rays(const Run& viewed) {
 /// An option of a tool, with the kinds of its values.
 using Option = std::vector<std::string>;
 
-/// What --help lists, so that a new option is tried from its first day on; --timing says more than a reason.
+/// What --help-all lists, so that a new option is tried from its first day on; --timing reports more than a
+/// reason.
 std::vector<Option> options_of(int (*tool)(int, char**), const std::string& name) {
-  std::istringstream help(run(tool, {name, "--help"}, "").output);
+  std::istringstream help(run(tool, {name, "--help-all"}, "").output);
   std::vector<Option> options;
   for (std::string line; std::getline(help, line);) {
     if (!line.starts_with("  -")) continue;
@@ -167,7 +168,7 @@ std::vector<Option> options_of(int (*tool)(int, char**), const std::string& name
     if (option[0] != "--help" && option[0] != "--version" && option[0] != "--timing")
       options.push_back(option);
   }
-  require(options.size() > 5, "--help lists the options");
+  require(options.size() > 5, "--help-all lists the options");
   return options;
 }
 

@@ -244,7 +244,7 @@ class WhatThePagesName(unittest.TestCase):
         """Options behind the name of a filter in the same piece of code. The page of errors has wrong ones on
         purpose."""
         texts = {
-            tool: subprocess.run([BIN_DIR / tool, "--help"], capture_output=True, text=True).stdout
+            tool: subprocess.run([BIN_DIR / tool, "--help-all"], capture_output=True, text=True).stdout
             for tool in ("model", "view", "project", "zbuf")}
         count = 0
         for page in (page for page in PAGES if page.name != "errors.md"):

@@ -43,7 +43,7 @@ class Pages(ToolTest):
     def test_pages_and_help_have_the_same_options(self):
         for command in COMMANDS:
             with self.subTest(command):
-                text = subprocess.run([PREFIX / "libexec/pipeline" / command, "--help"], capture_output=True,
+                text = subprocess.run([PREFIX / "libexec/pipeline" / command, "--help-all"], capture_output=True,
                                       text=True, check=True).stdout
                 lines = re.findall(r"^ {1,4}(-.*?)(?:  .*)?$", text, re.M)
                 tags = re.findall(r"^\.TP\n(\\fB\\-.*)$", page_of(command), re.M)
@@ -56,7 +56,7 @@ class Pages(ToolTest):
     def test_every_page_has_an_example(self):
         for command in COMMANDS:
             self.assertRegex(page_of(command),
-                             r"\n\.SH EXAMPLES\n\.RS 4\n\.EX\n.*pipeline " + re.escape(escaped(command)),
+                             r"\n\.SH EXAMPLES\n\.RS 4\n\.EX\n(.*\n)?.*pipeline " + re.escape(escaped(command)),
                              command)
 
     def test_the_page_of_pipeline_names_every_command(self):

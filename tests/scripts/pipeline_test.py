@@ -21,7 +21,10 @@ ECHO = """#!/bin/sh
 # Shows its words. See --help.
 printf '%s' "${0##*/}"; printf ' <%s>' "$@"; echo
 """
-VERSION = '#!/bin/sh\nprintf "Runs\\nthe commands.\\nUsage: model\\n"; echo "model (pipeline) 1.2.3"\n'
+VERSION = """#!/bin/sh
+case $1 in --help) printf 'Usage: model\\n\\nExample:\\n  model x\\n\\nRuns\\nthe commands.\\n\\n' ;; esac
+echo "model (pipeline) 1.2.3"
+"""
 
 
 def run(program, *words, **settings):

@@ -32,6 +32,7 @@ class Help(ToolTest):
                 done = subprocess.run([command, "--help"], capture_output=True, text=True, timeout=60)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 self.assertRegex(done.stdout, rf"\Ausage: {command.name}\b")
+                self.assertEqual([line for line in done.stdout.splitlines() if len(line) > 80], [])
 
     def test_help_that_cannot_be_written_is_a_failure(self):
         """Of the commands in Python, which all end in one function, one for each status."""

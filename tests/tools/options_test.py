@@ -3,6 +3,7 @@
 
 usage: options_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import itertools
 import os
 import pathlib
 import re
@@ -110,15 +111,22 @@ class Answers(ToolTest):
                          "--threshold N", "--threads N"],
         }
         for tool in ALL_TOOLS:
-            text = run(tool, "--help").stdout.decode()
+            text = run(tool, "--help-all").stdout.decode()
             for word in common + words[tool]:
                 self.assertIn(word, text)
 
-    def test_no_line_of_help_is_longer_than_100_characters(self):
+    def test_help_is_of_80_columns_and_begins_with_usage_and_an_example(self):
+        for tool, option in itertools.product(ALL_TOOLS, ("--help", "--help-all")):
+            text = run(tool, option).stdout.decode()
+            self.assertEqual([line for line in text.split("\n") if len(line) > 80 or line != line.rstrip()], [])
+            self.assertRegex(text, rf"\AUsage: {tool} .*\n( {{7}}{tool} .*\n)?\nExamples?:\n  \w")
+
+    def test_help_without_rare_options_names_the_others_in_the_same_words(self):
         for tool in ALL_TOOLS:
-            self.assertEqual([
-                line for line in run(tool, "--help").stdout.decode().split("\n")
-                if len(line) > 100 or line != line.rstrip()], [])
+            common, full = (run(tool, option).stdout.decode() for option in ("--help", "--help-all"))
+            options = [re.findall(r"^  -.*\n(?: {25}.*\n)*", text, re.M) for text in (common, full)]
+            self.assertEqual([option for option in options[1] if option in options[0]], options[0])
+            self.assertLess(len(options[0]), len(options[1]))
 
     def test_help_has_its_options_in_groups(self):
         groups = {
@@ -130,13 +138,13 @@ class Answers(ToolTest):
         }
         for tool in ALL_TOOLS:
             found = re.findall(r"^(\w[\w ]*):$", run(tool, "--help").stdout.decode(), re.M)
-            self.assertEqual(found, ["Operands", *groups[tool], "General", "Examples"])
+            self.assertEqual(found, ["Example", "Operands", *groups[tool], "General"])
 
     def test_the_examples_of_help_do_what_they_show(self):
         path = f"{BIN}:{os.environ['PATH']}"
         for tool in ALL_TOOLS:
             examples = re.search(r"^Examples:\n((?:  .*\n)+)",
-                                 run(tool, "--help").stdout.decode(), re.M)[1].splitlines()
+                                 run(tool, "--help-all").stdout.decode(), re.M)[1].splitlines()
             self.assertEqual(len(examples), 2)
             for example in examples:
                 with self.subTest(example):

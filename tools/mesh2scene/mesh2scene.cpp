@@ -36,7 +36,7 @@ struct Options {
 
 void add_options(CommandLine& options, Options& chosen) {
   options.add_whole("--max-input", chosen.most_megabytes, 1, 1'000'000,
-                    "Read at most so many megabytes, in the model and the files that it names");
+                    "Read at most this many megabytes, in the model and the files that it names");
   options.begin_group("Camera");
   options.add_word("--size", "WIDTHxHEIGHT", chosen.size, "The size of the picture, for its aspect",
                    [](const std::string& word) {
@@ -46,7 +46,7 @@ void add_options(CommandLine& options, Options& chosen) {
                    });
   options.add_words(
       "--eye-from", 2, "AZIMUTH ELEVATION", chosen.eye_from,
-      "Look at the model from so many degrees to the right of its front, and so many above (default: 30 15)");
+      "Look at the model from this many degrees to the right of its front, and above it (default: 30 15)");
   options.add_number(
       "--fov", "DEGREES", chosen.view.fov_y_degrees, [](double value) { return value >= 1 && value <= 120; },
       "1 to 120", "The angle of view from the picture's bottom to its top");
@@ -58,12 +58,12 @@ void add_options(CommandLine& options, Options& chosen) {
        {"-x", UpAxis::minus_x},
        {"-y", UpAxis::minus_y},
        {"-z", UpAxis::minus_z}},
-      "The axis that is up in the picture. Without the option: z for STL, 3DS and 3MF, else y");
+      "The axis that is up in the picture (default: z for STL, 3DS and 3MF, else y)");
   options.add_words("--at", 3, "X Y Z", chosen.at,
-                    "Look at this point of the model, in its own numbers, in place of its middle");
+                    "Look at this point, in the model's coordinates, in place of its middle");
   options.add_number(
       "--zoom", "F", chosen.view.zoom, [](double value) { return value >= 0.01 && value <= 1000; },
-      "0.01 to 1000", "Bring the eye so many times nearer");
+      "0.01 to 1000", "Bring the eye nearer by this factor");
   options.begin_group("Triangles");
   options.add_word("--color", "RRGGBB", chosen.color,
                    "The color of everything, six hexadecimal digits, in place of the model's colors",
@@ -191,9 +191,9 @@ int main(int argc, char** argv) {
              "Turns a model file into a scene: camera, lights, and triangles with normals. Reads OBJ, STL, "
              "PLY, glTF and whatever else assimp reads.",
              "The model file, which may name regular files in or below its folder",
-             {"mesh2scene bunny.obj | model | view | project | zbuf --size 800x600 --coverage center "
-              "--samples 3 -o bunny.png",
-              "mesh2scene --up-axis z --eye-from -45 30 part.obj > scene.txt"}},
+             {"mesh2scene bunny.obj > scene.txt",
+              "mesh2scene --up-axis z part.obj | model | view | project | zbuf --size 800x600"},
+             "--crease --nodes --max-input"},
             OutputKind::other_text);
   Options chosen;
   add_options(tool.options(), chosen);

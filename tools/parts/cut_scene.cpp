@@ -94,14 +94,13 @@ void cut(Tool& tool, const std::string& scene_path, std::uint64_t part_count, co
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool(
-      {"cut-scene",
-       "Cuts a scene into parts that are scenes themselves, of about the same size, for model on several "
-       "processors or machines. Writes a line for each: its file and the number of its first triangle, for "
-       "model --first.",
-       "The scene",
-       {"cut-scene scene.txt 2", "cut-scene scene.txt 8 -o parts > list.txt"}},
-      OutputKind::other_text);
+  Tool tool({"cut-scene",
+             "Cuts a scene into scenes of about the same size, to be drawn side by side. Prints the file of "
+             "each and "
+             "the number of its first triangle, for model --first.",
+             "The scene",
+             {"cut-scene scene.txt 2", "cut-scene scene.txt 8 -o parts > list.txt"}},
+            OutputKind::other_text);
   std::string scene_path, part_count_word, folder = "parts";
   tool.take_own_operands();
   tool.options().set_usage("Usage: cut-scene [OPTIONS] SCENE PARTS");

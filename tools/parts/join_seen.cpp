@@ -56,14 +56,14 @@ class JoinedText {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool(
-      {"join-seen",
-       "Joins stage texts, of the parts of a scene or what zbuf --seen has left of them, to the text of the "
-       "whole: the first header, which all have, and all triangles.",
-       "The texts",
-       {"join-seen stage1.txt stage1.txt > twice.txt",
-        "join-seen --expect-framed seen1.txt seen2.txt | zbuf config.txt > z_buffer.txt"}},
-      OutputKind::stage_text);
+  Tool tool({"join-seen",
+             "Joins the stage texts of the parts of a scene, or of their visible triangles (zbuf --seen), "
+             "into the text "
+             "of the whole: the header, which is the same in all, and all triangles.",
+             "The texts",
+             {"join-seen stage1.txt stage1.txt > twice.txt",
+              "join-seen --expect-framed seen1.txt seen2.txt | zbuf config.txt > z_buffer.txt"}},
+            OutputKind::stage_text);
   std::vector<std::string> parts;
   bool expects_frame = false;
   tool.take_own_operands();

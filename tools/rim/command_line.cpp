@@ -13,8 +13,8 @@ namespace pipeline {
 namespace {
 
 // The widths of --help, in characters.
-constexpr std::size_t kLineWidth = 100;
-constexpr std::size_t kNameWidth = 28;
+constexpr std::size_t kLineWidth = 80;
+constexpr std::size_t kNameWidth = 25;
 
 constexpr const char* kLastGroup = "General";
 
@@ -127,23 +127,26 @@ std::string explained(const CLI::App& options, const CLI::ParseError& error) {
 
 class HelpForm : public CLI::Formatter {
  public:
-  HelpForm() {
+  explicit HelpForm(const ToolDescription& tool) : tool_(tool) {
     column_width(kNameWidth);
     label("Positionals", "Operands");
   }
 
   void set_usage(const std::string& usage) { usage_ = usage; }
-  void use_fields() { uses_fields_ = true; }
+  void show_all() { shows_all_ = true; }
+  void use_fields() { shows_all_ = uses_fields_ = true; }
 
-  std::string make_description(const CLI::App* app) const override {
-    return wrapped(app->get_description(), kLineWidth) + "\n";
-  }
   std::string make_usage(const CLI::App* app, std::string name) const override {
     return usage_.empty() ? CLI::Formatter::make_usage(app, std::move(name)) : usage_ + "\n";
   }
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const override {
-    return make_description(app) + make_usage(app, std::move(name)) + make_positionals(app) + groups_of(app) +
-           "\n" + make_footer(app);
+    return make_usage(app, std::move(name)) + "\n" + examples() + "\n" +
+           wrapped(app->get_description(), kLineWidth) + "\n" + make_positionals(app) + groups_of(app) +
+           "\n" +
+           (shows_all_ || *tool_.rare == '\0' ? "" : "--help-all shows all options, and more examples.\n\n") +
+           wrapped("Exit status: 0 done; 1 bad input, or reading or writing failed; 2 a wrong command line",
+                   kLineWidth) +
+           "\n";
   }
   std::string make_option(const CLI::Option* option, bool is_operand) const override {
     if (!uses_fields_) return CLI::Formatter::make_option(option, is_operand);
@@ -163,20 +166,31 @@ class HelpForm : public CLI::Formatter {
   }
 
  private:
+  std::string examples() const {
+    const auto line = [](const char* example) { return "  " + std::string(example) + "\n"; };
+    return shows_all_ ? "Examples:\n" + line(tool_.examples[0]) + line(tool_.examples[1])
+                      : "Example:\n" + line(tool_.examples[0]);
+  }
+  bool is_shown(const CLI::Option* option) const {
+    return shows_all_ || (std::string(tool_.rare) + " ").find(option->get_name() + " ") == std::string::npos;
+  }
   std::string groups_of(const CLI::App* app) const {
     std::vector<std::string> groups = app->get_groups();
     std::stable_partition(groups.begin(), groups.end(),
                           [](const std::string& group) { return group != kLastGroup; });
     std::string text;
     for (const std::string& group : groups) {
-      const auto options = app->get_options(
-          [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
+      const auto options = app->get_options([&](const CLI::Option* option) {
+        return option->get_group() == group && option->nonpositional() && is_shown(option);
+      });
       if (!options.empty()) text += make_group(group, false, options);
     }
     return text;
   }
 
+  ToolDescription tool_;
   std::string usage_;         // empty: CLI11's
+  bool shows_all_ = false;    // rare options and every example, too
   bool uses_fields_ = false;  // an option a line, with tabs: for man pages and completion
 };
 
@@ -187,17 +201,13 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-CommandLine::CommandLine(const std::string& tool, const std::string& description,
-                         std::span<const char* const> examples, const std::string& version)
-    : app_(std::make_unique<CLI::App>(description, tool)), help_form_(std::make_shared<HelpForm>()) {
+CommandLine::CommandLine(const ToolDescription& tool, const std::string& version)
+    : app_(std::make_unique<CLI::App>(tool.purpose, tool.name)),
+      help_form_(std::make_shared<HelpForm>(tool)) {
   app_->formatter(help_form_);
-  std::string footer = "Examples:\n";
-  for (const char* example : examples) footer += "  " + std::string(example) + "\n";
-  app_->footer(footer +
-               "\nExit status: 0 done; 1 bad input, or reading or writing failed; 2 a wrong command line");
   app_->option_defaults()->group(kLastGroup);
-  app_->get_help_ptr()->group(kLastGroup);
-  app_->set_version_flag("--version", version);
+  app_->get_help_ptr()->group(kLastGroup)->description("Print this help and exit; --help-all: all of it");
+  app_->set_version_flag("--version", version, "Print the version and exit");
 }
 
 CommandLine::~CommandLine() = default;
@@ -310,10 +320,10 @@ void CommandLine::add_choice_of_words(const std::string& name, const std::vector
 }
 
 std::optional<std::string> CommandLine::parse(int argc, char** argv) {
-  if (argc == 2 && std::string_view(argv[1]) == "--help-fields") {
-    help_form_->use_fields();
-    return app_->help();
-  }
+  const std::string_view only = argc == 2 ? argv[1] : "";
+  if (only == "--help-fields") help_form_->use_fields();
+  if (only == "--help-all") help_form_->show_all();
+  if (only == "--help-fields" || only == "--help-all") return app_->help();
   try {
     app_->parse(words_for_parsing(argc, argv, flag_words_));
   } catch (const CLI::CallForHelp&) {

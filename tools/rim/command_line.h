@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -44,14 +45,22 @@ WordCheck wrong_with_name(F check) {
   };
 }
 
+/// A tool's part of --help.
+struct ToolDescription {
+  const char* name;
+  const char* purpose;
+  const char* input;                    // of the last operand
+  std::array<const char*, 2> examples;  // command lines; --help shows the first
+  const char* rare = "";                // options that --help-all alone shows, separated by blanks
+};
+
 class HelpForm;
 
 /// CLI11 with one form for all options, messages and help texts. An option's value is stored in the variable
 /// it was added with; the variable's initial value is the default. --help wraps its lines.
 class CommandLine {
  public:
-  CommandLine(const std::string& tool, const std::string& description, std::span<const char* const> examples,
-              const std::string& version);
+  CommandLine(const ToolDescription& tool, const std::string& version);
   ~CommandLine();
 
   /// The options added from here on stand in this group of --help; options added earlier go to the last

@@ -16,15 +16,15 @@ std::string printed(const CoordinateExtent::Coordinate& coordinate, NumberFormat
 }  // namespace
 
 Statistics::Statistics(CommandLine& options) {
-  options.add_word(
-      "--stats", "FILE", path_,
-      "Write what became of the triangles, and their extents, as lines 'key value'; /dev/stderr shows them",
-      [](const std::string& path) {
-        return path == "-"
-                   ? expected_but_found(
-                         "a file, as standard output carries the data (/dev/stderr shows them)", "'-'")
-                   : std::string();
-      });
+  options.add_word("--stats", "FILE", path_,
+                   "Count what became of the triangles, one 'key value' per line; /dev/stderr shows them",
+                   [](const std::string& path) {
+                     return path == "-"
+                                ? expected_but_found(
+                                      "a file, as standard output carries the data (/dev/stderr shows them)",
+                                      "'-'")
+                                : std::string();
+                   });
 }
 
 void Statistics::open() {

@@ -94,12 +94,12 @@ Tool::Tool(const ToolDescription& description, OutputKind output_kind)
     : out_of_memory_(end_process_without_memory({description.name, output_kind == OutputKind::stage_text})),
       name_(description.name),
       output_kind_(output_kind),
-      options_(name_, description.purpose, description.examples, name_ + " (pipeline) " + kVersion),
+      options_(description, name_ + " (pipeline) " + kVersion),
       input_help_(std::string(description.input) + "; - is standard input"),
       output_(STDOUT_FILENO, "<stdout>") {
   open_closed_descriptors();
   make_file_size_limit_an_error();
-  options_.add_flag("--timing", wants_timing_, "Report on stderr how long reading, working and writing took");
+  options_.add_flag("--timing", wants_timing_, "Report on stderr the time for reading, working and writing");
 }
 
 TextReader& Tool::input() {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -56,14 +55,6 @@ struct Timing {
 
 /// The kind of a tool's output: stage text ends with an error line when the tool fails.
 enum class OutputKind { stage_text, other_text };
-
-/// A tool's part of --help.
-struct ToolDescription {
-  const char* name;
-  const char* purpose;
-  const char* input;                    // of the last operand
-  std::array<const char*, 2> examples;  // command lines
-};
 
 /// The rim that the four tools share: common options, input and output, one report of a failure, the exit
 /// status.

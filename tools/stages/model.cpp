@@ -30,18 +30,16 @@ void add_options(CommandLine& options, ModelOptions& chosen, std::span<char* con
   options.begin_group("Output");
   options.add_flag("--bare", chosen.bare, "Write the triangles alone (stage1.txt)");
   options.add_flag("--framed", chosen.framed,
-                   "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
+                   "Write 'framed' and 'end' around the text, so that later stages notice a truncated one");
   if (is_wanted("--bounds", words))
     options.add_flag("--bounds", chosen.bounds,
-                     "Say in the header how far coordinates may be from those of exact arithmetic, for zbuf "
-                     "--certify");
-  options.add_word(
-      "--first", "N", chosen.first,
-      "Number the triangles from N on: of a part of a scene (cut-scene), so that joined texts of "
-      "parts are that of the whole (default: 0)");
+                     "Write a bound on the error of the coordinates to the header, for zbuf --certify");
+  options.add_word("--first", "N", chosen.first,
+                   "Number the triangles from N on: for a part of a scene (cut-scene), whose text is to be "
+                   "joined with others "
+                   "(default: 0)");
   options.add_word("--facets", "N", chosen.belts,
-                   "Make triangles with normals of every sphere: N belts of 2 N facets; all other triangles "
-                   "get normals, too");
+                   "Turn every sphere into triangles: N belts of 2 N facets; all triangles get normals");
 }
 
 std::uint64_t first_number(const ModelOptions& chosen) {
@@ -80,7 +78,8 @@ int main(int argc, char** argv) {
              "Reads a scene and writes its triangles in world space, with the camera in the header.",
              "The scene (scene.txt)",
              {"model scene.txt | view | project | zbuf config.txt > z_buffer.txt",
-              "model --bare scene.txt > stage1.txt"}},
+              "model --bare scene.txt > stage1.txt"},
+             "--precision --bounds --first --facets"},
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   ModelOptions chosen;

@@ -51,13 +51,11 @@ void ProjectOptions::add_clipping(CommandLine& options) {
   options.add_number(
       "--clip-inset", "F", clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
       "a number from 0 to less than 1",
-      "Pull in the planes of --clip near, frustum or reject, so that the cuts can be seen: 0.1 keeps "
-      "the triangles "
-      "between -0.9 and 0.9 in NDC");
-  options.add_choice<CullMode>(
-      "--cull", cull, {{"back", CullMode::back}, {"front", CullMode::front}},
-      "Drop triangles that show this side to the eye; counterclockwise is front. A closed surface looks the "
-      "same without its backs, but for its silhouette under zbuf --coverage nearest");
+      "Move the planes of --clip near, frustum or reject in, to show the cuts: 0.1 keeps what is between "
+      "-0.9 "
+      "and 0.9 in NDC");
+  options.add_choice<CullMode>("--cull", cull, {{"back", CullMode::back}, {"front", CullMode::front}},
+                               "Drop triangles that show this side to the eye; counterclockwise is front");
 }
 
 void check_inset(const ProjectOptions& chosen) {
@@ -137,13 +135,13 @@ void project(Tool& tool, const ProjectOptions& chosen, Statistics& statistics) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool(
-      {"project",
-       "Reads triangles in view space and writes them in normalized device coordinates (stage3.txt).",
-       "The output of view (or stage2.txt)",
-       {"project --scene scene.txt stage2.txt > stage3.txt",
-        "model scene.txt | view | project --cull back --clip frustum | zbuf config.txt > z_buffer.txt"}},
-      OutputKind::stage_text);
+  Tool tool({"project",
+             "Reads triangles in view space and writes them in normalized device coordinates (stage3.txt).",
+             "The output of view (or stage2.txt)",
+             {"project --scene scene.txt stage2.txt > stage3.txt",
+              "model scene.txt | view | project --clip frustum | zbuf config.txt > depths.txt"},
+             "--precision --frustum --clip-inset"},
+            OutputKind::stage_text);
   ProjectOptions chosen(tool.options());
   tool.options().begin_group("Output");
   Statistics statistics(tool.options());

@@ -28,9 +28,8 @@ NumberOptions::NumberOptions(CommandLine& options) {
                : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
   };
   options.begin_group("Numbers");
-  options.add_word(
-      "--digits", "N|exact", digits_,
-      "Decimals of a coordinate, 0 to 17, or exact: as many as it takes to read back the same double", check);
+  options.add_word("--digits", "N|exact", digits_,
+                   "Decimals of a coordinate, 0 to 17, or exact: as many as a double needs", check);
   options.add_choice<Precision>(
       "--precision", precision_, {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
       "extended: every coordinate printed is correctly rounded, or noted; double: faster");
@@ -58,18 +57,18 @@ CameraOptions::CameraOptions(CommandLine& options, Parts parts) {
                        const std::string& help) { options.add_words(name, count, type, words_[name], help); };
   options.begin_group(parts == Parts::projection ? "Projection" : "Camera");
   if (parts == Parts::position_and_projection) {
-    add("--eye", 3, "X Y Z", "Where the camera stands, in world space");
+    add("--eye", 3, "X Y Z", "The position of the camera, in world space");
     add("--look", 3, "X Y Z", "The point it looks at");
     add("--up", 3, "X Y Z", "The direction that is up in the picture");
   }
   const std::string planes = "L R B T N F";
   add("--perspective", 4, "FOVY ASPECT NEAR FAR", "The projection, as in a scene; angles in degrees");
   add("--frustum", 6, planes,
-      "The same, given by the planes left, right, bottom, top, near, far, as for glFrustum");
+      "A perspective given by its planes left, right, bottom, top, near, far, as for glFrustum");
   add("--ortho", 6, planes, "A parallel projection between such planes, as for glOrtho");
-  options.add_word("--scene", "FILE", scene_path_,
-                   "Take the parts of the camera that other options leave out from this scene instead of the "
-                   "header of INPUT");
+  options.add_word(
+      "--scene", "FILE", scene_path_,
+      "Take the camera from this scene instead of the header of INPUT; other options override it");
 }
 
 CameraParameters CameraOptions::camera(const CameraParameters& header, const Tool& tool) const {
@@ -94,7 +93,7 @@ CameraParameters CameraOptions::camera(const CameraParameters& header, const Too
 LightOption::LightOption(CommandLine& options) {
   options.begin_group("Light");
   options.add_words("--light", 6, "X Y Z R G B", words_,
-                    "Add a light at a point in world space; an intensity of 1 1 1 is full and white");
+                    "Add a light at a point in world space; the intensity 1 1 1 is full and white");
   options.add_words("--light-at", 4, "N X Y Z", at_,
                     "Move light N of the scene, counted from 0, to a point in world space");
 }
@@ -127,10 +126,10 @@ ProjectionOptions::ProjectionOptions(CommandLine& options)
     : camera_(options, CameraOptions::Parts::projection) {
   options.add_choice<std::optional<AspectRule>>(
       "--aspect", aspect_, {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
-      "How a perspective's aspect is meant.\n"
+      "The meaning of a perspective's aspect.\n"
       "angle: fovX = fovY * aspect\n"
-      "ratio: tan(fovX/2) = tan(fovY/2) * aspect, as in gluPerspective\n"
-      "Without the option: as the perspective says, angle if it ends in neither word");
+      "ratio: width / height, as in gluPerspective\n"
+      "(default: the word at the end of the perspective, else angle)");
 }
 
 Located<Projection> ProjectionOptions::projection(const StageReader& reader, const Tool& tool) const {

@@ -24,7 +24,8 @@ constexpr ToolDescription kDescription = {
     "Reads triangles in world space and writes them in view space.",
     "The output of model (or stage1.txt)",
     {"model scene.txt | view --eye 4 3 9 | project | zbuf config.txt > z_buffer.txt",
-     "view --bare --scene scene.txt stage1.txt > stage2.txt"}};
+     "view --bare --scene scene.txt stage1.txt > stage2.txt"},
+    "--light-at --precision --perspective --frustum --ortho"};
 
 /// The view transform of a camera, which needs all three parts.
 ViewTransform view_of(const CameraParameters& camera, const StageReader& reader) {

@@ -19,11 +19,13 @@ using namespace pipeline;
 int main(int argc, char** argv) {
   Tool tool(
       {"trace",
-       "Traces rays to the triangles in view space and writes the depth of every pixel that shows one, and "
-       "the image: those of project --digits exact and zbuf --coverage center.",
+       "Traces rays to triangles in view space: writes the picture, and the depth of every pixel that "
+       "shows a triangle. Both are those of project --digits exact and zbuf --coverage center.",
        "The output of view (or stage2.txt)",
-       {"trace --size 400x300 --scene scene.txt stage2.txt",
-        "model scene.txt | view | trace config.txt -o picture.ppm > z_buffer.txt"}},
+       {"model scene.txt | view | trace config.txt -o picture.ppm > z_buffer.txt",
+        "trace --size 400x300 --scene scene.txt stage2.txt"},
+       "--depth-image --depth-array --triangle-array --threshold --threads --min-contribution --max-depth "
+       "--expect-framed"},
       OutputKind::other_text);
   TraceOptions chosen(tool.options());
   Statistics statistics(tool.options());

@@ -21,9 +21,9 @@ TraceOptions::TraceOptions(CommandLine& options)
   add_pixels(options);
   add_color_and_light(options);
   options.begin_group("Debugging");
-  options.add_repeatable("--probe", "COLUMN,ROW", probes,
-                         "Report on stderr the rays that make the color of this pixel's center: where each "
-                         "goes, its weight and what it brings; may be repeated");
+  options.add_repeatable(
+      "--probe", "COLUMN,ROW", probes,
+      "List the rays that make this pixel's color on stderr: path, weight and color; repeatable");
   add_framed(options);
 }
 
@@ -35,20 +35,20 @@ void TraceOptions::add_pixels(CommandLine& options) {
        {kSamplings[1], Sampling::regular},
        {kSamplings[2], Sampling::jittered},
        {kSamplings[3], Sampling::adaptive}},
-      "Where the rays of a pixel go. basic: one through its center; regular: through the centers of N x N "
-      "cells, as in zbuf; jittered: through a random point of each cell, the same in every run; adaptive: as "
-      "jittered, but where the cells in the corners and in the middle look alike, through these alone. "
-      "Without the option: regular");
+      "Where the rays of a pixel go.\n"
+      "basic: one through its center\n"
+      "regular: through the centers of N x N cells, as in zbuf\n"
+      "jittered: through a random point of each cell, the same in every run\n"
+      "adaptive: jittered, but only the five cells in the corners and the middle where these look alike\n"
+      "(default: regular)");
   options.add_whole("--samples", sample_count, 1, kMaxSamples,
-                    "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
-                    "of its center; without the option " +
-                        std::to_string(kSamplesOfSampling) + " with --sampling, else 1; N");
-  options.add_whole(
-      "--threshold", threshold, 0, 255,
-      "With --sampling adaptive: the first samples of a pixel are alike if no channel differs by "
-      "this much; 0 takes all samples; N");
+                    "Smooth edges: a pixel is the mean of N x N samples; " +
+                        std::to_string(kSamplesOfSampling) + " with --sampling; N");
+  options.add_whole("--threshold", threshold, 0, 255,
+                    "With --sampling adaptive: take all samples where a channel of the first five differs by "
+                    "at least N levels; N");
   options.add_whole("--threads", thread_count, 0, kMaxThreads,
-                    "How many threads trace rays, 0 for as many as pay");
+                    "How many threads trace rays (0: as many as pay)");
 }
 
 void TraceOptions::add_color_and_light(CommandLine& options) {
@@ -57,14 +57,11 @@ void TraceOptions::add_color_and_light(CommandLine& options) {
   add_background(options);
   options.add_flag("--no-shadows", without_shadows, "Light every surface that faces a light, as zbuf does");
   options.add_flag("--no-recursion", without_recursion,
-                   "Draw what mirrors or is clear as zbuf draws it: opaque and matt");
+                   "Draw mirrors and glass matt and opaque, as zbuf does");
   options.add_number(
       "--min-contribution", "E", min_contribution, [](double part) { return part >= 0 && part <= 1; },
-      "a number from 0 to 1",
-      "Cast no mirrored or refracted ray that can bring less than this part of a pixel's color (default: "
-      "1/510, half a level)");
-  options.add_whole("--max-depth", max_depth, 0, kMaxDepth,
-                    "How often a ray may be mirrored or refracted on its way");
+      "a number from 0 to 1", "Cut rays that can bring less than this part of a pixel's color");
+  options.add_whole("--max-depth", max_depth, 0, kMaxDepth, "How often a ray may be mirrored or refracted");
 }
 
 void TraceOptions::complete(const CommandLine& options, bool is_terminal) {

@@ -27,17 +27,18 @@ PictureOptions::PictureOptions(CommandLine& options, const std::string& tool, bo
                     " [OPTIONS] --size WIDTHxHEIGHT [CONFIG] [INPUT]");
   options.add_operand(
       "CONFIG", config_path,
-      "The screen (config.txt): WIDTH HEIGHT in pixels, alone or before three lines: the left "
-      "limit of x, the bottom limit of y, the front and rear limits of z");
+      "The screen (config.txt): WIDTH HEIGHT in pixels; perhaps three more lines: the left limit of x, the "
+      "bottom limit of y, the front and rear limits of z");
   options.begin_group("Output");
-  options.add_word("--size", "WIDTHxHEIGHT", size,
-                   "The screen's size in place of that in CONFIG, whose limits stay; without CONFIG, x, y "
-                   "and z are shown from -1 to 1. With it, a single operand that holds no config is INPUT",
-                   [](const std::string& word) {
-                     return parse_size(word) ? std::string()
-                                             : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300",
-                                                                  pipeline::quoted(word));
-                   });
+  options.add_word(
+      "--size", "WIDTHxHEIGHT", size,
+      "The screen's size, overriding CONFIG; without CONFIG, limits are -1 and 1, and a single operand is "
+      "INPUT",
+      [](const std::string& word) {
+        return parse_size(word)
+                   ? std::string()
+                   : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300", pipeline::quoted(word));
+      });
   add_outputs(options, has_seen);
 }
 
@@ -45,28 +46,28 @@ void PictureOptions::add_outputs(CommandLine& options, bool has_seen) {
   const std::vector<std::string_view> extensions = image_extensions();
   options.add_word(
       "-o,--image", "FILE", image_path,
-      "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +
-          " file, or png:FILE of any name; - is standard output, as PPM, or png:-, both without "
-          "the depths (default: out.bmp" +
-          (has_seen ? ", but none with --seen)" : ")"),
+      "The image, a " + listed({extensions.begin(), extensions.end()}) +
+          " file, or png:FILE for any name; - (PPM) and png:- go to standard output, without depths "
+          "(default: "
+          "out.bmp" +
+          (has_seen ? "; none with --seen)" : ")"),
       [](const std::string& name) { return wrong_with_name(check_image_name)(named_standard_output(name)); });
-  options.add_word("--z-buffer", "FILE", z_buffer_path,
-                   std::string("Where the depths go; - is standard output, none is nowhere, ./none a file "
-                               "of that name (default: -, but none with -o -") +
-                       (has_seen ? ", with --seen and at a terminal)" : " and at a terminal)"));
-  options.add_word("--depth-image", "FILE", depth_image_path,
-                   "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
-                   "black at the rear limit",
-                   wrong_with_name(check_depth_image_name));
-  options.add_word("--depth-array", "FILE", depth_array_path,
-                   "Also write the depths as an array of doubles, a .npy file for numpy.load: nan where "
-                   "nothing is seen",
-                   wrong_with_name(check_array_name));
   options.add_word(
-      "--triangle-array", "FILE", triangle_array_path,
-      "Also write the numbers of the triangles seen as an array of whole numbers, a .npy file: -1 "
-      "where nothing is seen",
-      wrong_with_name(check_array_name));
+      "--z-buffer", "FILE", z_buffer_path,
+      std::string("The depths; none discards them (./none is a file) (default: -, standard output; none "
+                  "with -o -") +
+          (has_seen ? ", with --seen and on a terminal)" : " and on a terminal)"));
+  options.add_word(
+      "--depth-image", "FILE", depth_image_path,
+      "Also write the depths as a 16-bit image, .pgm or .png, white at the front limit, black at the "
+      "rear one",
+      wrong_with_name(check_depth_image_name));
+  options.add_word("--depth-array", "FILE", depth_array_path,
+                   "Also write the depths as doubles, a .npy file for numpy.load; nan where no triangle is",
+                   wrong_with_name(check_array_name));
+  options.add_word("--triangle-array", "FILE", triangle_array_path,
+                   "Also write the number of each pixel's triangle, a .npy file; -1 where no triangle is",
+                   wrong_with_name(check_array_name));
 }
 
 void PictureOptions::add_shading(CommandLine& options) {
@@ -76,27 +77,26 @@ void PictureOptions::add_shading(CommandLine& options) {
        {"flat", ShadingModel::flat},
        {"gouraud", ShadingModel::gouraud},
        {"phong", ShadingModel::phong}},
-      "Where surfaces are lit. none: nowhere; flat: once per triangle; gouraud: at its vertices; phong: at "
-      "every pixel. Without the option: phong with lights and normals, flat with lights alone, else none");
+      "Where surfaces are lit: nowhere, once per triangle, at its vertices, or at every pixel (default: "
+      "phong "
+      "with lights and normals, flat with lights alone, else none)");
 }
 
 void PictureOptions::add_background(CommandLine& options) {
-  options.add_word(
-      "--background", "RRGGBB[AA]", background,
-      "The color of pixels that show no triangle, six hexadecimal digits, in place of the "
-      "scene's; black if neither gives one. Two more digits are its alpha, from 00, invisible, to "
-      "ff, opaque; less than ff only for a .png image",
-      [](const std::string& word) {
-        return parse_color(word)
-                   ? std::string()
-                   : expected_but_found("RRGGBB or RRGGBBAA, hexadecimal digits", pipeline::quoted(word));
-      });
+  options.add_word("--background", "RRGGBB[AA]", background,
+                   "The color of pixels without a triangle, in hexadecimal digits, in place of the scene's "
+                   "(default: black). AA "
+                   "is its alpha, 00 (invisible) to ff (opaque), below ff for PNG only",
+                   [](const std::string& word) {
+                     return parse_color(word) ? std::string()
+                                              : expected_but_found("RRGGBB or RRGGBBAA, hexadecimal digits",
+                                                                   pipeline::quoted(word));
+                   });
 }
 
 void PictureOptions::add_framed(CommandLine& options) {
   options.add_flag("--expect-framed", framed,
-                   "Refuse a text without the frame that model --framed gives it: an empty one may come from "
-                   "a stage that was killed");
+                   "Refuse a text without the frame of model --framed: a stage may have been killed");
 }
 
 void PictureOptions::complete(bool is_terminal, bool writes_seen) {

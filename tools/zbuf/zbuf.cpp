@@ -16,12 +16,13 @@ using namespace pipeline;
 // NOLINTNEXTLINE(bugprone-exception-escape): thrown only if memory is out before anything is done
 int main(int argc, char** argv) {
   Tool tool({"zbuf",
-             "Reads triangles in normalized device coordinates and writes the depth of every pixel that "
-             "shows one, and the image.",
+             "Draws triangles in normalized device coordinates: writes the picture, and the depth of every "
+             "pixel that shows a triangle.",
              "The output of project (or stage3.txt)",
-             {"zbuf --size 400x300 stage3.txt",
-              "model scene.txt | view | project | zbuf config.txt --coverage center -o picture.ppm > "
-              "z_buffer.txt"}},
+             {"model scene.txt | view | project | zbuf config.txt -o out.bmp > z_buffer.txt",
+              "zbuf --size 400x300 --coverage center --samples 4 stage3.txt"},
+             "--depth-image --depth-array --triangle-array --rows --seen --certify --algorithm --depth "
+             "--depth-epsilon --threads --fragments --expect-framed"},
             OutputKind::other_text);
   ZbufOptions chosen(tool.options(), std::span(argv, static_cast<std::size_t>(argc)));
   Statistics statistics(tool.options());

@@ -28,23 +28,21 @@ ZbufOptions::ZbufOptions(CommandLine& options, std::span<char* const> words)
     : PictureOptions(options, "zbuf", true) {
   options.add_word(
       "--rows", "A:B", rows,
-      "Draw only the rows from A to before B of the picture, counted from 0 at the top, in memory "
-      "for these alone: cat joins the depths of such bands, join-images the images",
+      "Draw only the rows from A to before B, counted from 0 at the top; cat joins the depths of such bands, "
+      "join-images the images",
       [](const std::string& word) {
         return word.empty() ? expected_but_found("A:B, such as 0:100", pipeline::quoted(word))
                             : std::string();
       });
-  options.add_word(
-      "--seen", "FILE", seen_path,
-      "Write the triangles that a pixel or sample shows, as text that zbuf reads and that gives "
-      "the same picture; - is standard output, and the input may be replaced. With it, no image and no "
-      "depths unless asked for");
+  options.add_word("--seen", "FILE", seen_path,
+                   "Write the visible triangles, as text from which zbuf draws the same picture; - is "
+                   "standard output. Image and "
+                   "depths are then written only if asked for");
   if (is_wanted("--certify", words))
-    options.add_word(
-        "--certify", "FILE", certainty_path,
-        "Write how many pixels certainly show what exact arithmetic shows, and the row and column "
-        "of those that may not; of a text with bounds (model --bounds), with --coverage center. - is "
-        "standard output, in place of the depths");
+    options.add_word("--certify", "FILE", certainty_path,
+                     "Write how many pixels certainly show what exact arithmetic shows, and the row and "
+                     "column of the others "
+                     "(needs model --bounds and --coverage center); - is standard output, without depths");
   add_pixels(options);
   options.begin_group("Color and light");
   add_shading(options);
@@ -54,32 +52,33 @@ ZbufOptions::ZbufOptions(CommandLine& options, std::span<char* const> words)
       "surface hides them; with all, hidden edges, too");
   add_background(options);
   options.begin_group("Debugging");
-  options.add_repeatable("--probe", "COLUMN,ROW", probes,
-                         "Report on stderr, for every triangle at this pixel, its depth there and whether it "
-                         "was kept or why it was lost; may be repeated");
-  options.add_word("--fragments", "FILE", fragments_path, "Write the same for the whole picture to a file");
+  options.add_repeatable(
+      "--probe", "COLUMN,ROW", probes,
+      "List every triangle at this pixel on stderr: its depth, and why it was kept or lost; "
+      "repeatable");
+  options.add_word("--fragments", "FILE", fragments_path, "Write the same for all pixels");
   add_framed(options);
 }
 
 void ZbufOptions::add_pixels(CommandLine& options) {
   options.begin_group("Pixels");
   add_type_choice(options, "--coverage", CoverageRules(), rules.coverage, "Which pixels a triangle covers.");
-  options.add_choice<Algorithm>(
-      "--algorithm", algorithm, {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
-      "How the visible triangle is found; both give the same output.\n"
-      "zbuffer: every pixel keeps the nearest depth so far\n"
-      "scanline: triangles are kept and compared row by row, without memory for the image");
+  options.add_whole("--samples", sample_count, 1, kMaxSamples,
+                    "Smooth edges: a pixel is the mean of N x N samples; N");
+  options.add_choice<Algorithm>("--algorithm", algorithm,
+                                {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
+                                "How the visible triangle is found; the output is the same.\n"
+                                "zbuffer: every pixel keeps the nearest depth so far\n"
+                                "scanline: row by row, without memory for the image");
   add_type_choice(options, "--depth", DepthFormats(), rules.depth, "How a pixel stores its depth.");
   options.add_number(
       "--depth-epsilon", "E", rules.depth_epsilon, [](double epsilon) { return epsilon >= 0; },
       "a number of at least 0",
-      "Draw a triangle only where it is nearer than the visible one by more than E; the result then depends "
-      "on the order of the triangles");
-  options.add_whole("--samples", sample_count, 1, kMaxSamples,
-                    "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
-                    "of its center; N");
+      "Draw a triangle only where it is nearer than the visible one by more than E; the order of triangles "
+      "then "
+      "matters");
   options.add_whole("--threads", thread_count, 0, kMaxThreads,
-                    "How many threads draw with the z-buffer and shade, 0 for as many as pay");
+                    "How many threads draw and shade (0: as many as pay)");
 }
 
 void ZbufOptions::complete(bool is_terminal) {

@@ -4,6 +4,7 @@ import difflib
 import itertools
 import os
 import re
+import shutil
 import sys
 import textwrap
 
@@ -11,6 +12,8 @@ from lib.rim.command import shown
 from lib.rim.output_file import place_of
 
 STANDARD_OUTPUT = ("", "/dev/stdout")
+RARE = frozenset("""--threshold --min-contribution --max-depth --no-recursion --facets --crease --nodes
+    --max-input --memory-limit --time-limit --linear --threads""".split())  # shown by --help-all alone
 OPERANDS = ("scene", "config", "path", "model")
 OTHER_WAYS = {  # {(command, option that is not there, or no longer): what to use}
     ("picture", "--up"): "now --up-axis",
@@ -32,8 +35,11 @@ def files_of(name, folder):
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
-    """Fits the paragraphs of a description to the terminal; those with lines that are indented, such as
-    examples, stay as they are."""
+    """Fits the paragraphs of a description to the terminal, and to 80 columns; those with lines that are
+    indented, such as examples, stay as they are."""
+
+    def __init__(self, prog):
+        super().__init__(prog, width=min(80, shutil.get_terminal_size().columns))
 
     def _fill_text(self, text, width, indent):
         paragraphs = re.split(r"\n\s*\n", text.strip("\n"))
@@ -52,11 +58,39 @@ def config_beside(scene):
     return config if scene != "-" and os.path.isfile(config) else None
 
 
+class HelpAction(argparse.Action):
+    def __call__(self, parser, namespace, values, option_string=None):
+        sys.stdout.write(parser.format_help(has_rare=option_string == "--help-all"))
+        parser.exit()
+
+
 class CommandParser(argparse.ArgumentParser):
-    """Tells a mistake in one line, as the tools do."""
+    """Reports a mistake in one line, as the tools do. --help begins with the usage, the first example and the
+    first paragraph of the description; the options follow, without rare ones, then the other paragraphs."""
 
     def __init__(self, **settings):
-        super().__init__(formatter_class=HelpFormatter, **settings)
+        super().__init__(formatter_class=HelpFormatter, add_help=False, **settings)
+        self._positionals.title = "operands"
+        for *names, text in (("-h", "--help", "print this help and exit; --help-all: all of it"),
+                             ("--help-all", argparse.SUPPRESS)):
+            self.add_argument(*names, action=HelpAction, nargs=0, default=argparse.SUPPRESS, help=text)
+
+    def format_help(self, has_rare=False):
+        paragraphs = (self.description or "").strip("\n").split("\n\n")
+        example = next((text.split("\n")[1] for text in paragraphs if text.startswith("Examples:\n")), None)
+        formatter = self._get_formatter()
+        formatter.add_usage(self.usage, self._actions, self._mutually_exclusive_groups)
+        formatter.add_text(example and "Example:\n" + example)
+        formatter.add_text(paragraphs[0])
+        for group in self._action_groups:
+            formatter.start_section(group.title)
+            formatter.add_text(group.description)
+            shown = [action for action in group._group_actions
+                     if has_rare or RARE.isdisjoint(action.option_strings)]
+            formatter.add_arguments(sorted(shown, key=lambda action: "--help" in action.option_strings))
+            formatter.end_section()
+        formatter.add_text("\n\n".join(paragraphs[1:]))
+        return formatter.format_help()
 
     def parse_args(self, *arguments):
         for word in itertools.takewhile(lambda word: word != "--", sys.argv[1:]):

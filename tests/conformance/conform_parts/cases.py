@@ -13,7 +13,7 @@ STAGES = ("model", "view", "project", "zbuf")
 RULES = ("nearest", "center")
 # What a case may need that the assignment does not ask for.
 NEEDS = {
-    "syntax": "comments, carriage returns, arguments on the line of their command",
+    "syntax": "comments, carriage returns, arguments on their command's line",
     "options": "words of the command line, at {options}",
     "clipping": "triangles that reach behind the eye",
     "projections": "frustum, ortho, and the rule `ratio`",
