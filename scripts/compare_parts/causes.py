@@ -44,7 +44,7 @@ def factor_of(values, others):
 
 def judged(scene, theirs, ours):
     """The FileVerdict on one text, if another is the output of a stage of the scene; None if it is of none. A
-    text is given as its bytes and its name. Where the other may be that of several stages, the first counts
+    text is given as its bytes and its name. Where the other may come from several stages, the first counts
     whose mistakes reproduce the text."""
     reference = Reference(scene, None, Tools())
     judge = StageJudge(reference.scene, reference.world)

@@ -13,7 +13,7 @@ class Camera:
     eye: tuple
     look: tuple
     up: tuple
-    fov_y: Optional[float] = None  # degrees; None is that of the scene
+    fov_y: Optional[float] = None  # degrees; None: the scene's
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ ROOM = 1.05  # left around the scene
 
 @dataclasses.dataclass(frozen=True)
 class Ball:
-    """A ball around all vertices and spheres; its center is that of their box."""
+    """A ball around all vertices and spheres, centered in their box."""
     center: tuple
     radius: float
 

@@ -92,7 +92,7 @@ def narrowed(projection, factor):
 
 
 def size_of_scene(projection, width):
-    """A config of so many columns and of the projection's aspect: the width of its window over the height."""
+    """A config with `width` columns and the aspect of the projection's window."""
     left, right, bottom, top, *_ = window_of(projection)
     return f"{width} {max(1, round(width * abs((top - bottom) / (right - left))))}\n"
 

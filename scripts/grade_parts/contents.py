@@ -33,7 +33,7 @@ def without_suffix(name):
 
 
 class Contents:
-    """`paths` are those of the regular files, as tuples of names; `remarks` tell what else there was. An
+    """The regular files, as `paths` of tuples of names; `remarks` list what else there was. An
     archive among them, as Moodle hands them out, is looked into, but none in that."""
 
     def __init__(self):

@@ -21,7 +21,7 @@ def number(x):
 
 
 def csv_of(graded, tests):
-    """The CSV of [(HandIn, Graded)], with all that the judge says, whatever students are told."""
+    """The CSV of [(HandIn, Graded)], with all that the judge says, whatever students may see."""
     equal = equal_files(graded)
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")

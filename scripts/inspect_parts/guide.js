@@ -1,7 +1,7 @@
 // The line segments that show the camera in world and view space, and the cube in normalized device coordinates.
 
-const FAR_AWAY = 2;     // so many times as far as the farthest vertex, a far plane is drawn nearer,
-const DRAWN_AT = 1.5;   // at so many times its distance
+const FAR_AWAY = 2;     // a far plane beyond this multiple of the farthest vertex is drawn nearer,
+const DRAWN_AT = 1.5;   // at this multiple
 
 const radians = degrees => degrees * Math.PI / 180;
 const subtract = (a, b) => a.map((x, i) => x - b[i]);

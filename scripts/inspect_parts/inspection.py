@@ -42,7 +42,7 @@ def statistics(path):
 
 
 def belts_of(spheres):
-    """Into how many belts each of so many spheres is cut, for project and zbuf: a sphere has nearly 4 N^2
+    """The number of belts into which each sphere is cut, for project and zbuf: a sphere has nearly 4 N^2
     facets."""
     return max(BELTS[0], min(BELTS[1], math.isqrt(MAX_FACETS // (4 * spheres))))
 

@@ -13,7 +13,7 @@ MOST_TREES = 4000  # a few megabytes of text
 
 
 def step_of(columns, rows, most):
-    """The least distance of probed pixels, alike across and down, with at most so many of them."""
+    """The least distance between probed pixels, across and down, for at most `most` of them."""
     step = 1
     while math.ceil(columns / step) * math.ceil(rows / step) > most:
         step += 1

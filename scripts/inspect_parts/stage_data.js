@@ -16,7 +16,7 @@ export class Lines {
 
   line(index) { return this.text.slice(this.starts[index], this.starts[index + 1] - 1); }
 
-  // The first three words of each of so many lines from one on, which are counted from 1.
+  // The first three words of `count` lines from line `first` on, counted from 1.
   pointsAt(first, count) { return Array.from({length: count}, (_, i) => this.line(first - 1 + i).split(" ", 3)); }
 }
 
@@ -69,7 +69,7 @@ export class StageData {
     this.names.forEach((name, piece) => { this.order[next[name]++] = piece; });
   }
 
-  // The numbers of the points in so many lines from each of `firstLines` on.
+  // The numbers of the points in `count` lines from each of `firstLines` on.
   numbersAt(firstLines, count) {
     const points = new Float64Array(3 * count * firstLines.length);
     let at = 0;

@@ -1,6 +1,6 @@
 // A parallel view of space that is turned, moved and brought nearer.
 
-const FARTHEST = 20;  // so many times the size of the frustum or the cube, triangles around it may shrink it
+const FARTHEST = 20;  // in sizes of the frustum or the cube: how far triangles around it may shrink it
 const LEFT_AROUND = 1.14;  // for labels
 
 // The box around points, triples of numbers, and the length of its diagonal.
@@ -20,7 +20,7 @@ export class Turntable {
     this.resize(1, 1);
   }
 
-  // To a picture of so many pixels.
+  // Fits the view to a picture of this many pixels.
   resize(width, height) {
     Object.assign(this, {width, height});
     this.measure();

@@ -22,7 +22,7 @@ function joined(a, b) {
 
 export class Wireframe {
   // `pane` has a canvas and another one above it, for marks. It begins as it was turned and moved by a `pose`, if there is one.
-  // `isShown(name)` tells which triangles the picture shows.
+  // `isShown(name)` is true for triangles that the picture shows.
   constructor(pane, stage, {start, pose}, isShown, palette) {
     Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, rays: [], theirs: null, index: null, isDirty: false});
     [this.canvas, this.mark] = pane.querySelectorAll("canvas");
@@ -35,7 +35,7 @@ export class Wireframe {
     this.resize();
   }
 
-  // Room for the pixels and the nearness of so many points.
+  // Room for the pixels and the nearness of this many points.
   places(count) { return [0, 1, 2].map(() => new Float32Array(count)); }
 
   // Draws other triangles over these. If there are as many, in the same order (`isAlike`), only those that have one of the `vertices`

@@ -35,7 +35,7 @@ def refuse(parser, options):
 
 
 class Certainty:
-    """What zbuf --certify tells: how many pixels there are, how many of them are uncertain, and the places of
+    """The report of zbuf --certify: how many pixels there are, how many are uncertain, and the places of
     these, or of the first."""
 
     def __init__(self, path, width):
@@ -51,7 +51,7 @@ class Certainty:
         return len(self.places) == self.uncertain_count
 
     def leave(self, places):
-        """Leaves those of its places uncertain that are among these; or these, if its own are not
+        """Keeps only those of its uncertain places that are among these; or these, if its own are not
         complete."""
         self.places = sorted({*places} & {*self.places}) if self.is_complete else places
         self.uncertain_count = len(self.places)
@@ -59,7 +59,7 @@ class Certainty:
 
 @dataclasses.dataclass
 class Run:
-    """What has been drawn with so many digits: the notes, zbuf's certainty and picture file, and if it was
+    """One drawing, with some number of digits: the notes, zbuf's certainty and picture file, and if it was
     all digits, the number of the triangle that each pixel shows, -1 where there is none."""
     digits: str
     notes: list

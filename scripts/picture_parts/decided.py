@@ -11,7 +11,7 @@ TOO_MUCH = "too much for the exact program"
 
 
 def decide(drawing, run):
-    """Changes the Run of a CertainPicture, and tells how far was tried what stays uncertain."""
+    """Changes the Run of a CertainPicture, and reports how far the pixels that stay uncertain were tried."""
     if run.certainty.uncertain_count > MOST_PIXELS or len(data := drawing.scene()) > MOST_BYTES:
         return f"{run.tried} ({TOO_MUCH})"
     places, width = run.certainty.places, size_of(run.picture)[0]

@@ -58,7 +58,7 @@ class Fragment:
 
 
 class ExactPixels:
-    """A scene on a window, as far as Ball.bits tell."""
+    """A scene on a window, to the precision of Ball.bits."""
 
     def __init__(self, scene, window):
         self.scene, self.window = scene, window
@@ -71,7 +71,7 @@ class ExactPixels:
         self.steps = 0
 
     def candidates(self, pixels):
-        """{pixel: [(number, SceneTriangle), ...]} of those that doubles cannot tell to be elsewhere."""
+        """{pixel: [(number, SceneTriangle), ...]} of triangles that may be there, by doubles with a bound."""
         columns_of, found = collections.defaultdict(list), {pixel: [] for pixel in pixels}
         for column, row in sorted(pixels):
             columns_of[row].append(column)

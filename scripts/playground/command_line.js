@@ -1,4 +1,4 @@
-// The command line of the pipe, to read, to edit and to copy. What a tool can be told comes from its own --help.
+// The command line of the pipe, to read, edit and copy. The options of a tool come from its own --help-all.
 
 import {quoted} from "../inspect_parts/explanation_panel.js";
 import {STAGES, wordsOf} from "./pipe.js";

@@ -20,7 +20,7 @@ async function through(bytes, transform) {
   return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
-// Letters for fromCharCode, which takes only so many arguments at once.
+// Letters for fromCharCode, which takes a limited number of arguments.
 function lettersOf(bytes) {
   let letters = "";
   for (let at = 0; at < bytes.length; at += 8192) letters += String.fromCharCode(...bytes.subarray(at, at + 8192));

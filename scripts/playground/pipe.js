@@ -12,7 +12,7 @@ const FILES = {model: "stage1.txt", view: "stage2.txt", project: "stage3.txt", z
 const EXACT = ["--digits", "exact"];
 const IMAGE = "out.ppm", COUNTS = "counts.txt", FRAGMENTS = "fragments.txt", TRIANGLES = "triangles.npy", DEPTHS = "depths.npy";
 
-// A stage has failed: `messages` are those of all stages so far.
+// A stage has failed: `messages` come from all stages so far.
 export class StageFailure extends Error {
   constructor(tool, status, messages) { super(`${tool}: exit status ${status}`); Object.assign(this, {tool, status, messages}); }
 }

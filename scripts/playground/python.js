@@ -1,4 +1,4 @@
-// Runs commands of the project in Python, beside the page; the tools that they start are those of the page.
+// Runs commands of the project in Python, beside the page; the tools that they start are the page's.
 
 import createTool from "all-tools";
 

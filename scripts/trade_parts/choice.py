@@ -1,4 +1,4 @@
-"""The cheapest setting that meets what was asked, as far as the times tell."""
+"""The cheapest setting that meets the request, as far as the times decide it."""
 import dataclasses
 
 from trade_parts.timing import CHEAPER, TIE, UNTOLD
@@ -42,7 +42,7 @@ class Limits:
 class Choice:
     row: object
     ties: tuple = ()    # rows that cost the same, as far as anybody notices
-    untold: tuple = ()  # rows that may be cheaper: the times do not tell
+    untold: tuple = ()  # rows that may be cheaper: the times do not decide
 
 
 def least_wrong(rows, limits):
@@ -58,7 +58,7 @@ def simplest_first(rows):
 
 
 def cheapest(rows, verdict):
-    """The Choice among `rows`. `verdict(a, b)` tells about the CPU time of setting a against that of b. A
+    """The Choice among `rows`. `verdict(a, b)` compares the CPU times of the settings a and b. A
     setting gives way only to one that is cheaper beyond the noise. If one that may be cheaper is left, so
     that another run could name it, the simplest row is chosen, and `untold` tells why."""
     rows = simplest_first(rows)

@@ -58,7 +58,7 @@ class Times:
                                                                          self.start_up)
 
     def verdict(self, setting, other):
-        """What the rounds tell about the CPU time of a setting against that of another: the interval of their
+        """The CPU time of a setting relative to another, by the rounds: the interval of their
         ratio, widened by as much as the default differs from itself, lies on one side of what is noticed."""
         low, high = median_interval(self.ratios(setting, other))
         low, high = low / self.noise, high * self.noise

@@ -1,4 +1,4 @@
-"""Numbers that are known exactly, or to so many bits, so that a sign is right or not told."""
+"""Numbers known exactly or to a number of bits, so that a sign is right or undecided."""
 import functools
 import math
 from fractions import Fraction
@@ -9,7 +9,7 @@ GUARD_BITS = 64  # of sums of series, whose terms are fewer than 2**32, and each
 
 
 class Undecided(Exception):
-    """A sign that the bits do not tell."""
+    """A sign that the bits do not decide."""
 
 
 class Ball:

@@ -29,7 +29,7 @@ def adopt_orphans():
 
 
 def descendants():
-    """The processes that this one has started, and those that they have; as /proc tells, so only on Linux."""
+    """The processes that this one has started, and their children, by /proc, so only on Linux."""
     children = {}
     for process in filter(str.isdigit, os.listdir("/proc") if os.path.isdir("/proc") else ()):
         with contextlib.suppress(OSError), open(f"/proc/{process}/stat", "rb") as file:

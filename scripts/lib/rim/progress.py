@@ -6,8 +6,8 @@ CELLS = 30
 
 
 class Progress:
-    """Of so many steps; `in_per_cent`: it tells the share of them that is done and the time left, which takes
-    all to be equally long."""
+    """Progress through a number of steps; `in_per_cent` shows the share that is done and the time left, as if
+    all steps were equally long."""
     def __init__(self, total, in_per_cent=False):
         self.total, self.done, self.in_per_cent = total, 0, in_per_cent
         self.begin = time.monotonic()

@@ -20,7 +20,7 @@ class ToolFailure(CommandFailure):
 
 
 class ToolKilled(CommandFailure):
-    """A signal ended a tool. No ToolFailure, since it tells nothing of the input."""
+    """A signal ended a tool. No ToolFailure, since the input is not to blame."""
 
 
 def default_folder():

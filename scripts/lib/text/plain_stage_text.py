@@ -30,7 +30,7 @@ class Vertex:
 
 @dataclasses.dataclass
 class StageText:
-    header: dict     # {keyword: words}; for light, those of the last one
+    header: dict     # {keyword: words}; of several lights, the last
     triangles: list  # of three vertices each
     names: list      # the scene's number of each triangle
     spheres: list = dataclasses.field(default_factory=list)       # of four vertices each
@@ -46,8 +46,8 @@ class StageText:
 
 
 def write(text, decimals=7):
-    """The text of a StageText without spheres: coordinates, colors and normals with so many decimals, w with
-    as many digits as it takes."""
+    """The text of a StageText without spheres: coordinates, colors and normals with `decimals` decimals, w
+    with as many digits as it takes."""
     lines, expected = [" ".join(words) for words in text.header_lines], 0
     is_fixed = [True] * 3
     for word in text.header.get("attributes", []):
@@ -77,7 +77,7 @@ def real(word):
 
 
 def read(text, name="text", may_have_spheres=False):
-    """The StageText of a str; `name` is that of the file in messages. Raises a StageTextError."""
+    """The StageText of a str; `name` is the file's in messages. Raises a StageTextError."""
     reader = Reader(may_have_spheres)
     for number, line in enumerate(text.split("\n"), 1):
         try:

@@ -8,7 +8,7 @@ FOURTH_LINE = " in the scene's fourth line"
 
 def note_on_squares(projection, config):
     """The note on a projection, the words of a header line, and the text of a config of zbuf, if a square
-    that faces the camera is drawn more than 1 % off square: by how much, and what mends it. Else an empty
+    that faces the camera is drawn more than 1 % off square: by how much, and how to correct it. Else an empty
     text."""
     columns, rows, left, bottom, *_ = [*map(float, re.sub(r"#.*", "", config).split()), -1, -1]
     keyword, *words = projection
