@@ -50,8 +50,8 @@ class Words(unittest.TestCase):
     def test_options_are_those_of_help(self):
         for command in COMMANDS:
             with self.subTest(command):
-                text = subprocess.run([PREFIX / "libexec/pipeline" / command, "--help-all"], capture_output=True,
-                                      text=True, check=True).stdout
+                words = [PREFIX / "libexec/pipeline" / command, "--help-all"]
+                text = subprocess.check_output(words, text=True)
                 lines = "\n".join(re.findall(r"^ {1,4}(-.*?)(?:  .*)?$", text, re.M))
                 options = set(re.findall(r"(?:^|(?<=,)|(?<=, ))--?[a-z][a-z-]*", lines, re.M))
                 self.assertEqual(set(completed("pipeline", command, "-")), options)

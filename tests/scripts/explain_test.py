@@ -419,8 +419,7 @@ class RandomTriangles(ToolTest):
 
 
 class RandomPairs(ToolTest):
-    """Whether a triangle covers a pixel, and how deep it is there: by both rules as zbuf says, whose reference is
-    elsewhere."""
+    """Coverage and depth of a triangle at a pixel are zbuf's by both rules; the reference judges zbuf."""
 
     COUNT = 2000
     # Numbers so round that centers lie on edges and ends of rows halfway between pixels, and numbers that are

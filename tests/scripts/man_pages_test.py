@@ -43,8 +43,8 @@ class Pages(ToolTest):
     def test_pages_and_help_have_the_same_options(self):
         for command in COMMANDS:
             with self.subTest(command):
-                text = subprocess.run([PREFIX / "libexec/pipeline" / command, "--help-all"], capture_output=True,
-                                      text=True, check=True).stdout
+                words = [PREFIX / "libexec/pipeline" / command, "--help-all"]
+                text = subprocess.check_output(words, text=True)
                 lines = re.findall(r"^ {1,4}(-.*?)(?:  .*)?$", text, re.M)
                 tags = re.findall(r"^\.TP\n(\\fB\\-.*)$", page_of(command), re.M)
                 plain = [re.sub(r"\\f.", "", tag).replace("\\-", "-") for tag in tags]
@@ -55,9 +55,8 @@ class Pages(ToolTest):
 
     def test_every_page_has_an_example(self):
         for command in COMMANDS:
-            self.assertRegex(page_of(command),
-                             r"\n\.SH EXAMPLES\n\.RS 4\n\.EX\n(.*\n)?.*pipeline " + re.escape(escaped(command)),
-                             command)
+            example = r"\n\.SH EXAMPLES\n\.RS 4\n\.EX\n(.*\n)?.*pipeline " + re.escape(escaped(command))
+            self.assertRegex(page_of(command), example, command)
 
     def test_the_page_of_pipeline_names_every_command(self):
         page = (MAN / "man1/pipeline.1").read_text()

@@ -118,7 +118,8 @@ class Answers(ToolTest):
     def test_help_is_of_80_columns_and_begins_with_usage_and_an_example(self):
         for tool, option in itertools.product(ALL_TOOLS, ("--help", "--help-all")):
             text = run(tool, option).stdout.decode()
-            self.assertEqual([line for line in text.split("\n") if len(line) > 80 or line != line.rstrip()], [])
+            wrong = [line for line in text.split("\n") if len(line) > 80 or line != line.rstrip()]
+            self.assertEqual(wrong, [])
             self.assertRegex(text, rf"\AUsage: {tool} .*\n( {{7}}{tool} .*\n)?\nExamples?:\n  \w")
 
     def test_help_without_rare_options_names_the_others_in_the_same_words(self):

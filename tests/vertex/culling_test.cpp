@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-
 #include "libpipeline/text/error.h"
 #include "tests/vertex/projected.h"
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "libpipeline/text/error.h"
 #include "tests/vertex/printed_vertices.h"
 

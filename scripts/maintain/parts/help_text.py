@@ -50,8 +50,9 @@ def help_of(program, name):
 
 
 def python_help(program, name):
-    """What a command in Python prints with --help-all, but each option as tools print it with --help-fields."""
-    with mock.patch.object(sys, "argv", [name, "--help-all"]), mock.patch.dict(os.environ, {"COLUMNS": "120"}), \
+    """The output of a command in Python with --help-all, but each option as in a tool's --help-fields."""
+    words = [name, "--help-all"]
+    with mock.patch.object(sys, "argv", words), mock.patch.dict(os.environ, {"COLUMNS": "120"}), \
             mock.patch.object(argparse.HelpFormatter, "_format_action", fields_of), \
             contextlib.redirect_stdout(io.TextIOWrapper(io.BytesIO())) as text, \
             contextlib.suppress(SystemExit):
