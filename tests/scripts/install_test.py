@@ -206,7 +206,10 @@ class Installed(unittest.TestCase):
 
     def test_documents_have_their_pictures(self):
         folder = PREFIX / "share/doc/pipeline"
-        self.assertEqual((folder / "README.md").read_text(), (SOURCE / "README.md").read_text())
+        # Links to what is not installed are plain words.
+        installed, ours = (re.sub(r"\[([^]]+)\]\([^)]*\)", r"\1", (where / "README.md").read_text())
+                           for where in (folder, SOURCE))
+        self.assertEqual(installed, ours)
         for page in (folder / "README.md", *folder.glob("docs/*.md")):
             for picture in re.findall(r"!\[[^]]*\]\(([^)#:]+)\)", page.read_text()):
                 self.assertTrue((page.parent / picture).exists(), f"{page.name}: {picture}")

@@ -290,8 +290,8 @@ class Speed(ToolTest):
             with open("view.txt", "wb") as view:
                 view.write(b"perspective 60 1 1 100\n" + b"-1 -1 -4\n1 -1 -4\n0 1 -4\n\n" * 20)
             process = subprocess.Popen(
-                command("trace", "--size", "3000x2000", "--threads", "1", "-o", "out.ppm", "view.txt"),
-                stdout=subprocess.DEVNULL, stderr=theirs)
+                command("trace", "--size", "1500x1000", "--samples", "2", "--threads", "1", "-o", "out.ppm",
+                        "view.txt"), stdout=subprocess.DEVNULL, stderr=theirs)
             os.close(theirs)
             shown = b""
             try:

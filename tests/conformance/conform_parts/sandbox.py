@@ -50,7 +50,7 @@ def folders_of_tools(command=None, read=()):
         program = os.path.realpath(command[0])
         named = " ".join((*command, program, *map(os.path.realpath, read)))
         if os.path.basename(program) == "pipeline":
-            named += f" {os.path.dirname(os.path.dirname(program))}/libexec/pipeline"
+            named += f" {os.path.dirname(os.path.dirname(program))}/libexec/pipeline/tools"
     return [path for path in sorted(found) if path not in named and not os.path.exists(f"{path}/sh")]
 
 
