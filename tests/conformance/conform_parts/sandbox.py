@@ -25,7 +25,7 @@ def words_for(command, paths, hidden):
     below = [os.path.join(path, name)
              for path, name in names
              if not name.startswith("..")]  # through links, too
-    for path in {*hidden, *below}:
+    for path in without_those_inside({*hidden, *below}):  # bubblewrap makes none in what is hidden
         words += ["--tmpfs", path, "--remount-ro", path]
     folders = [each for each in os.get_exec_path()
                if not any(is_below(os.path.realpath(each), path) for path in hidden)]
@@ -52,6 +52,11 @@ def folders_of_tools(command=None, read=()):
         if os.path.basename(program) == "pipeline":
             named += f" {os.path.dirname(os.path.dirname(program))}/libexec/pipeline/tools"
     return [path for path in sorted(found) if path not in named and not os.path.exists(f"{path}/sh")]
+
+
+def without_those_inside(paths):
+    """The paths that lie in no other one of them, sorted."""
+    return sorted(path for path in paths if not any(path.startswith(other + "/") for other in paths))
 
 
 def is_below(path, folder):
@@ -106,5 +111,4 @@ def needed(command):
     paths |= {beside for path in paths if os.path.basename(path) == "bin" for name in BESIDE_BIN
               if os.path.exists(beside := os.path.join(os.path.dirname(path), name))}
     there = re.compile(rf"({'|'.join(SYSTEM)}|/dev(?!/shm)|/proc)(/|$)")
-    paths = {path for path in paths if not is_shared(path) and not there.match(path)}
-    return {path for path in paths if not any(path.startswith(other + "/") for other in paths)}
+    return without_those_inside({path for path in paths if not is_shared(path) and not there.match(path)})
