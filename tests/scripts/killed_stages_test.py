@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A stage that the system kills inside a command: no output of a part, and a line that names the stage.
+"""A stage that the system kills inside a command: no output of a part, and a line that names the stage. A
+command that a signal ends: all that it has started ends, too, and no temporary file is left.
 
 usage: killed_stages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -8,13 +9,16 @@ import itertools
 import os
 import pathlib
 import shutil
+import signal
+import subprocess
 import sys
+import time
 import unittest
 
 from fly_parts.pipe import FramePipe
 from lib.rim.command import CommandFailure
-from lib.running.pipe_tools import Done, ToolKilled, Tools, expect_success
-from toolbox import BIN, TOOLS, ToolTest, add_claims, run_script
+from lib.running.pipe_tools import FRAMING, Done, ToolKilled, Tools, expect_success
+from toolbox import (BIN, SOURCE, TOOLS, ToolTest, add_claims, end_by_signal, heed_signals, run_script)
 
 TRACED = ("model", "view", "trace")
 # command: its words, and the stages
@@ -39,19 +43,23 @@ COMMANDS = {
 OLDER = ("x.gif", "x.png", "z.txt", "x.html", "x.svg",
          *(f"kept/{name}" for name in ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")))
 KEPT = ("bin", "x.gif.frames", "x.png.farm")  # folders of the test, and of what can be gone on with
-# A tool that is killed: at once, or with half of its text out, or in.
+KILLS = ("at once", "in the middle")
+# A tool that is killed: at once, or with half of its text out, or in; or one that does not end.
 TOOL = f'''#!{sys.executable} -I
 import os, signal, subprocess, sys
 words = ["{BIN}/TOOL", *sys.argv[1:]]
 if any("/dev/null" in word and word != "/dev/null" for word in words) or "--help" in words:
     os.execv(words[0], words)  # whether it can be used at all
-if IN_THE_MIDDLE and "TOOL" in ("zbuf", "trace"):
+if "MOMENT" == "never":
+    with open(os.path.dirname(sys.argv[0]) + "/started", "a") as file: print(os.getpid(), file=file)
+    os.execvp("sleep", ["sleep", "1000"])
+if "MOMENT" == "in the middle" and "TOOL" in ("zbuf", "trace"):
     text = sys.stdin.buffer.read()
     tool = subprocess.Popen(words, stdin=subprocess.PIPE, bufsize=0)
     tool.stdin.write(text[:len(text) // 2])
     tool.kill()
     tool.wait()
-elif IN_THE_MIDDLE:
+elif "MOMENT" == "in the middle":
     text = subprocess.run(words, stdout=subprocess.PIPE).stdout
     os.write(1, text[:len(text) // 2 + 7])
 os.kill(os.getpid(), signal.SIGKILL)
@@ -74,12 +82,17 @@ class KilledStages(ToolTest):
             os.mkdir(folder)
         for path in OLDER:
             pathlib.Path(path).write_text("older")
-        before = self.contents()
-        for stage, is_in_the_middle in itertools.product(stages, (False, True)):
-            with self.subTest(stage=stage, is_in_the_middle=is_in_the_middle):
-                self.make_tools(stage, is_in_the_middle)
+        before, signals = self.contents(), (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
+        for stage, moment in itertools.product(stages, KILLS):
+            with self.subTest(stage=stage, moment=moment):
+                self.make_tools(stage, moment)
                 self.kill(stage, *command.split(), *words.split())
                 self.assertEqual(self.contents(), before)
+        number = list(COMMANDS).index(command)
+        with self.subTest(signal=signals[number % 3], stage=stages[number % len(stages)]):
+            self.make_tools(stages[number % len(stages)], "never")
+            self.end(signals[number % 3], *command.split(), *words.replace("kept", "new/five").split())
+            self.assertEqual(self.contents(), before)
 
     def test_what_failed_first_is_named_and_a_whole_frame_is_enough(self):
         for statuses, expected in (
@@ -89,40 +102,58 @@ class KilledStages(ToolTest):
             with self.assertRaisesRegex(CommandFailure, expected) if expected else contextlib.nullcontext():
                 expect_success(*tools)
 
-    def test_fly_shows_nothing_of_a_part(self):
-        for stages, is_traced in ((TOOLS, False), (TRACED, True)):
-            for stage, is_in_the_middle in itertools.product(stages, (False, True)):
-                self.make_tools(stage, is_in_the_middle)
+    def test_fly_and_a_framed_pipe_of_ones_own_show_nothing_of_a_part(self):
+        pathlib.Path("out.bmp").write_text("older")
+        before = self.contents()
+        for stages, moment in itertools.product((TOOLS, TRACED), KILLS):
+            for stage in stages:
+                self.make_tools(stage, moment)
                 with self.assertRaises(ToolKilled) as raised:
-                    pipe = FramePipe(Tools("bin"), "scene.txt", is_traced)
+                    pipe = FramePipe(Tools("bin"), "scene.txt", stages == TRACED)
                     camera = [word.split() for word in ("0 0 5", "0 0 0", "0 1 0")]
                     pipe.frame(camera, [], "8 8\n", [])
                 self.assertEqual(str(raised.exception), f"{stage}: ended by SIGKILL")
+                files = {"model": "scene.txt", stages[-1]: "config.txt"}
+                line = " | ".join(" ".join([f"bin/{tool}", *FRAMING.get(tool, []), files.get(tool, "")])
+                                  for tool in stages)
+                self.assertNotEqual(subprocess.run(["sh", "-c", line], capture_output=True).returncode, 0)
+                self.assertEqual(self.contents(), before, (stage, moment))
 
     @staticmethod
-    def make_tools(stage, is_in_the_middle):
-        """The folder bin, with one that is killed, and none from the kill before."""
+    def make_tools(stage, moment):
+        """The folder bin, with a tool that is killed at a moment, and none from the kill before."""
         for folder in KEPT:
             shutil.rmtree(folder, ignore_errors=True)
         os.mkdir("bin")
         for tool in BIN.iterdir():
             os.symlink(tool, f"bin/{tool.name}")
         os.unlink(f"bin/{stage}")
-        pathlib.Path("bin", stage).write_text(
-            TOOL.replace("TOOL", stage).replace("IN_THE_MIDDLE", str(is_in_the_middle)))
+        pathlib.Path("bin", stage).write_text(TOOL.replace("TOOL", stage).replace("MOMENT", moment))
         os.chmod(f"bin/{stage}", 0o755)
 
+    def places(self):
+        return {**os.environ, "BIN": os.path.abspath("bin"), "TMPDIR": os.path.abspath("tmp")}
+
+    def end(self, number, name, *words):
+        process = subprocess.Popen([SOURCE / "scripts" / name, *words], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, preexec_fn=heed_signals, env=self.places())
+        started = pathlib.Path("bin/started")
+        while not started.exists() and process.poll() is None:
+            time.sleep(0.02)
+        said = end_by_signal(process, number)[1].decode()
+        self.assertEqual((process.returncode, said), (-number, f"{name}: ended by {number.name}\n"))
+        self.assertFalse([pid for pid in started.read_text().split() if os.path.exists(f"/proc/{pid}/exe")])
+
     def kill(self, stage, name, *words):
-        places = {"BIN": os.path.abspath("bin"), "TMPDIR": os.path.abspath("tmp")}
-        done = run_script(name, *words, env={**os.environ, **places})
+        done = run_script(name, *words, env=self.places())
         self.assertNotEqual(done.returncode, 0)
         self.assertIn(f"{stage}: ended by SIGKILL", done.stderr)
         if name not in ("film", "farm", "grade"):  # which say more: how to go on, or who has no points
             self.assertEqual(done.stderr, f"{name}: {stage}: ended by SIGKILL\n")
 
     def contents(self):
-        return {str(path): path.read_bytes() for path in pathlib.Path(".").rglob("*")
-                if path.is_file() and path.parts[0] not in KEPT}
+        return {str(path): path.is_file() and path.read_bytes() for path in pathlib.Path(".").rglob("*")
+                if path.parts[0] not in KEPT}
 
 
 add_claims(KilledStages, [(f"{command} makes nothing of a part", command) for command in COMMANDS])

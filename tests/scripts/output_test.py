@@ -4,7 +4,6 @@
 usage: output_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import fcntl
-import itertools
 import os
 import pathlib
 import resource
@@ -15,11 +14,10 @@ import stat
 import subprocess
 import sys
 import threading
-import time
 import unittest
 
 from devices import IS_ROOT, full_device, null_device
-from toolbox import BIN, SCENE, SOURCE, ToolTest, end_by_signal, heed_signals
+from toolbox import BIN, SCENE, SOURCE, ToolTest
 
 SCRIPTS = SOURCE / "scripts"
 PLAIN = {"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
@@ -477,75 +475,6 @@ class Folders(ToolTest):
                 words = ["scene.txt", "config.txt", *words.split(), f"--output={name}/{output}"]
                 self.assertEqual(script(command, *words).returncode, 0)
             self.assertEqual(sorted(os.listdir(name)), ["frames", "x.gif", "x.png"])
-
-
-class Endings(ToolTest):
-    """A signal ends a command with all that it has started, is told in a line, and leaves no temporary
-    file."""
-
-    # A command, its words, the tool that does not come to an end, what stays.
-    CASES = (
-        ("farm", "scene.txt config.txt --parts 2 -o x.png -- --jobs 2", "model", ["x.png.farm"]),
-        ("film", "scene.txt config.txt --turn 1 -o x.gif -- --jobs 2", "zbuf", ["x.gif.frames"]),
-        ("film", "scene.txt config.txt --turn 1 -o frames", "model", []),
-        ("stages", "scene.txt config.txt new/five", "project", []),
-        ("inspect", "scene.txt config.txt", "view", []),
-        ("trade", "scene.txt config.txt", "model", []),
-        ("explain", "scene.txt config.txt --triangle 0", "view", []),
-        ("compare", "--hand-in five scene.txt config.txt", "model", []),
-        ("picture", "scene.txt config.txt -o x.png", "project", []),
-        ("picture", "scene.txt config.txt -o x.png --stages kept", "project", []),
-    )
-
-    def test_all_ends(self):
-        pathlib.Path("scene.txt").write_text(SCENE.replace("end\n", "triangle\n1 0 0\n0 1 0\n0 1 1\nend\n"))
-        for folder in ("five", "tmp"):
-            os.mkdir(folder)
-        numbers = itertools.cycle((signal.SIGTERM, signal.SIGINT, signal.SIGHUP))
-        for (command, words, tool, stays), number in zip(self.CASES, numbers):
-            needed = ["parallel"] * (command in ("farm", "film")) + ["ffmpeg"] * ("gif" in words)
-            if not all(map(shutil.which, needed)):
-                continue
-            with self.subTest(command, words=words, number=number.name):
-                self.end_one(command, words.split(), tool, stays, number)
-
-    def end_one(self, command, words, tool, stays, number):
-        slow = pathlib.Path("slow").absolute()
-        slow.mkdir()
-        for path in BIN.iterdir():
-            (slow / path.name).symlink_to(path)
-        (slow / tool).unlink()
-        (slow / tool).write_text(
-            f'#!/bin/sh\ncase "$*" in *--help* | */dev/null*) exec {BIN}/{tool} "$@" ;; esac\n'
-            f"echo $$ >> {slow}/started\nexec sleep 1000\n"
-        )
-        (slow / tool).chmod(0o755)
-        before = self.files()
-        process = subprocess.Popen(
-            [SCRIPTS / command, *words],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            preexec_fn=heed_signals,
-            env={
-                "BIN": str(slow),
-                "PATH": os.environ["PATH"],
-                "HOME": str(slow),
-                "TMPDIR": os.path.abspath("tmp"),
-            },
-        )
-        while not (slow / "started").exists() and process.poll() is None:
-            time.sleep(0.02)
-        told = end_by_signal(process, number)[1].decode()
-        self.assertEqual((process.returncode, told), (-number, f"{command}: ended by {number.name}\n"))
-        self.assertEqual(
-            [line for line in (slow / "started").read_text().split() if os.path.exists(f"/proc/{line}/exe")],
-            [],
-        )
-        shutil.rmtree(slow)
-        self.assertEqual(sorted(set(self.files()) - set(before)), stays)
-        self.assertEqual(os.listdir("tmp"), [])
-        for name in stays:
-            shutil.rmtree(name)
 
 
 class Beginnings(ToolTest):
