@@ -1,10 +1,10 @@
 """The frames of a film: a folder with a picture each, and what they were drawn from."""
 import hashlib
+import itertools
 import os
 import pathlib
 import shlex
 import subprocess
-import zlib
 
 from film_parts.scene import number
 from lib.rim.command import CommandFailure, shown
@@ -13,6 +13,7 @@ from lib.rim.output_file import OutputFile
 from lib.rim.parallel import Job, run_parallel
 from lib.rim.work_folder import WorkFolder
 from lib.running.pipe_tools import STAGE_IN_SHELL
+from lib.showing.pictures import PNG_SIGNATURE, png_chunk, png_chunks
 
 FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999
@@ -33,21 +34,12 @@ DRAW = r'''draw() {
 }'''
 
 
-PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
-
-
 def is_whole(path):
     """Whether it is a PNG file whose chunks all have their checksums, to the last."""
-    if not os.path.isfile(path):
-        return False
-    with open(path, "rb") as file:
-        is_good = file.read(len(PNG_SIGNATURE)) == PNG_SIGNATURE
-        while is_good and len(begin := file.read(8)) == 8:
-            data, checksum = file.read(int.from_bytes(begin[:4], "big")), file.read(4)
-            is_good = zlib.crc32(begin[4:] + data) == int.from_bytes(checksum, "big")
-            if begin[4:] == b"IEND":
-                return is_good and not file.read(1)
-    return False
+    data = pathlib.Path(path).read_bytes() if os.path.isfile(path) else b""
+    chunks = list(png_chunks(data))
+    return chunks[-1:] == [(b"IEND", b"")] and data == PNG_SIGNATURE + b"".join(
+        itertools.starmap(png_chunk, chunks))
 
 
 def words_of(vector):

@@ -1,6 +1,7 @@
 """Programs that are handed in: built and run for every test, in a sandbox of bubblewrap; where root finds
 none that works, as in a container, each as a user of its own, who may read nothing of root's."""
 import argparse
+import contextlib
 import ctypes
 import functools
 import os
@@ -44,15 +45,15 @@ def protection(command, read, hidden, user):
 
 def free_user():
     """The number of a user who has no name and no process. Processes that grade side by side get one each."""
-    found = {os.stat(path).st_uid for path in each_process()} | {user.pw_uid for user in pwd.getpwall()}
+    found = {*owners_of_processes(), *(user.pw_uid for user in pwd.getpwall())}
     numbers = (FIRST_USER + (os.getpid() + i) % USERS for i in range(USERS))
     return next(number for number in numbers if number not in found)
 
 
-def each_process():
+def owners_of_processes():
     for name in filter(str.isdigit, os.listdir("/proc")):
-        if os.path.exists(path := f"/proc/{name}"):
-            yield path
+        with contextlib.suppress(OSError):  # it may have ended
+            yield os.stat(f"/proc/{name}").st_uid
 
 
 def succeeds(user, *words):

@@ -12,6 +12,7 @@ MAX_SIDE = 65535          # as zbuf draws; a column of millions of rows takes gi
 MAX_PNG_PIXELS = 1 << 25  # a PNG of a few KB may claim millions, and Python is slow to filter bytes
 PPM_HEADER = re.compile(rb"P6" + rb"(?:\s|#[^\n]*\n)+(\d{1,9})" * 3 + rb"\s")
 MAX_PPM_HEADER = 4096
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 class PictureError(CommandFailure):
@@ -203,7 +204,7 @@ def png_of_lines(width, height, channels, lines, level=9):
     """The same of rows with their filters."""
     header = struct.pack(">IIBBBBB", width, height, 8, 6 if channels == 4 else 2, 0, 0, 0)
     pixels = zlib.compress(b"".join(lines), level)
-    return b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(
+    return PNG_SIGNATURE + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(
         b"IEND", b"")
 
 
