@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -8,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/certainty/outline.h"
-#include "libpipeline/certainty/uncertain_polygon.h"
+#include "libpipeline/certainty/uncertain_triangle.h"
 #include "libpipeline/stream/triangle_batch.h"
 
 namespace pipeline {
@@ -45,20 +43,15 @@ class CertainPixels {
   }
 
  private:
-  /// Pixels of a row with a depth that none of their `farthest` exceeds.
-  static constexpr int kBlockColumns = 32;
-
-  void add_row(const Outline& outline, int row, std::int64_t number);
+  void add_row(const UncertainTriangle& triangle, int row, std::int64_t number);
   [[nodiscard]] std::size_t index_of(int row) const {
     return static_cast<std::size_t>(row - rows_.first) * static_cast<std::size_t>(screen_.columns);
   }
 
   UncertainView view_;
   Viewport screen_;
-  RowRange rows_;                       // that are drawn
-  std::array<double, 2> front_;         // bounds on the depth of the front limit or the near plane
-  std::vector<PixelDepths> pixels_;     // of the rows that are drawn
-  std::vector<double> block_farthest_;  // of each block of these rows
+  RowRange rows_;                    // that are drawn
+  std::vector<PixelDepths> pixels_;  // of the rows that are drawn
   std::shared_ptr<const ClipTriangle> last_whole_;
 };
 

@@ -140,37 +140,33 @@ Points moved(const Scene& scene, const Points& points, Random& random) {
   return result;
 }
 
-TEST(Outline, HasEveryTrueTriangleWithinTheBoundsAndItsDepths) {
+TEST(UncertainTriangle, HasEveryTrueTriangleWithinTheBoundsAndItsDepths) {
   Random random;
   int sure_count = 0, visible_count = 0, possible_count = 0;
   for (int round = 0; round < 400; ++round) {
     const Scene scene = random_scene(random);
     const Points points = random_points(scene, random);
     const UncertainView view(kScreen, bounds_of(scene), scene.projection());
-    const UncertainPolygon polygon = view.polygon(projected(scene, points), 0);
+    const UncertainTriangle triangle = view.triangle(projected(scene, points), 0);
     const Points of_truth = moved(scene, points, random);
-    Outline outline(polygon, kScreen.columns, kScreen.rows);
-    std::array<double, 2> front = view.depths_at(kScreen.front);
-    front[1] = std::max(front[1], view.near_depth());
-    outline.cut_before(front);
-    const bool is_seen = polygon.count > 0 || polygon.is_anywhere;
+    const mpq_class front(view.depths_at(kScreen.front)[0]);
     for (int row = 0; row < kScreen.rows; ++row) {
-      const bool has_row = is_seen && row >= outline.rows().first && row < outline.rows().end;
-      const Outline::Row on = has_row ? outline.row(row) : Outline::Row{{0, 0}, {0, 0}, 0, 0};
+      const bool has_row = row >= triangle.rows.first && row < triangle.rows.end;
+      const auto on = has_row ? triangle.row(row) : UncertainTriangle::Row{{0, 0}, {0, 0}, 0, 0};
       for (int column = 0; column < kScreen.columns; ++column) {
-        const int at = column - outline.first_column();
+        const int at = column - triangle.columns.first;
         const auto has = [at](const RowRange& range) { return at >= range.first && at < range.end; };
         const TruePixel pixel = true_pixel(scene, of_truth, row, column);
-        const bool is_shown = pixel.is_visible && pixel.depth >= mpq_class(front[0]);
+        const bool is_shown = pixel.is_visible && pixel.depth >= front;
         const std::string trace = "round " + std::to_string(round) + ", row " + std::to_string(row) +
                                   ", column " + std::to_string(column);
         if (is_shown) {
           ASSERT_TRUE(has(on.possible)) << trace;
-          ASSERT_TRUE(outline.nearest(on, at) <= pixel.depth) << trace;
+          ASSERT_TRUE(triangle.nearest(on, at) <= pixel.depth) << trace;
         }
         if (has(on.sure)) {
           ASSERT_TRUE(has(on.possible) && is_shown) << trace;
-          ASSERT_TRUE(outline.farthest(on, at) >= pixel.depth) << trace;
+          ASSERT_TRUE(triangle.farthest(on, at) >= pixel.depth) << trace;
         }
         possible_count += has(on.possible);
         visible_count += is_shown;

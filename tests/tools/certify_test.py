@@ -156,7 +156,7 @@ class Certify(ToolTest):
         self.assertEqual(self.certify(text, "--algorithm", "scanline"), whole)
         self.assertEqual(self.certify(text, "--threads", "2"), whole)
         rng, uncertain = random.Random(1), 0
-        for _ in range(40):
+        for _ in range(60):
             text = NDC + "".join(triangle(*((rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(2, 5))
                                             for _ in range(3))) for _ in range(3))
             whole = self.certify(text)[2:]
