@@ -30,10 +30,10 @@ OF_PROJECT = ("--clip", "--cull", "--aspect")
 
 SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12)) * 2  # fewer with sanitizers, see CMakeLists.txt
 PATIENCE = 240  # seconds, far more than anything here takes
-# A model that waits, so that a job can be killed in its midst, however fast or slow the machine is. Without
-# its part it leaves word where.
-HOLD = ('for file; do :; done; [ -e "$file" ] || pwd >> {0}/without-part; while [ -e "$file" ] && [ ! -e '
-        '{0}/go ]; do sleep 0.05; done')
+# A model that waits, so that a job can be killed in its midst, however fast or slow the machine is. It leaves
+# word where it began; without its part, too.
+HOLD = ('for file; do :; done; [ -e "$file" ] || pwd >> {0}/without-part; echo $$ "$PWD" > '
+        '"{0}/began-${{file#parts/}}"; while [ -e "$file" ] && [ ! -e {0}/go ]; do sleep 0.05; done')
 
 
 def setUpModule():  # noqa: N802
@@ -48,41 +48,29 @@ def logged(folder, output):
     return found[-1]
 
 
-def stat_of(process):
-    """(name, parent) of a process."""
-    stat = pathlib.Path(f"/proc/{process}/stat").read_text()
-    return stat[stat.index("(") + 1:stat.rindex(")")], int(stat[stat.rindex(")") + 2:].split()[1])
-
-
 def ancestors(process):
     """The process and those above it, as (id, name)."""
     found = []
     while process > 1:
-        name, parent = stat_of(process)
-        found.append((process, name))
-        process = parent
+        stat = pathlib.Path(f"/proc/{process}/stat").read_text()
+        found.append((process, stat[stat.index("(") + 1:stat.rindex(")")]))
+        process = int(stat[stat.rindex(")") + 2:].split()[1])
     return found
 
 
-def chains_to_zbuf(farm, above, count, hosts=()):
-    """{output: the ancestors of the zbuf that makes it}, of those that run below the process `above`, as soon
-    as there are so many; of those in the hosts' folders, if any are given."""
+def begun(farm, count, hosts=()):
+    """{output: the process of its model}, as soon as so many wait; in the hosts' folders, if any are
+    given."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end and farm.poll() is None:
-        chains = {}
-        for path in pathlib.Path("/proc").glob("[0-9]*"):
-            try:
-                command = (path / "cmdline").read_bytes().decode(errors="replace").split("\0")
-                if not command[0].endswith("/zbuf") or "--seen" not in command or "/dev/null" in command:
-                    continue
-                if not hosts or set((path / "cwd").readlink().parts) & set(hosts):
-                    chain = ancestors(int(path.name))
-                    if above in dict(chain):
-                        chains[command[command.index("--seen") + 1]] = chain
-            except OSError:
-                continue  # it has ended meanwhile
-        if len(chains) >= count:
-            return chains
+        found = {}
+        for path in pathlib.Path().glob("began-*"):
+            process, *folder = path.read_text().split(maxsplit=1) or ["0"]
+            if os.path.exists(f"/proc/{process}") and (
+                    not hosts or set(pathlib.Path(*folder).parts) & set(hosts)):
+                found[f"seen-0-{path.stem[6:]}.txt"] = int(process)
+        if len(found) >= count:
+            return found
         time.sleep(0.25)
     farm.terminate()
     raise AssertionError(f"{count} jobs have not run at a time; farm has said: {farm.communicate()[1]}")
@@ -165,8 +153,8 @@ class Local(FarmTest):
         self.expect([], True)
         self.use_slow_tools(HOLD.format(pathlib.Path.cwd()), "model")
         process = self.start([], "--parts", "4", "--keep", "--", "--jobs", "2")
-        output, chain = chains_to_zbuf(process, process.pid, 2).popitem()
-        os.kill(chain[0][0], signal.SIGKILL)
+        output, worker = begun(process, 2).popitem()
+        os.kill(worker, signal.SIGKILL)
         self.end(process, [output])
 
     def test_a_second_run_does_what_is_left(self):
@@ -197,25 +185,9 @@ class AnyCut(ToolTest):
     """What farm's jobs do, in any cut, order of work and grouping of joins; random scenes, and options of all
     kinds."""
 
-    def options(self, rng, text):
-        project = [
-            "--clip",
-            rng.choice(("auto", "near", "frustum")), "--aspect",
-            rng.choice(("angle", "ratio")), *rng.choice(([], ["--cull", "back"], ["--cull", "front"]))]
-        zbuf = [
-            "--coverage",
-            rng.choice(("nearest", "center")), "--depth",
-            rng.choice(("f64", "f32", "u24")), "--samples",
-            rng.choice("1123")]
-        if rng.random() < 0.3:
-            zbuf.append("--wireframe")
-        if rng.random() < 0.3:
-            zbuf += ["--depth-epsilon", rng.choice(("0.001", "0.05"))]
-        else:
-            zbuf += rng.choice((["--algorithm", "scanline"], ["--threads", "2"], []))
-        if "light" in text and rng.random() < 0.7:
-            zbuf += ["--shading", rng.choice(("flat", "gouraud", "phong", "none"))]
-        return project, zbuf
+    PROJECT = ("", "--clip near", "--clip frustum", "--aspect ratio", "--cull back")
+    ZBUF = ("--coverage center", "--depth f32", "--depth u24 --algorithm scanline", "--samples 2",
+            "--samples 3 --coverage center", "--wireframe", "--depth-epsilon 0.05", "--threads 2")
 
     def seen_of_parts(self, rng, project, zbuf):
         """The texts of the parts, which are drawn in any order."""
@@ -236,7 +208,8 @@ class AnyCut(ToolTest):
             rng = random.Random(seed)
             text = scene(rng.random() < 0.5, rng.randrange(20, 120), seed)
             pathlib.Path("scene.txt").write_bytes(text.encode())
-            project, zbuf = self.options(rng, text)
+            project, zbuf = rng.choice(self.PROJECT).split(), self.ZBUF[seed % len(self.ZBUF)].split()
+            zbuf += ["--shading", rng.choice(("flat", "gouraud", "phong"))] * ("light" in text)
             with self.subTest(seed=seed, project=project, zbuf=zbuf):
                 whole = pipe(["model"], ["view"], ["project", *project], stdin=text)
                 depths = pipe(["zbuf", "config.txt", *zbuf, "-o", "one.ppm"], stdin=whole)
@@ -273,12 +246,11 @@ class OtherMachines(FarmTest):
         self.expect(SETTINGS[1], True)
         self.use_slow_tools(HOLD.format(pathlib.Path.cwd()), "model")
         process = self.start(SETTINGS[1], "--parts", "4", "--keep", *hosts)
-        chains = chains_to_zbuf(process, server.process.pid, 2, ("w1", "w2"))
-        one, two = chains
-        connection = next(i for i, name in chains[one] if name.startswith("sshd"))
+        (one, first), (two, second), *_ = begun(process, 2, ("w1", "w2")).items()
+        connection = next(i for i, name in ancestors(first) if name.startswith("sshd"))
         self.assertNotEqual(connection, server.process.pid)
         os.kill(connection, signal.SIGKILL)
-        os.kill(chains[two][0][0], signal.SIGKILL)
+        os.kill(second, signal.SIGKILL)
         self.end(process, [one, two])
         jobs = [logged("farm.ppm.farm", f"seen-0-{i}.txt") for i in range(1, 5)]
         self.assertEqual({(host, status) for host, _, status in jobs} - {("w1", 0), ("w2", 0)}, set())

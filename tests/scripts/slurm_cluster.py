@@ -8,6 +8,7 @@ import subprocess
 import time
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "scancel")
+ALONE = ("unshare", "--pid", "--fork", "--kill-child", "--mount-proc")
 SETTINGS = """ClusterName=test
 SlurmctldHost={host}(127.0.0.1)
 SlurmUser={user}
@@ -86,7 +87,7 @@ class Cluster:
             SETTINGS.format(host=host, user="root", here=self.here, port=port, nodes="\n".join(nodes)))
         self.start_munged()
         self.start("slurmctld", "-D")
-        self.nodes = {name: self.start("slurmd", "-D", "-N", name) for name in names}
+        self.nodes = {name: self.start(*ALONE, "slurmd", "-D", "-N", name) for name in names}
         self.wait(lambda: self.output("sinfo", "-h", "-o", "%t %D") == f"idle {len(names)}",
                   "the nodes to be idle")
 
@@ -139,36 +140,7 @@ class Cluster:
             for word in self.output("scontrol", "show", "job", "-o", str(job)).split()
             if "=" in word)
 
-    def processes(self, node):
-        """{id: name} of a node's processes: slurmd, each job's slurmstepd, which is no child of it, and what
-        these have started."""
-        found = {self.nodes[node].pid: "slurmd"}
-        for path in pathlib.Path("/proc").glob("[0-9]*"):
-            try:
-                environment = (path / "environ").read_bytes().split(b"\0")
-                if f"SLURMD_NODENAME={node}".encode(
-                ) not in environment or f"SLURM_CONF={self.here}/slurm.conf".encode() not in environment:
-                    continue
-                process = int(path.name)
-                while process > 1 and process not in found:
-                    stat = pathlib.Path(f"/proc/{process}/stat").read_text()
-                    name, parent = stat[stat.index("(") + 1:stat.rindex(")")], int(
-                        stat[stat.rindex(")") + 2:].split()[1])
-                    found[process] = name
-                    process = parent if name != "slurmstepd" else 1
-            except OSError:
-                continue  # it has ended meanwhile
-        return found
-
     def kill_node(self, node):
-        """As if the power were cut: those that could tell of the others' end go first."""
-        order = ("slurmd", "slurmstepd")
-        found = self.processes(node)
-        for process in sorted(
-                found, key=lambda process: order.index(found[process])
-                if found[process] in order else len(order)):
-            try:
-                os.kill(process, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
+        """As if the power were cut: a name space of processes ends at once with its first."""
+        self.nodes[node].kill()
         self.nodes[node].wait()

@@ -80,6 +80,7 @@ class Scenes(Split):
             self.assertLessEqual(abs(first - expected), 1)
         parts = self.split(CAMERA + TRIANGLE * 3 + "end\n", 10)
         self.assertEqual([first for _, first in parts], [0, 1, 2])
+        self.assertEqual(len(self.split(CAMERA + "translate 1 2 3\nend\n", 3)), 1)
 
     def test_large_blocks(self):
         """More than is read at once, and transforms in force that grow."""
@@ -87,10 +88,6 @@ class Scenes(Split):
         body = "".join(f"translate\n{rng.uniform(-0.01, 0.01):.7f} 0 0\n" * (i % 50 == 0) + TRIANGLE
                        for i in range(30000))
         self.check(CAMERA + body + "end\n", 6)
-
-    def test_a_scene_without_triangles_is_one_part(self):
-        parts = self.split(CAMERA + "translate 1 2 3\nend\n", 3)
-        self.assertEqual(len(parts), 1)
 
 
 class Joins(Split):
@@ -184,80 +181,61 @@ class Endings(ToolTest):
     def setUp(self):
         super().setUp()
         pathlib.Path("scene.txt").write_text(self.GOOD)
-        os.mkdir("empty")
-        os.mkdir("mine")
+        for folder in ("empty", "mine"):
+            os.mkdir(folder)
         pathlib.Path("mine/note").write_text("")
-
-    def everything(self):
-        return sorted(str(path) for path in pathlib.Path(".").rglob("*"))
-
-    def check(self, fail):
-        """`fail(folder)` runs the command and returns its exit status; before and after, all is the same."""
-        before = self.everything()
-        for folder in self.FOLDERS:
-            with self.subTest(folder=folder):
-                self.assertNotEqual(fail(folder), 0)
-                self.assertEqual(self.everything(), before)
-
-    def test_a_scene_that_is_wrong(self):
-        pathlib.Path("scene.txt").write_text(self.GOOD.replace("end", ""))
-        self.check(lambda folder: run("cut-scene", "scene.txt", "4", "-o", folder).returncode)
-        pathlib.Path("scene.txt").write_text(self.GOOD)
-        for folder in self.FOLDERS:
-            self.assertEqual(run("cut-scene", "scene.txt", "4", "-o", folder).returncode, 0)
-            self.assertEqual(sorted(os.listdir(folder)), ["1.txt", "2.txt", "3.txt", "4.txt"])
-
-    def test_a_file_that_cannot_be_written(self):
-        limit = (len(CAMERA + TRIANGLE) * 2,) * 2  # less than a part has
-        self.check(lambda folder: run("cut-scene", "scene.txt", "4", "-o", folder, preexec_fn=lambda: resource
-                                      .setrlimit(resource.RLIMIT_FSIZE, limit)).returncode)
-
-    def test_a_list_that_cannot_be_written(self):
-        def run_with_reason(channels, folder):
-            done = run_with(channels, "cut-scene", "scene.txt", "4", "-o", folder)
-            self.assertRegex(done.stderr.decode(), "^cut-scene: cannot write <stdout>: .*\n$")
-            return done.returncode
-        for channels in (">/dev/full", ">&-"):
-            self.check(lambda folder, channels=channels: run_with_reason(channels, folder))
-
-    def test_a_closed_pipe(self):
-        def run_with_closed_pipe(folder):
-            read, write = os.pipe()
-            os.close(read)
-            with os.fdopen(write, "wb") as output:
-                done = run("cut-scene", "scene.txt", "4", "-o", folder, stdout=output)
-            self.assertEqual(done.stderr, b"")
-            return done.returncode
-        self.check(run_with_closed_pipe)
+        for end in (ends := os.pipe()):
+            self.addCleanup(os.close, end)
+        self.full_pipe = ends[1]
+        with contextlib.suppress(PermissionError):
+            fcntl.fcntl(self.full_pipe, 1031, 1 << 20)  # F_SETPIPE_SZ, the size that cut-scene asks for
+        os.set_blocking(self.full_pipe, False)
+        with contextlib.suppress(BlockingIOError):
+            while os.write(self.full_pipe, bytes(4096)):
+                pass
+        os.set_blocking(self.full_pipe, True)
 
     def end_by(self, number, folder):
-        read, write = os.pipe()
-        with contextlib.suppress(PermissionError):
-            fcntl.fcntl(write, 1031, 1 << 20)  # F_SETPIPE_SZ, the size that cut-scene asks for
-        os.set_blocking(write, False)
-        with contextlib.suppress(BlockingIOError):
-            while os.write(write, bytes(4096)):
-                pass
-        os.set_blocking(write, True)
-        with subprocess.Popen(
-            command("cut-scene", "scene.txt", "4", "-o", folder),
-            stdout=write,
-            stderr=subprocess.PIPE,
-            preexec_fn=heed_signals,
-        ) as waiting:  # for room in the pipe, once all parts are written
+        """Ends it while it waits for room in a pipe, once all parts are written."""
+        with subprocess.Popen(command("cut-scene", "scene.txt", "4", "-o", folder), stdout=self.full_pipe,
+                              stderr=subprocess.PIPE, preexec_fn=heed_signals) as waiting:
             while not os.path.exists(f"{folder}/4.txt"):
                 self.assertIsNone(waiting.poll())
             waiting.send_signal(number)
-            self.assertEqual(waiting.wait(60), -number)
-            line = b"cut-scene: ended by a signal; unfinished files are removed\n"
-            self.assertEqual(waiting.stderr.read(), line)
-        os.close(read)
-        os.close(write)
-        return -number
+            waiting.wait(60)
+            return subprocess.CompletedProcess((), waiting.returncode, b"", waiting.stderr.read())
 
-    def test_signals(self):
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            self.check(lambda folder, number=number: self.end_by(number, folder))
+    def with_closed_pipe(self, *words):
+        read, write = os.pipe()
+        os.close(read)
+        with os.fdopen(write, "wb") as output:
+            return run(*words, stdout=output)
+
+    def test_all_is_as_before(self):
+        small = (len(CAMERA + TRIANGLE) * 2, ) * 2  # less than a part has
+        words = ("cut-scene", "scene.txt", "4", "-o")
+        ended = "ended by a signal; unfinished files are removed"
+        for status, message, fail in (
+            (1, "cannot write <stdout>: No space left on device", lambda *out: run_with(">/dev/full", *out)),
+            (1, "cannot write <stdout>: Bad file descriptor", lambda *out: run_with(">&-", *out)),
+            (1, "cannot write .*: File too large", lambda *out: run(
+                *out, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, small))),
+            (1, None, self.with_closed_pipe),
+            (1, "cut.txt:165:1: expected 'end', .*", lambda *out: run(out[0], "cut.txt", *out[2:])),
+            *((-number, ended, lambda *out, number=number: self.end_by(number, out[-1]))
+              for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP))):
+            for folder in self.FOLDERS:
+                pathlib.Path("cut.txt").write_text(self.GOOD.replace("end\n", ""))
+                before = sorted(pathlib.Path(".").rglob("*"))
+                with self.subTest(message=message, folder=folder):
+                    done = fail(*words, folder)
+                    self.assertEqual(done.returncode, status)
+                    expected = rf"cut-scene: {message}\n" if message else ""
+                    self.assertRegex(done.stderr.decode(), rf"\A{expected}\Z")
+                    self.assertEqual(sorted(pathlib.Path(".").rglob("*")), before)
+        for folder in self.FOLDERS:
+            self.assertEqual(run(*words, folder).returncode, 0)
+            self.assertEqual(sorted(os.listdir(folder)), ["1.txt", "2.txt", "3.txt", "4.txt"])
 
 
 if __name__ == "__main__":
