@@ -26,23 +26,17 @@ def statistics(text):
     return dict(line.split(" ") for line in text.splitlines())
 
 
-def vertices_of(text):
-    """The vertex lines of a stage text, as words."""
-    lines = [line.split() for line in text.splitlines()]
-    return [words[:3] for words in lines if words and words[0].lstrip("-")[:1].isdigit()]
+def triangles_of(text, reader):
+    return list(reference.Stage(text.encode(), reader).triangles())
 
 
-def extents(text):
+def extents(text, reader):
     """Smallest and largest coordinates, as they are written."""
-    columns = list(zip(*vertices_of(text)))
+    columns = list(zip(*(corner.written for triangle in triangles_of(text, reader)
+                         for corner in triangle.corners)))
     return {
         f"{axis}_{end}": choose(column, key=Fraction)
         for axis, column in zip("xyz", columns) for end, choose in (("min", min), ("max", max))}
-
-
-def triangles_of(text):
-    points = [tuple(map(Fraction, words)) for words in vertices_of(text)]
-    return list(zip(points[0::3], points[1::3], points[2::3]))
 
 
 def random_scene(rng, projection):
@@ -123,16 +117,17 @@ class Extents(ToolTest):
         rng = random.Random(1)
         for digits in ("7", "0", "12", "exact"):
             data = random_scene(rng, "60 1 1 20").encode()
-            for tool in ("model", "view", "project"):
+            for tool, reader in (("model", "view"), ("view", "project"), ("project", "zbuf")):
                 data = run(tool, "--digits", digits, "--stats", "stats.txt", stdin=data).stdout
                 told = statistics(pathlib.Path("stats.txt").read_text())
-                self.assertEqual({key: told[key] for key in EXTENTS}, extents(data.decode()), (tool, digits))
+                found = {key: told[key] for key in EXTENTS}
+                self.assertEqual(found, extents(data.decode(), reader), (tool, digits))
             run("zbuf", "config.txt", "--stats", "stats.txt", stdin=data)
             told = statistics(pathlib.Path("stats.txt").read_text())
             self.assertEqual({key: float(told[key])
                               for key in EXTENTS},
                              {key: float(word)
-                              for key, word in extents(data.decode()).items()}, digits)
+                              for key, word in extents(data.decode(), "zbuf").items()}, digits)
 
 
 class Places(ToolTest):
@@ -141,11 +136,12 @@ class Places(ToolTest):
         done = run("project", *options, "--stats", "stats.txt", stdin=stage2)
         self.assertEqual(done.returncode, 0, done.stderr)
         told = statistics(pathlib.Path("stats.txt").read_text())
-        places = [volume.place(triangle) for triangle in triangles_of(stage2)]
+        places = [volume.place([corner.position for corner in triangle.corners])
+                  for triangle in triangles_of(stage2, "project")]
         expected = {key: str(places.count(key)) for key in PROJECT_KEYS[1:-2]}
         self.assertEqual({key: told[key] for key in expected}, expected)
         self.assertEqual((told["triangles"], told["culled"]), ("40", "0"))
-        numbers = [triangle.number for triangle in reference.Stage(done.stdout, "zbuf").triangles()]
+        numbers = [triangle.number for triangle in triangles_of(done.stdout.decode(), "zbuf")]
         return places, numbers, told
 
     def test_a_frustum(self):
@@ -189,42 +185,12 @@ class Places(ToolTest):
             self.assertEqual(int(counts["back"][key]) + int(counts["front"][key]), int(whole[key]), key)
 
 
-def center_pixels(triangle, config):
-    """The pixels of the rule `center` in fractions: the center is inside, or on a top or a left edge."""
-    a, b, c = triangle
-    area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
-    if area == 0:
-        return
-    if area < 0:
-        b, c = c, b
-    def owns(p, q, x, y):
-        side = (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])
-        is_left, is_top = q[1] < p[1], q[1] == p[1] and q[0] < p[0]  # counterclockwise, y up
-        return side > 0 or (side == 0 and (is_left or is_top))
-    def depth(x, y):
-        u = (x - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (y - a[1])
-        v = (b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])
-        return a[2] + (u * (b[2] - a[2]) + v * (c[2] - a[2])) / abs(area)
-    for row in range(config.height):
-        for column in range(config.width):
-            x = Fraction(2 * column + 1 - config.width, config.width) * -Fraction(config.left)
-            y = Fraction(config.height - 1 - 2 * row, config.height) * -Fraction(config.bottom)
-            if owns(a, b, x, y) and owns(b, c, x, y) and owns(c, a, x, y):
-                yield row, column, depth(x, y)
-
-
-def nearest_pixels(triangle, config):
-    return reference.nearest(
-        reference.Triangle(0, [reference.Vertex(0, tuple(Fraction(float(x)) for x in p)) for p in triangle]),
-        config)
-
-
-def drawn(triangles, config, pixels_of):
+def drawn(text, config, pixels_of):
     """What zbuf should count, by drawing everything pixel by pixel."""
     front, rear = Fraction(config.front), Fraction(config.rear)
     depths, owners, counts, visible = {}, {}, dict.fromkeys(ZBUF_KEYS, 0), set()
-    counts["triangles"] = len(triangles)
-    for number, triangle in enumerate(triangles):
+    for number, triangle in enumerate(triangles_of(text, "zbuf")):
+        counts["triangles"] += 1
         fragments = list(pixels_of(triangle, config))
         counts["fragments_tested"] += len(fragments)
         for row, column, z in fragments:
@@ -240,9 +206,10 @@ def drawn(triangles, config, pixels_of):
 
 
 def reason(triangle, fragments, config):
-    x, y, z = zip(*triangle)
+    corners = [corner.position for corner in triangle.corners]
+    x, y, z = zip(*corners)
     left, bottom = Fraction(config.left), Fraction(config.bottom)
-    (ax, ay, _), (bx, by, _), (cx, cy, _) = triangle
+    (ax, ay, _), (bx, by, _), (cx, cy, _) = corners
     for key, holds in (("outside_near", max(z) < Fraction(config.front)), ("outside_far",
                                                                            min(z) >= Fraction(config.rear)),
                        ("outside_left", max(x) < left), ("outside_right", min(x) > -left), ("outside_below",
@@ -285,11 +252,11 @@ class Pixels(ToolTest):
 
     def test_counts_by_both_rules(self):
         rng, found = random.Random(7), set()
-        for rule, pixels_of in (("nearest", nearest_pixels), ("center", center_pixels)):
+        for rule, pixels_of in (("nearest", reference.nearest), ("center", reference.center)):
             for count in (1, 3, 30, 60):
                 text = self.text(rng, count)
                 depths, told = self.told(text, "--coverage", rule)
-                expected = drawn(triangles_of(text), self.config, pixels_of)
+                expected = drawn(text, self.config, pixels_of)
                 self.assertEqual({key: int(told[key]) for key in ZBUF_KEYS}, expected, (rule, text))
                 self.assertEqual(len(depths.split()), expected["pixels_written"])
                 found |= {key for key in ZBUF_KEYS if expected[key] > 0}
