@@ -159,6 +159,18 @@ class Depths(OutputTest):
         self.assert_zbuf("config.txt", "stage3.txt", "--rows", "1:3", "--depth-array", "depths.npy")
         self.assertEqual(self.array()[0], (2, columns))
 
+    def test_far_depths_are_those_of_the_text(self):
+        pathlib.Path("config.txt").write_text("9 7\n-1\n-1\n-1e12 1e12\n")
+        stage3 = b"-0.9 -0.8 123456789012.3\n0.9 -0.7 987654321098.7\n0.1 0.9 77777777777.7\n"
+        for rule in ("center", "nearest"):
+            text = self.assert_zbuf("config.txt", "--coverage", rule, "--depth-array", "depths.npy",
+                                    stdin=stage3)
+            depths = [depth for depth in self.array()[1] if depth == depth]
+            self.assertEqual(depths, [float(word) for word in text.split()])
+            self.assert_zbuf("config.txt", "--coverage", rule, "--depth-array", "depths.npy", "--z-buffer",
+                             "none", stdin=stage3)
+            self.assertEqual([depth for depth in self.array()[1] if depth == depth], depths)
+
     def test_the_triangles_are_those_of_the_fragments(self):
         """Of many, lit and not, whatever else keeps them; and none is let go of too early."""
         random_ = random.Random(7)

@@ -1,6 +1,7 @@
 #include "tools/zbuf/picture_outputs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "libpipeline/picture/depth_text.h"
@@ -71,6 +72,10 @@ void PictureOutputs::write_depths(std::span<const double> depths, std::span<cons
   std::ranges::replace_if(
       array_row_, [this](double depth) { return !(depth < screen_.rear); },
       std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    if (const double depth = exact[i].nearest_double();
+        array_row_[i] == array_row_[i] && std::isfinite(depth))
+      array_row_[i] = depth;
   depth_array_->write_row(array_row_);
 }
 

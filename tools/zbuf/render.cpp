@@ -197,7 +197,7 @@ TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, 
                           Wireframe* wireframe) {
   return {.keeps_text = !chosen.seen_path.empty(),
           .keeps_numbers = !chosen.triangle_array_path.empty() || !chosen.certainty_path.empty(),
-          .keeps_corners = chosen.z_buffer_path != "none" &&
+          .keeps_corners = !(chosen.z_buffer_path == "none" && chosen.depth_array_path.empty()) &&
                            std::max(-of_samples.front, of_samples.rear) > kMaxDepthInDoubles &&
                            std::holds_alternative<TypeValue<DepthF64>>(chosen.rules.depth),
           .background = background_color(reader.header().appearance, parse_color(chosen.background)),
