@@ -96,7 +96,7 @@ class Faults(FaultTest):
                                     which)
                 without_memory += 1
             self.assert_as_before()
-        self.assertGreater(EVERY * without_memory, 1500)
+        self.assertGreater(EVERY * without_memory, 1200)
 
     def test_any_allocation_that_fails_is_a_failure_that_says_so(self):
         self.check_allocations()

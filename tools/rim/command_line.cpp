@@ -123,16 +123,13 @@ std::string explained(const CLI::App& options, const CLI::ParseError& error) {
   return error.what();
 }
 
-}  // namespace
-
 class HelpForm : public CLI::Formatter {
  public:
-  explicit HelpForm(const ToolDescription& tool) : tool_(tool) {
+  HelpForm(const ToolDescription& tool, const std::string& usage) : tool_(tool), usage_(usage) {
     column_width(kNameWidth);
     label("Positionals", "Operands");
   }
 
-  void set_usage(const std::string& usage) { usage_ = usage; }
   void show_all() { shows_all_ = true; }
   void use_fields() { shows_all_ = uses_fields_ = true; }
 
@@ -194,6 +191,8 @@ class HelpForm : public CLI::Formatter {
   bool uses_fields_ = false;  // an option a line, with tabs: for man pages and completion
 };
 
+}  // namespace
+
 std::string listed(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -202,25 +201,20 @@ std::string listed(const std::vector<std::string>& words) {
 }
 
 CommandLine::CommandLine(const ToolDescription& tool, const std::string& version)
-    : app_(std::make_unique<CLI::App>(tool.purpose, tool.name)),
-      help_form_(std::make_shared<HelpForm>(tool)) {
-  app_->formatter(help_form_);
-  app_->option_defaults()->group(kLastGroup);
-  app_->get_help_ptr()->group(kLastGroup)->description("Print this help and exit; --help-all: all of it");
-  app_->set_version_flag("--version", version, "Print the version and exit");
-}
+    : tool_(tool), version_(version), group_(kLastGroup) {}
 
 CommandLine::~CommandLine() = default;
 
 void CommandLine::begin_group(const std::string& name) {
-  app_->option_defaults()->group(name);
+  group_ = name;
 }
 
 void CommandLine::set_usage(const std::string& usage) {
-  help_form_->set_usage(usage);
+  usage_ = usage;
 }
 
 bool CommandLine::is_given(const std::string& name) const {
+  if (!app_) return false;
   // CLI11's own search for a name ends the program where there is no memory.
   for (const CLI::Option* option : std::as_const(*app_).get_options())
     if (option->check_name(name)) return option->count() > 0;
@@ -228,7 +222,7 @@ bool CommandLine::is_given(const std::string& name) const {
 }
 
 void CommandLine::add_flag(const std::string& name, bool& chosen, const std::string& help) {
-  app_->add_flag(name, chosen, help);
+  declare(name, [=, &chosen](CLI::App& app) { app.add_flag(name, chosen, help); });
 }
 
 void CommandLine::add_flag_with_word(const std::string& name, const std::string& word, bool& chosen,
@@ -239,27 +233,35 @@ void CommandLine::add_flag_with_word(const std::string& name, const std::string&
     if (!more && found != "true")
       throw CLI::ValidationError(name, expected_but_found(word + " or no value", pipeline::quoted(found)));
   };
-  app_->add_option_function<std::string>(name, take, help)->expected(0)->type_name("[" + word + "]");
+  declare(name, [=](CLI::App& app) {
+    app.add_option_function<std::string>(name, take, help)->expected(0)->type_name("[" + word + "]");
+  });
   flag_words_.emplace_back(name, word);
 }
 
 void CommandLine::add_word(const std::string& name, const std::string& type_name, std::string& word,
                            const std::string& help, const WordCheck& check) {
-  CLI::Option* const option = app_->add_option(name, word, help)->type_name(type_name)->capture_default_str();
-  if (check) option->check(CLI::Validator([check](std::string& found) { return check(found); }, "", ""));
+  declare(name, [=, &word](CLI::App& app) {
+    CLI::Option* const option = app.add_option(name, word, help)->type_name(type_name)->capture_default_str();
+    if (check) option->check(CLI::Validator([check](std::string& found) { return check(found); }, "", ""));
+  });
 }
 
 void CommandLine::add_words(const std::string& name, std::size_t count, const std::string& type_name,
                             std::vector<std::string>& words, const std::string& help) {
-  app_->add_option(name, words, help)
-      ->expected(static_cast<int>(count))
-      ->allow_extra_args(false)
-      ->type_name(type_name);
+  declare(name, [=, &words](CLI::App& app) {
+    app.add_option(name, words, help)
+        ->expected(static_cast<int>(count))
+        ->allow_extra_args(false)
+        ->type_name(type_name);
+  });
 }
 
 void CommandLine::add_repeatable(const std::string& name, const std::string& type_name,
                                  std::vector<std::string>& words, const std::string& help) {
-  app_->add_option(name, words, help)->type_name(type_name)->allow_extra_args(false);
+  declare(name, [=, &words](CLI::App& app) {
+    app.add_option(name, words, help)->type_name(type_name)->allow_extra_args(false);
+  });
 }
 
 void CommandLine::add_whole(const std::string& name, int& number, int least, int most,
@@ -272,9 +274,11 @@ void CommandLine::add_whole(const std::string& name, int& number, int least, int
       throw CLI::ValidationError(name, expected_but_found("a whole number " + range, pipeline::quoted(word)));
     number = static_cast<int>(found);
   };
-  app_->add_option_function<std::string>(name, take, help + ", " + range)
-      ->type_name("N")
-      ->default_str(std::to_string(number));
+  declare(name, [=, &number](CLI::App& app) {
+    app.add_option_function<std::string>(name, take, help + ", " + range)
+        ->type_name("N")
+        ->default_str(std::to_string(number));
+  });
 }
 
 void CommandLine::add_number(const std::string& name, const std::string& type_name, double& number,
@@ -286,18 +290,20 @@ void CommandLine::add_number(const std::string& name, const std::string& type_na
       throw CLI::ValidationError(name, expected_but_found(expected, pipeline::quoted(word)));
     number = found.value;
   };
-  app_->add_option_function<std::string>(name, take, help)
-      ->type_name(type_name)
-      ->default_str(shortest_text(number));
+  declare(name, [=, &number](CLI::App& app) {
+    app.add_option_function<std::string>(name, take, help)
+        ->type_name(type_name)
+        ->default_str(shortest_text(number));
+  });
 }
 
 void CommandLine::add_operand(const std::string& name, std::string& word, const std::string& help) {
-  app_->add_option(name, word, help)->capture_default_str();
+  declare(name, [=, &word](CLI::App& app) { app.add_option(name, word, help)->capture_default_str(); });
 }
 
 void CommandLine::add_operands(const std::string& name, std::vector<std::string>& words,
                                const std::string& help) {
-  app_->add_option(name, words, help);
+  declare(name, [=, &words](CLI::App& app) { app.add_option(name, words, help); });
 }
 
 void CommandLine::add_choice_of_words(const std::string& name, const std::vector<std::string>& words,
@@ -316,16 +322,55 @@ void CommandLine::add_choice_of_words(const std::string& name, const std::vector
                     spelling_hint(found, std::vector<std::string_view>(words.begin(), words.end())));
     take(static_cast<std::size_t>(word - words.begin()));
   };
-  app_->add_option_function<std::string>(name, choose, help)->type_name(type_name)->default_str(default_word);
+  declare(name, [=](CLI::App& app) {
+    app.add_option_function<std::string>(name, choose, help)->type_name(type_name)->default_str(default_word);
+  });
+}
+
+void CommandLine::declare(const std::string& name, const std::function<void(CLI::App&)>& add) {
+  declared_.push_back({name, group_, add});
+}
+
+void CommandLine::add_to_app(std::span<const std::string> words) {
+  const auto is_named = [](const Declared& option, std::string_view word) {  // of "-o,--output", either
+    return ("," + option.name + ",").find("," + std::string(word.substr(0, word.find('='))) + ",") !=
+           std::string::npos;
+  };
+  const auto is_option = [](std::string_view word) { return word.size() > 1 && word.starts_with('-'); };
+  std::vector<bool> is_needed(declared_.size());
+  bool needs_all = false;
+  for (const std::string& word : words) {
+    if (!is_option(word)) continue;
+    const auto found =
+        std::ranges::find_if(declared_, [&](const Declared& option) { return is_named(option, word); });
+    needs_all = needs_all || found == declared_.end();
+    if (!needs_all) is_needed[static_cast<std::size_t>(found - declared_.begin())] = true;
+  }
+  for (std::size_t i = 0; i < declared_.size(); ++i) {
+    const Declared& option = declared_[i];
+    if (!needs_all && !is_needed[i] && is_option(option.name)) continue;
+    app_->option_defaults()->group(option.group);
+    option.add(*app_);
+  }
 }
 
 std::optional<std::string> CommandLine::parse(int argc, char** argv) {
+  if (argc < 2) return std::nullopt;
+  app_ = std::make_unique<CLI::App>(tool_.purpose, tool_.name);
+  const auto help_form = std::make_shared<HelpForm>(tool_, usage_);
+  app_->formatter(help_form);
+  app_->get_help_ptr()->group(kLastGroup)->description("Print this help and exit; --help-all: all of it");
+  app_->option_defaults()->group(kLastGroup);
+  app_->set_version_flag("--version", version_, "Print the version and exit");
+  std::vector<std::string> words = words_for_parsing(argc, argv, flag_words_);
+  add_to_app(words);
+
   const std::string_view only = argc == 2 ? argv[1] : "";
-  if (only == "--help-fields") help_form_->use_fields();
-  if (only == "--help-all") help_form_->show_all();
+  if (only == "--help-fields") help_form->use_fields();
+  if (only == "--help-all") help_form->show_all();
   if (only == "--help-fields" || only == "--help-all") return app_->help();
   try {
-    app_->parse(words_for_parsing(argc, argv, flag_words_));
+    app_->parse(std::move(words));
   } catch (const CLI::CallForHelp&) {
     return app_->help();
   } catch (const CLI::CallForVersion& version) {

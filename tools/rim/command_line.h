@@ -54,8 +54,6 @@ struct ToolDescription {
   const char* rare = "";                // options that --help-all alone shows, separated by blanks
 };
 
-class HelpForm;
-
 /// CLI11 with one form for all options, messages and help texts. An option's value is stored in the variable
 /// it was added with; the variable's initial value is the default. --help wraps its lines.
 class CommandLine {
@@ -117,17 +115,21 @@ class CommandLine {
                            const std::string& default_word, const std::string& help,
                            const std::function<void(std::size_t)>& take);
 
-  std::unique_ptr<CLI::App> app_;
-  std::vector<std::pair<std::string, std::string>> flag_words_;  // of flags that take a word
-  std::shared_ptr<HelpForm> help_form_;
-};
+  /// An option or operand that CLI11 gets only if it has to: each costs a start some 5 % of its instructions.
+  struct Declared {
+    std::string name, group;
+    std::function<void(CLI::App&)> add;
+  };
+  void declare(const std::string& name, const std::function<void(CLI::App&)>& add);
+  /// Gives CLI11 the operands and the options that the words name, or all if a word may name no option of
+  /// ours.
+  void add_to_app(std::span<const std::string> words);
 
-/// True if one of a command line's words begins like the option `name`, or asks for help. An option that few
-/// runs use is added only then, as each costs every start.
-inline bool is_wanted(std::string_view name, std::span<char* const> words) {
-  return std::ranges::any_of(words, [start = name.substr(0, 4)](std::string_view word) {
-    return word.starts_with(start) || word.starts_with("--help") || word == "-h";
-  });
-}
+  ToolDescription tool_;
+  std::string version_, usage_, group_;
+  std::vector<Declared> declared_;
+  std::vector<std::pair<std::string, std::string>> flag_words_;  // of flags that take a word
+  std::unique_ptr<CLI::App> app_;                                // none without words
+};
 
 }  // namespace pipeline

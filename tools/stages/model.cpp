@@ -1,7 +1,5 @@
 // model: carries out the commands of a scene. Model space in, world space out.
 
-#include <span>
-
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
@@ -26,14 +24,13 @@ struct ModelOptions {
   std::string belts;  // of a sphere's facets; empty: spheres stay spheres
 };
 
-void add_options(CommandLine& options, ModelOptions& chosen, std::span<char* const> words) {
+void add_options(CommandLine& options, ModelOptions& chosen) {
   options.begin_group("Output");
   options.add_flag("--bare", chosen.bare, "Write the triangles alone (stage1.txt)");
   options.add_flag("--framed", chosen.framed,
                    "Write 'framed' and 'end' around the text, so that later stages notice a truncated one");
-  if (is_wanted("--bounds", words))
-    options.add_flag("--bounds", chosen.bounds,
-                     "Write a bound on the error of the coordinates to the header, for zbuf --certify");
+  options.add_flag("--bounds", chosen.bounds,
+                   "Write a bound on the error of the coordinates to the header, for zbuf --certify");
   options.add_word("--first", "N", chosen.first,
                    "Number the triangles from N on: for a part of a scene (cut-scene), whose text is to be "
                    "joined with others "
@@ -83,7 +80,7 @@ int main(int argc, char** argv) {
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   ModelOptions chosen;
-  add_options(tool.options(), chosen, std::span(argv, static_cast<std::size_t>(argc)));
+  add_options(tool.options(), chosen);
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {

@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
              "--depth-image --depth-array --triangle-array --rows --seen --certify --algorithm --depth "
              "--depth-epsilon --threads --fragments --expect-framed"},
             OutputKind::other_text);
-  ZbufOptions chosen(tool.options(), std::span(argv, static_cast<std::size_t>(argc)));
+  ZbufOptions chosen(tool.options());
   Statistics statistics(tool.options());
   // A closed pipe is a failure to write like any other: the image that was begun has to be removed.
   std::signal(SIGPIPE, SIG_IGN);

@@ -24,8 +24,7 @@ void add_type_choice(CommandLine& options, const std::string& name, TypeList<Typ
 
 }  // namespace
 
-ZbufOptions::ZbufOptions(CommandLine& options, std::span<char* const> words)
-    : PictureOptions(options, "zbuf", true) {
+ZbufOptions::ZbufOptions(CommandLine& options) : PictureOptions(options, "zbuf", true) {
   options.add_word(
       "--rows", "A:B", rows,
       "Draw only the rows from A to before B, counted from 0 at the top; cat joins the depths of such bands, "
@@ -38,11 +37,10 @@ ZbufOptions::ZbufOptions(CommandLine& options, std::span<char* const> words)
                    "Write the visible triangles, as text from which zbuf draws the same picture; - is "
                    "standard output. Image and "
                    "depths are then written only if asked for");
-  if (is_wanted("--certify", words))
-    options.add_word("--certify", "FILE", certainty_path,
-                     "Write how many pixels certainly show what exact arithmetic shows, and the row and "
-                     "column of the others "
-                     "(needs model --bounds and --coverage center); - is standard output, without depths");
+  options.add_word("--certify", "FILE", certainty_path,
+                   "Write how many pixels certainly show what exact arithmetic shows, and the row and "
+                   "column of the others "
+                   "(needs model --bounds and --coverage center); - is standard output, without depths");
   add_pixels(options);
   options.begin_group("Color and light");
   add_shading(options);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -12,8 +11,7 @@ namespace pipeline {
 
 /// The options of `zbuf`, as members with their defaults.
 struct ZbufOptions : PictureOptions {
-  /// `words` are the command line.
-  ZbufOptions(CommandLine& options, std::span<char* const> words);
+  explicit ZbufOptions(CommandLine& options);
 
   PixelRules rules;
   Algorithm algorithm = Algorithm::zbuffer;
