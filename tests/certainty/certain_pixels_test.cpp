@@ -180,15 +180,18 @@ TEST(UncertainTriangle, HasEveryTrueTriangleWithinTheBoundsAndItsDepths) {
 
 /// Rows of a picture: for each pixel whether it certainly shows triangle 7 (#), none (.) or is uncertain (?).
 std::vector<std::string> drawn(const TriangleBatch& batch, const Scene& scene) {
-  CertainPixels pixels(kScreen, bounds_of(scene), scene.projection());
-  pixels.add(batch);
-  std::vector<std::string> rows;
-  for (int row = 0; row < kScreen.rows; ++row) {
-    rows.emplace_back();
-    for (const PixelDepths& pixel : pixels.row(row))
-      rows.back() += pixel.certainly_shows(7)                            ? '#'
-                     : pixel.certainly_shows(CertainPixels::kBackground) ? '.'
-                                                                         : '?';
+  std::vector<std::string> rows(kScreen.rows, std::string(kScreen.columns, '?'));
+  for (const auto& [number, sign] : {std::pair(7, '#'), std::pair(-1, '.')}) {
+    CertainPixels pixels(kScreen, bounds_of(scene), scene.projection());
+    pixels.add(batch);
+    for (int row = 0; row < kScreen.rows; ++row)
+      pixels.add_row(std::vector<std::int64_t>(kScreen.columns, number));
+    const std::string report = pixels.report();
+    for (int row = 0; row < kScreen.rows; ++row)
+      for (int column = 0; column < kScreen.columns; ++column)
+        if (report.find("\n" + std::to_string(row) + " " + std::to_string(column) + "\n") ==
+            std::string::npos)
+          rows[row][column] = sign;
   }
   return rows;
 }

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "libpipeline/certainty/certain_pixels.h"
 #include "libpipeline/coverage/exact_depth.h"
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/picture/supersampling.h"
@@ -20,7 +21,6 @@
 #include "libpipeline/visibility/fragment_log.h"
 #include "tools/rim/empty_picture_note.h"
 #include "tools/rim/progress.h"
-#include "tools/zbuf/certainty_report.h"
 #include "tools/zbuf/colored_rows.h"
 #include "tools/zbuf/drawing_report.h"
 #include "tools/zbuf/fragment_report.h"
@@ -47,7 +47,7 @@ struct Reports {
 
   DrawingReport drawing;
   FragmentReport fragments;
-  std::unique_ptr<CertaintyReport> certainty;  // null unless it is requested
+  std::optional<CertainPixels> certainty;
 
   void add(const TriangleBatch& p_ndc) {
     drawing.add(p_ndc);
@@ -121,7 +121,8 @@ void set_exact_depths(const AnyCoverage& coverage, const TriangleStore& store, i
 
 void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewport& screen,
                const SampledDrawing& drawing, const StageReader& reader, TriangleStore& store,
-               std::optional<SurfaceShader>& shader, Wireframe* wireframe, CertaintyReport* certainty) {
+               std::optional<SurfaceShader>& shader, Wireframe* wireframe,
+               std::optional<CertainPixels>& certainty) {
   // To light a sample by one light takes as long as to draw four.
   const std::size_t cost = shader ? 1 + 4 * shader->setup().lighting.lights.size() : 0;
   outputs.open(screen, chosen.sample_count, store.background_color());
@@ -143,8 +144,9 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
     mark(row.tags);
     if (store.keeps_corners()) set_exact_depths(coverage, store, number++, row.tags, exact);
     outputs.write_depths(row.depths, exact);
-    if (outputs.wants_triangles()) outputs.write_triangles(store.numbers_of(row.tags, numbers));
-    if (certainty) certainty->add_row(row.tags, store);
+    if (outputs.wants_triangles() || certainty) store.set_numbers(row.tags, numbers);
+    if (outputs.wants_triangles()) outputs.write_triangles(numbers);
+    if (certainty) certainty->add_row(numbers);
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
@@ -160,7 +162,7 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
   if (wireframe != nullptr && seen_text != nullptr)
     wireframe->for_each_needed([&](PixelTag id) { seen.keep(id); });
   if (seen_text != nullptr) store.write_seen(*seen_text, reader, seen);
-  if (certainty) certainty->write(*certainty_text);
+  if (certainty) certainty_text->append(certainty->report());
   outputs.finish(covered_count);
 }
 
@@ -193,6 +195,16 @@ StageReader opened(Tool& tool, const ZbufOptions& chosen, bool uses_decimals) {
   return reader;
 }
 
+CertainPixels certain_pixels(const StageReader& reader, const Viewport& screen) {
+  const StageHeader& header = reader.header();
+  if (!header.bounds || !header.bounds->value.rounded || !header.projected || !header.appearance.columns().w)
+    throw InputError(reader.header_end(),
+                     expected_but_found("a text with 'bounds', 'projected' and the column 'w' for --certify "
+                                        "(model --bounds, and stages that keep them)",
+                                        "none"));
+  return {screen, header.bounds->value, header.projected->value};
+}
+
 TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, const Viewport& of_samples,
                           Wireframe* wireframe) {
   return {.keeps_text = !chosen.seen_path.empty(),
@@ -220,7 +232,7 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
   if (chosen.has_image()) shader = surface_shader(reader.header(), reader.header_end(), of_samples, surfaces);
   tool.timing().lap(&Timing::read_seconds);
   Reports reports(chosen, screen, statistics.is_wanted(), outputs.open_fragments(chosen.fragments_path));
-  if (!chosen.certainty_path.empty()) reports.certainty = std::make_unique<CertaintyReport>(reader, screen);
+  if (!chosen.certainty_path.empty()) reports.certainty = certain_pixels(reader, screen);
   std::unique_ptr<Wireframe> wireframe;
   if (chosen.wireframe && (chosen.has_image() || !chosen.seen_path.empty()))
     wireframe = std::make_unique<Wireframe>(
@@ -237,8 +249,7 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
   reports.drawing.add_to(statistics);
   outputs.close_reports();
   tool.timing().lap(&Timing::work_seconds);
-  write_all(outputs, chosen, screen, drawing, reader, store, shader, wireframe.get(),
-            reports.certainty.get());
+  write_all(outputs, chosen, screen, drawing, reader, store, shader, wireframe.get(), reports.certainty);
   if (chosen.has_image()) note_odd_picture(tool, chosen, reports.drawing, screen, shader, reader.header());
 }
 

@@ -35,11 +35,11 @@ void TriangleStore::color(std::span<const PixelTag> tags, std::span<Color> color
   }
 }
 
-std::span<const std::int64_t> TriangleStore::numbers_of(std::span<const PixelTag> tags,
-                                                        std::vector<std::int64_t>& numbers) const {
+void TriangleStore::set_numbers(std::span<const PixelTag> tags, std::vector<std::int64_t>& numbers) const {
   numbers.resize(tags.size());
-  std::ranges::transform(tags, numbers.begin(), [this](PixelTag id) { return shown_number(id); });
-  return numbers;
+  std::ranges::transform(tags, numbers.begin(), [this](PixelTag id) {
+    return id == KeptIds::kNoTriangle ? -1 : static_cast<std::int64_t>(numbers_[id]);
+  });
 }
 
 void TriangleStore::add_text(const TriangleBatch& p_ndc, std::size_t index) {

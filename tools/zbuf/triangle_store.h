@@ -17,6 +17,7 @@
 #include "libpipeline/stream/kept_ids.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/text/text_writer.h"
 #include "libpipeline/visibility/raster.h"
 #include "tools/zbuf/sampled_drawing.h"
 #include "tools/zbuf/wireframe.h"
@@ -33,7 +34,7 @@ class TriangleStore {
  public:
   struct Setup {
     bool keeps_text = false;
-    bool keeps_numbers = false;  // of the triangles, for numbers_of
+    bool keeps_numbers = false;  // of the triangles, for set_numbers
     bool keeps_corners = false;  // likewise, for corners
     Color background;
     std::size_t pixel_count = 0;  // of the picture, or of its samples
@@ -66,13 +67,8 @@ class TriangleStore {
   /// The colors of pixels with these tags, unless there is a shader.
   void color(std::span<const PixelTag> tags, std::span<Color> colors);
 
-  /// The number of the triangle with this tag, if it is kept, -1 for none.
-  [[nodiscard]] std::int64_t shown_number(PixelTag id) const {
-    return id == KeptIds::kNoTriangle ? -1 : static_cast<std::int64_t>(numbers_[id]);
-  }
-  /// The same for many; `numbers` holds them.
-  std::span<const std::int64_t> numbers_of(std::span<const PixelTag> tags,
-                                           std::vector<std::int64_t>& numbers) const;
+  /// The numbers of the triangles with these tags, if they are kept, -1 for none.
+  void set_numbers(std::span<const PixelTag> tags, std::vector<std::int64_t>& numbers) const;
 
   [[nodiscard]] bool keeps_corners() const { return setup_.keeps_corners; }
   [[nodiscard]] const Corners& corners(KeptIds::Id id) const { return corners_[id]; }
