@@ -31,31 +31,6 @@ std::vector<double> numbers_of(const std::string& text) {
           viewport.rear};
 }
 
-const std::vector<double> kExample = {500, 500, -1, -1, 0, 2};  // the assignment's
-
-TEST(Config, FourLinesGiveSizeAndLimits) {
-  EXPECT_EQ(numbers_of("640 480\n-1.5\n-0.75\n-0.25 2\n"),
-            (std::vector<double>{640, 480, -1.5, -0.75, -0.25, 2}));
-}
-
-TEST(Config, ReadsTheExampleOfTheAssignment) {
-  EXPECT_EQ(numbers_of("500 500\n-1.00\n-1.00\n0.00 2.00\n"), kExample);
-}
-
-TEST(Config, SizeAloneLeavesTheLimitsAtOne) {
-  EXPECT_EQ(numbers_of("500 400"), (std::vector<double>{500, 400, -1, -1, -1, 1}));
-}
-
-TEST(Config, TakesCarriageReturnsTabsBlankLinesAndComments) {
-  EXPECT_EQ(numbers_of("# viewport\r\n\r\n\t500\t500 \r\n-1 # left\r\n-1\r\n\r\n+0 2e0  \r\n# the end"),
-            kExample);
-}
-
-TEST(Config, TakesTheSmallestAndTheLargestSize) {
-  EXPECT_EQ(config_of("1 65535").columns, 1);
-  EXPECT_EQ(config_of("1 65535").rows, 65535);
-}
-
 TEST(Config, PixelCentersLieHalfAPixelInsideTheLimits) {
   const Viewport viewport = config_of("8 4\n-4\n-1\n0 1");
   EXPECT_EQ(viewport.dx(), 1);

@@ -50,31 +50,6 @@ std::string error_of_projection(const std::string& line) {
   return error_of_camera("0 0 5", "0 0 0", "0 1 0", line);
 }
 
-constexpr Triangle kTriangle = {Vec3{0, 1, 2}, Vec3{3, 4, 5}, Vec3{6, 7, 8}};
-
-TEST(Scene, StartsWithTheCamera) {
-  const CameraParameters camera = camera_of("1 2 3\n4 5 6\n0 1 0\n60 1.5 0.5 100\nend\n");
-  EXPECT_EQ(camera.eye->value, (Vec3{1, 2, 3}));
-  EXPECT_EQ(camera.look->value, (Vec3{4, 5, 6}));
-  EXPECT_EQ(camera.up->value, (Vec3{0, 1, 0}));
-  const auto& perspective = std::get<Perspective>(camera.projection->value);
-  EXPECT_EQ(perspective.fov_y_degrees, 60);
-  EXPECT_EQ(perspective.aspect, 1.5);
-  EXPECT_EQ(perspective.near, 0.5);
-  EXPECT_EQ(perspective.far, 100);
-  EXPECT_EQ(perspective.aspect_rule, AspectRule::angle);
-}
-
-TEST(Scene, TheFourthLineMayNameTheAspectRule) {
-  const auto rule_of = [](const std::string& projection) {
-    const CameraParameters camera = camera_of("1 2 3\n4 5 6\n0 1 0\n" + projection + "\nend\n");
-    return std::get<Perspective>(camera.projection->value).aspect_rule;
-  };
-  EXPECT_EQ(rule_of("60 1.5 0.5 100 ratio"), AspectRule::ratio);
-  EXPECT_EQ(rule_of("60 1.5 0.5 100\tratio # as in OpenGL\r"), AspectRule::ratio);
-  EXPECT_EQ(rule_of("60 1.5 0.5 100 angle"), AspectRule::angle);
-}
-
 TEST(Scene, NamesWhatIsWrongInAProjection) {
   const Refusal refusals[] = {
       {"frustum -1 1 -1 1 1 9 ratio", "4:23: expected the end of the line after far, found 'ratio'"},
@@ -140,21 +115,6 @@ TEST(Scene, CountsTheLinesOfTrianglesInFixedForm) {
   EXPECT_EQ(error.substr(0, error.find(' ')), "scene.txt:14:1:");
 }
 
-TEST(Scene, TakesAFrustumInPlaceOfThePerspective) {
-  const CameraParameters camera = camera_of("0 0 5\n0 0 0\n0 1 0\nfrustum -1 2 -3 4 5 6\nend\n");
-  const auto& frustum = std::get<Frustum>(camera.projection->value);
-  EXPECT_EQ(
-      (std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
-      (std::vector<double>{-1, 2, -3, 4, 5, 6}));
-}
-
-TEST(Scene, TakesAnOrthographicProjectionInPlaceOfThePerspective) {
-  const CameraParameters camera = camera_of("0 0 5\n0 0 0\n0 1 0\northo -1 2 -3 4 -5 6\nend\n");
-  const auto& ortho = std::get<Orthographic>(camera.projection->value);
-  EXPECT_EQ((std::vector{ortho.left, ortho.right, ortho.bottom, ortho.top, ortho.near, ortho.far}),
-            (std::vector<double>{-1, 2, -3, 4, -5, 6}));
-}
-
 TEST(Scene, RemembersWhereTheCameraStands) {
   const CameraParameters camera = camera_of("# a scene\n\n 0 0 5\n0 0 0\n\t0 1 0\northo -1 1 -1 1 0 1\nend");
   EXPECT_EQ(to_string(camera.eye->location), "scene.txt:3:2");
@@ -163,64 +123,12 @@ TEST(Scene, RemembersWhereTheCameraStands) {
   EXPECT_EQ(to_string(camera.projection->location), "scene.txt:6:7");
 }
 
-TEST(Scene, MayHoldNothingButItsCamera) {
-  EXPECT_EQ(commands_of(kCamera + "end").size(), 1u);
-}
-
-TEST(Scene, ATriangleIsThreeLinesOfThreeNumbers) {
-  const auto commands = commands_of(kCamera + "triangle\n0 1 2\n3 4 5\n6 7 8\nend\n");
-  const auto& triangle = std::get<TriangleCommand>(commands.at(0));
-  EXPECT_EQ(triangle.p_model, kTriangle);
-  EXPECT_EQ(triangle.locations, (VertexLocations{6, 7, 8}));
-}
-
-TEST(Scene, TheFirstVertexMayStandOnTheTrianglesLine) {
-  const auto commands = commands_of(kCamera + "triangle 0 1 2\n3 4 5\n6 7 8\nend\n");
-  const auto& triangle = std::get<TriangleCommand>(commands.at(0));
-  EXPECT_EQ(triangle.p_model, kTriangle);
-  EXPECT_EQ(triangle.locations, (VertexLocations{{{5, 10}, 6, 7}}));
-}
-
-TEST(Scene, BlankLinesAndCommentsMayStandInsideATriangle) {
-  const auto commands = commands_of(kCamera + "triangle # here\n\n0 1 2\n# next\n3 4 5\n \t\n6 7 8\nend\n");
-  EXPECT_EQ(std::get<TriangleCommand>(commands.at(0)).p_model, kTriangle);
-}
-
-TEST(Scene, ArgumentsStandOnTheNextLineOrOnTheCommandsOwn) {
-  for (const std::string blank : {" ", "\n", "\t", "\r\n", "\n\n# argument\n"}) {
-    const auto commands = commands_of(kCamera + "translate" + blank + "1 2 3\nscale" + blank +
-                                      "4 5 6\nrotate" + blank + "90 0 0 1\nend");
-    EXPECT_EQ(std::get<TranslateCommand>(commands.at(0)).offset, (Vec3{1, 2, 3}));
-    EXPECT_EQ(std::get<ScaleCommand>(commands.at(1)).factors, (Vec3{4, 5, 6}));
-    EXPECT_EQ(std::get<RotateCommand>(commands.at(2)).angle_degrees, 90);
-    EXPECT_EQ(std::get<RotateCommand>(commands.at(2)).axis, (Vec3{0, 0, 1}));
-  }
-}
-
-TEST(Scene, PushAndPopTakeNoArguments) {
-  const auto commands = commands_of(kCamera + "push\npop\nend\n");
-  EXPECT_TRUE(std::holds_alternative<PushCommand>(commands.at(0)));
-  EXPECT_TRUE(std::holds_alternative<PopCommand>(commands.at(1)));
-}
-
 TEST(Scene, LocatesItsCommand) {
   const TextFile file(kCamera + "\n  push\nend\n");
   TextReader text(file.descriptor(), "scene.txt");
   SceneReader reader(text);
   reader.next();
   EXPECT_EQ(to_string(reader.location()), "scene.txt:6:3");
-}
-
-TEST(Scene, TakesTabsCarriageReturnsCommentsSignsAndExponents) {
-  const auto commands = commands_of(
-      "#scene\r\n0\t0 +5 \t\r\n\r\n0 0 0#look\r\n 0 1e0 0\r\n6.0E+1 1 1 1e2\r\ntriangle\r\n+0 1. 2\r\n3 .4e1 "
-      "5 # b\r\n"
-      "\t6\t7\t8\r\nend#");
-  EXPECT_EQ(std::get<TriangleCommand>(commands.at(0)).p_model, kTriangle);
-}
-
-TEST(Scene, BlanksAndCommentsMayFollowTheEnd) {
-  EXPECT_EQ(commands_of(kCamera + "end # all\n\n \t\r\n# done").size(), 1u);
 }
 
 const std::string kFirstCommands =

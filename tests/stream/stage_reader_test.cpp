@@ -22,19 +22,6 @@ std::string error_of(const std::string& text) {
   return message_of([&] { triangles_of(text); });
 }
 
-TEST(StageReader, AnEmptyTextHasAnEmptyHeader) {
-  const StageHeader header = header_of("");
-  EXPECT_FALSE(header.framed || header.camera.eye || header.camera.look || header.camera.up ||
-               header.camera.projection);
-}
-
-TEST(StageReader, ATriangleIsThreeVertexLines) {
-  const TriangleBatch batch = triangles_of("0 1 2\n3 4 5\n-6 .7 8e0\n\n");
-  ASSERT_EQ(batch.size(), 1u);
-  EXPECT_EQ(batch.triangles[0], (Triangle{Vec3{0, 1, 2}, Vec3{3, 4, 5}, Vec3{-6, 0.7, 8}}));
-  EXPECT_EQ(batch.locations[0], (VertexLocations{1, 2, 3}));
-}
-
 // A comment keeps a line from the fast paths.
 TEST(StageReader, TrianglesAreTheSameByEveryPath) {
   for (const std::string header : {"", "attributes w color normal\n"}) {
@@ -138,19 +125,6 @@ TEST(StageReader, KeepsTheDigitsADoubleHasNoRoomForOfAnyTriangle) {
   EXPECT_EQ(batch.decimal_marks, (std::vector<std::uint16_t>(3, 0x1ff)));
 }
 
-TEST(StageReader, TakesTextsWithAndWithoutBlankLinesAndAFrame) {
-  const std::pair<std::string, std::size_t> texts[] = {
-      {"", 0},
-      {"0 0 0\n1 0 0\n0 1 0", 1},
-      {"0 0 0\n1 0 0\n0 1 0\n0 0 0\n1 0 0\n0 1 0\n", 2},
-      {"\n\n" + kTriangle + "\n \t\r\n" + kTriangle + "\n\n", 2},
-      {"framed\nend\n", 0},
-      {"framed\n" + kTriangle + "end\n", 1},
-      {"framed\n" + kTriangle + "end # c\n\n# d\n", 1},
-  };
-  for (const auto& [text, count] : texts) EXPECT_EQ(triangles_of(text).size(), count) << text;
-}
-
 TEST(StageReader, NumbersTrianglesFromZeroOrAsTheTextSays) {
   const std::pair<std::string, std::vector<std::uint64_t>> texts[] = {
       {kTriangle + kTriangle + kTriangle, {0, 1, 2}},
@@ -159,16 +133,6 @@ TEST(StageReader, NumbersTrianglesFromZeroOrAsTheTextSays) {
       {"triangle 18446744073709551615\n" + kTriangle, {18446744073709551615u}},
   };
   for (const auto& [text, numbers] : texts) EXPECT_EQ(triangles_of(text).numbers, numbers) << text;
-}
-
-TEST(StageReader, CommentsMayStandAnywhere) {
-  const TriangleBatch batch = triangles_of("# a\n0 0 0 # b\n# c\n1 0 0\n  # d\n0 1 0\n# e\n\n# f");
-  ASSERT_EQ(batch.size(), 1u);
-  EXPECT_EQ(batch.locations[0], (VertexLocations{2, 4, 6}));
-}
-
-TEST(StageReader, TakesTabsAndCarriageReturns) {
-  EXPECT_EQ(triangles_of("0\t0  0\r\n1 0 0 \r\n 0 1 0\r\n\r\n").triangles, triangles_of(kTriangle).triangles);
 }
 
 TEST(StageReader, ReadsTextThatArrivesByteByByte) {
@@ -207,36 +171,6 @@ TEST(StageReader, ReadsOnAtTheEndAsOftenAsAsked) {
 }
 
 // The header.
-
-TEST(StageReader, HeaderLinesStandInAnyOrder) {
-  const StageHeader header = header_of(
-      "perspective 60 1 0.5 100\nup 0 1 0\n\n# c\nlook 4 5 6\neye 1 2 3\nframed\n" + kTriangle + "end\n");
-  EXPECT_TRUE(header.framed);
-  EXPECT_EQ(header.camera.eye->value, (Vec3{1, 2, 3}));
-  EXPECT_EQ(header.camera.look->value, (Vec3{4, 5, 6}));
-  EXPECT_EQ(header.camera.up->value, (Vec3{0, 1, 0}));
-  EXPECT_EQ(std::get<Perspective>(header.camera.projection->value).near, 0.5);
-}
-
-TEST(StageReader, HeadersMayHoldAFrustumOrAnOrthographicProjection) {
-  const auto frustum = std::get<Frustum>(header_of("frustum -1 2 -3 4 5 6\n").camera.projection->value);
-  EXPECT_EQ(
-      (std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
-      (std::vector<double>{-1, 2, -3, 4, 5, 6}));
-  const auto ortho = std::get<Orthographic>(header_of("ortho -1 2 -3 4 -5 6\n").camera.projection->value);
-  EXPECT_EQ((std::vector{ortho.left, ortho.right, ortho.bottom, ortho.top, ortho.near, ortho.far}),
-            (std::vector<double>{-1, 2, -3, 4, -5, 6}));
-}
-
-TEST(StageReader, HeadersMayHoldWhatWasProjected) {
-  const StageHeader header = header_of("projected frustum -1 2 -3 4 5 6\n");
-  EXPECT_FALSE(header.camera.projection);
-  EXPECT_EQ(to_string(header.projected->location), "in.txt:1:19");
-  const auto frustum = std::get<Frustum>(header.projected->value);
-  EXPECT_EQ((std::vector{frustum.left, frustum.far}), (std::vector<double>{-1, 6}));
-  const auto ortho = std::get<Orthographic>(header_of("projected ortho -1 2 -3 4 -5 6\n").projected->value);
-  EXPECT_EQ((std::vector{ortho.top, ortho.near}), (std::vector<double>{4, -5}));
-}
 
 TEST(StageReader, KnowsTheLinesAboutTheCamera) {
   const StageHeader header = header_of(
@@ -339,16 +273,6 @@ TEST(StageReader, NamesWhatIsWrong) {
   for (const auto& [text, error] : refusals) EXPECT_EQ(error_of(text), "in.txt:" + error) << text;
 }
 
-TEST(StageReader, ReportsAnErrorBeforeTheFirstTriangleAtOnce) {
-  // A misspelt header line must not be reported as a missing one.
-  EXPECT_EQ(message_of([] { header_of("eyes 0 0 5\n"); }),
-            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes' (did you mean eye?)");
-  EXPECT_EQ(message_of([] { header_of("error model: no scene\n"); }),
-            "in.txt:1:1: an earlier stage failed: model: no scene");
-  EXPECT_EQ(message_of([] { header_of("framed\n"); }),
-            "in.txt:2:1: expected 'end', which closes a framed text, found the end of the input");
-}
-
 TEST(StageReader, KnowsWhereItsHeaderEnds) {
   const TextFile file("# c\nup 0 1 0\n\n 0 0 0\n1 0 0\n0 1 0\n");
   TextReader reader(file.descriptor(), "in.txt");
@@ -374,18 +298,6 @@ TEST(StageReader, DeliversTheTrianglesBeforeAnError) {
 }
 
 // Framed text.
-
-TEST(StageReader, EveryPrefixOfAFramedTextIsAnError) {
-  const std::string text = "framed\nup 0 1 0\n" + kTriangle + "triangle 3\n" + kTriangle + "end\n";
-  EXPECT_EQ(error_of(text), "no error");
-  for (std::size_t length = 1; length < text.size(); ++length)
-    EXPECT_NE(error_of(text.substr(0, length)), "no error") << length;
-}
-
-TEST(StageReader, AnUnframedTextIsTakenAsItReads) {
-  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 12").triangles[0][2].z, 12);
-  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 1").triangles[0][2].z, 1);
-}
 
 TEST(StageReader, DoesNotWaitForTheFirstTriangleToKnowTheHeader) {
   const TextInPieces slow({"up 0 1 0\n0 0 0\n"}, TextInPieces::Then::silence);

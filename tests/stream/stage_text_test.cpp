@@ -14,30 +14,12 @@ TEST(StageText, AnErrorLineStandsOnOneLine) {
             "error model: cannot open a\\x0ab\\x0d: No such file\n");
 }
 
-TEST(StageText, AnErrorLineCanBePassedOnAsItWas) {
-  const std::string line = "error model: cannot open a#b.txt: No such file\n";
-  try {
-    triangles_of(line);
-    FAIL() << "no error";
-  } catch (const EarlierFailure& failure) {
-    EXPECT_EQ(error_line(failure.reason()), line);
-  }
-}
-
-TEST(StageText, AnEarlierFailureNamesItsToolInShort) {
-  const auto in_short = [](const std::string& reason) { return EarlierFailure({}, reason).in_short(); };
-  EXPECT_EQ(in_short("model: scene.txt:9:1: no"), "model failed");
-  EXPECT_EQ(in_short("model:"), "model failed");
-  EXPECT_EQ(in_short("model"), "an earlier stage failed: model");
-  EXPECT_EQ(in_short("it broke: badly"), "an earlier stage failed: it broke: badly");
-  EXPECT_EQ(in_short(": no"), "an earlier stage failed: : no");
-  EXPECT_EQ(in_short(""), "an earlier stage failed, without saying why");
-}
-
-TEST(StageText, WhatIsWrittenShortestReadsBackAsItWas) {
+TEST(StageText, HoldsTheLongestNumbers) {
   TriangleBatch batch;
-  batch.add({Vec3{0.1, 1.0 / 3, 5e-324}, Vec3{-1e300, 2, 3}, Vec3{4, 5, 6}}, 7, {});
-  EXPECT_EQ(triangles_of(written(batch, {.shortest = true})).triangles, batch.triangles);
+  const Vec3 longest = {-0x1.fffffffffffffp1023, -0x1.fffffffffffffp1023, -0x1.fffffffffffffp1023};
+  for (std::uint64_t i = 0; i < 100; ++i) batch.add({longest, longest, longest}, 18446744073709551615u, {});
+  const std::string text = written(batch, {.decimals = kMaxDecimals});
+  EXPECT_EQ(text.size(), 100 * (30 + 9 * (1 + 309 + 1 + 17 + 1) + 1));
 }
 
 // Header and columns for color and light.
@@ -99,10 +81,6 @@ TEST(StageText, AMaterialHasNoExponent) {
   for (int vertex = 0; vertex < 3; ++vertex)
     text += "1" + digits + " 2" + digits + " 3" + digits + " 100000\n";
   EXPECT_EQ(copy_of(text + "\n", {.decimals = 20}, false), text + "\n");
-}
-
-TEST(StageText, BareTextHasNoColumns) {
-  EXPECT_EQ(copy_of(kLooks + kFullTriangle, {.decimals = 0}, true), "1 2 3\n4 5 6\n7 8 9\n\n");
 }
 
 TEST(StageText, HeaderNumbersAndWKeepAllTheirDigits) {

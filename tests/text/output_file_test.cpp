@@ -98,16 +98,6 @@ bool in_a_bare_root(const TemporaryFolder& folder, const std::function<void()>& 
   return true;
 }
 
-TEST(OutputFile, AppearsWithItsCommit) {
-  const TemporaryFolder folder;
-  OutputFile file(folder.path("out"));
-  write_text(file, "new");
-  EXPECT_FALSE(fs::exists(folder.path("out")));
-  file.commit();
-  EXPECT_EQ(folder.read("out"), "new");
-  EXPECT_EQ(folder.file_count(), 1u);
-}
-
 TEST(OutputFile, WithoutCommitTheOldFileStaysAndNothingElse) {
   const TemporaryFolder folder;
   folder.write("out", "old");
@@ -258,17 +248,6 @@ TEST(OutputFile, AFileThatAppearedMeanwhileIsReplaced) {
   file.commit();
   EXPECT_EQ(folder.read("out"), "new");
   EXPECT_EQ(folder.file_count(), 1u);
-}
-
-TEST(OutputFile, TwoFilesInOneFolderDoNotMeet) {
-  const TemporaryFolder folder;
-  OutputFile a(folder.path("a")), b(folder.path("b"));
-  write_text(a, "text of a");
-  write_text(b, "text of b");
-  a.commit();
-  b.commit();
-  EXPECT_EQ(folder.read("a"), "text of a");
-  EXPECT_EQ(folder.read("b"), "text of b");
 }
 
 TEST(OutputFile, ANameMayBeAsLongAsTheSystemAllows) {

@@ -30,26 +30,13 @@ std::string error_of_reading(const std::string& text) {
   return message_of([&] { lines_of(text); });
 }
 
-/// The message of the exception that `use` throws for the first line of a text.
-template <typename Use>
-std::string error_in(const std::string& text, Use&& use) {
-  const TextFile file(text);
-  TextReader reader(file.descriptor(), "in.txt");
-  LineScanner line;
-  reader.next_line(line);
-  return message_of([&] { use(line); });
-}
-
+/// The error of reading the first word of a text as a number.
 std::string error_of_number(const std::string& text) {
-  return error_in(text, [](LineScanner& line) { line.number("the x of ", "the eye"); });
-}
-
-double number_in(const std::string& text) {
   const TextFile file(text);
   TextReader reader(file.descriptor(), "in.txt");
   LineScanner line;
   reader.next_line(line);
-  return line.number("a number");
+  return message_of([&] { line.number("the x of ", "the eye"); });
 }
 
 TEST(TextReader, EndsLinesAndLeavesOutCommentsAndBlanks) {
@@ -307,38 +294,6 @@ TEST(LineScanner, ColumnsCountFromOne) {
   EXPECT_EQ(to_string(line.location_of(first)), "in.txt:2:3");
   line.word();
   EXPECT_EQ(to_string(line.location()), "in.txt:2:7");
-}
-
-TEST(LineScanner, ReadsNumbersInEveryDecimalForm) {
-  EXPECT_EQ(number_in("12"), 12);
-  EXPECT_EQ(number_in("+12.5"), 12.5);
-  EXPECT_EQ(number_in("-.5"), -0.5);
-  EXPECT_EQ(number_in("5."), 5);
-  EXPECT_EQ(number_in("1e3"), 1000);
-  EXPECT_EQ(number_in("+1.5E-1"), 0.15);
-}
-
-TEST(LineScanner, WhatOnlyLooksLikeANumberIsAnError) {
-  for (const std::string word :
-       {"nan", "inf", "-inf", "0x10", "1.5abc", "1e", "--1", "+-1", ".", "+", "1_000"})
-    EXPECT_EQ(error_of_number(word), "in.txt:1:1: expected the x of the eye, found '" + word + "'");
-}
-
-TEST(LineScanner, LocatesAMissingNumberAfterTheLastWord) {
-  EXPECT_EQ(error_in("12 \t # 5", [](LineScanner& line) { line.word(), line.number("a number"); }),
-            "in.txt:1:3: expected a number, found the end of the line");
-}
-
-TEST(LineScanner, CountsAreWholeNumbersWithoutASign) {
-  for (const std::string word : {"-1", "+1", "1.0", "1e3", "x", "18446744073709551616"})
-    EXPECT_EQ(error_in(word, [](LineScanner& line) { line.count("the number of a triangle"); }),
-              "in.txt:1:1: expected the number of a triangle, found '" + word + "'");
-}
-
-TEST(LineScanner, NamesWhatStandsTooMuchOnALine) {
-  EXPECT_EQ(
-      error_in("1 2 3", [](LineScanner& line) { line.word(), line.expect_end("the x of ", "the eye"); }),
-      "in.txt:1:3: expected the end of the line after the x of the eye, found '2'");
 }
 
 }  // namespace
