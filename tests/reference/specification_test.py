@@ -73,7 +73,7 @@ def without_comments(data):
     return "".join(text + "\n" for text, sign in bare if text or not sign)
 
 
-ORDER = [name for name, *_ in paragraphs()]
+ORDER = tuple(name for name, *_ in paragraphs())
 
 
 FUNCTIONS = [(name, line, labels) for name, line, _, labels in paragraph.carried_out(REFERENCE, ORDER)

@@ -51,13 +51,13 @@ def labels_of(comment, order):
     return labels
 
 
+@functools.cache
 def carried_out(text, order):
-    """(name, first line, last line, labels) of the functions of the reference."""
+    """(name, first line, last line, labels) of the functions of the reference; `order` is a tuple."""
     lines = text.splitlines()
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
-            comment = lines[node.lineno - 1].partition("  # ")[2]
-            yield node.name, node.lineno, node.end_lineno, labels_of(comment, order)
+    return [(node.name, node.lineno, node.end_lineno,
+             labels_of(lines[node.lineno - 1].partition("  # ")[2], order))
+            for node in ast.walk(ast.parse(text)) if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
 
 
 def mistakes_of(label):
@@ -130,7 +130,7 @@ def described(label):
                            else textwrap.wrap(block, WIDTH, break_on_hyphens=False)), ""]]
     lines = [f"{label}, docs/{page}.md", "", *body, "cases:", *case_lines(label, text)]
     for heading, found in (("known mistakes:", ["  " + line for line in mistakes_of(label)]),
-                           ("in the reference:", reference_lines(label, [*paragraphs])),
+                           ("in the reference:", reference_lines(label, (*paragraphs,))),
                            ("in the sources:",
                             [f"  {where}: {code}" for labels, where, code in marks() if label in labels])):
         lines += ["", heading, *found] if found else []
