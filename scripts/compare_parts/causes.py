@@ -16,7 +16,7 @@ ROUNDING = "all differences are of one unit in the last decimal: rounding"
 
 
 def hint_of_numbers(theirs, ours):
-    """What two lists of points have to do with each other, in words; None if nothing simple."""
+    """Describes how two lists of points are related; None if in no simple way."""
     if len(theirs) != len(ours) or theirs == ours:
         return None
     if not any(exceeds(a, b, UNIT) for p, q in zip(theirs, ours) for a, b in zip(p, q)):

@@ -87,7 +87,7 @@ def compare_stage_texts(a, b, tolerance):
 
 
 def column_names(header):
-    """What a header calls the numbers of a vertex."""
+    """A header's names for the numbers of a vertex."""
     return [*"xyz", *(name for word in header.get("attributes", []) for name in NAMES_OF.get(word, [word]))]
 
 

@@ -52,7 +52,7 @@ def number(x):
 
 
 def cosine_and_sine(frame, count):
-    """Of a frame's part of a turn; exact at quarters."""
+    """Sine and cosine of a frame's part of a turn; exact at quarters."""
     quarters, rest = divmod(4 * frame, count)
     angle = math.tau / 4 * rest / count
     cosine, sine = math.cos(angle), math.sin(angle)

@@ -23,7 +23,7 @@ CLOCK = 10  # seconds by the clock for one of the processor, which a busy machin
 
 @dataclasses.dataclass
 class Program:
-    """What is handed in, if it is a program for a stage: shell words that build it and run it."""
+    """A program that is handed in for a stage: shell words that build it and run it."""
     stage: str
     build: str = ""
     run: list = dataclasses.field(default_factory=list)
@@ -37,7 +37,7 @@ class Program:
 
 @dataclasses.dataclass
 class Settings:
-    """What assignment.txt says; without it, as here."""
+    """The settings of assignment.txt; without it, as here."""
     hints: str = "cause"
     points: dict = dataclasses.field(default_factory=dict)   # by the kind of a file
     weights: dict = dataclasses.field(default_factory=dict)  # by the name of a test

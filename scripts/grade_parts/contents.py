@@ -1,4 +1,4 @@
-"""What a hand-in holds: a folder or an archive, whose files are listed and read in memory. Nothing is
+"""The contents of a hand-in: a folder or an archive, whose files are listed and read in memory. Nothing is
 unpacked to the disk, no link is followed, and no more is read than a limit allows."""
 import gzip
 import io

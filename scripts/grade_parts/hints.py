@@ -45,7 +45,7 @@ def in_words(verdict, level):
 
 
 def fixes(verdict, level):
-    """What to do about the mistakes, as sentences."""
+    """Sentences on how to mend the mistakes."""
     if not gives(level, "fix"):
         return []
     known = dict.fromkeys(
@@ -55,7 +55,7 @@ def fixes(verdict, level):
 
 
 def by_hand(file):
-    """What to do about a file that no known mistake explains."""
+    """Advice on a file that no known mistake explains."""
     place = re.search(r"triangle \d+(?=: )|row \d+, column \d+", file.first)
     return (f"No known mistake explains {file.file}: calculate {place[0] if place else 'its first triangle'} "
             "by hand, print what your program has after each step, and find the first step that differs.")

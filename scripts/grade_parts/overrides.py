@@ -1,4 +1,4 @@
-"""What the teacher says about hand-ins, in a CSV: points that win, and comments."""
+"""The teacher's word on hand-ins, in a CSV: points that win, and comments."""
 import csv
 import io
 import os

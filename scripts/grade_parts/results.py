@@ -53,7 +53,7 @@ def numbers_csv(hand_ins, names):
 
 
 def words_of(test):
-    """What a student reads about a test."""
+    """A test's report for its student."""
     return "\n".join([test.words, *test.fixes, *[test.by_teacher] * bool(test.by_teacher)])
 
 

@@ -1,4 +1,4 @@
-"""What explain reports on each triangle."""
+"""The reports of explain on each triangle."""
 from inspect_parts.stage_lines import StageLines
 from lib.explaining.report import triangle_report
 from lib.explaining.stages import Settings, words_of

@@ -90,7 +90,7 @@ class Inspection:
             raise ToolFailure(str(failure).replace("model: <stdin>:", f"model: {self.name}:", 1)) from None
 
     def faceted(self, stage2):
-        """What project reads: the output of view, with facets in place of spheres."""
+        """The input of project: the output of view, with facets in place of spheres."""
         spheres = len(self.lines["model"].spheres)
         if not spheres:
             return stage2
@@ -148,7 +148,7 @@ class Inspection:
         self.progress.reach(SHARES["zbuf"])
 
     def fragments_of(self, log):
-        """What zbuf says of all fragments; if they are very many, without those that lost."""
+        """zbuf's lines on all fragments; if they are very many, without those that lost."""
         text = log.read_text(encoding="ascii")
         count = text.count("\n")
         if count > MAX_FRAGMENTS:

@@ -1,4 +1,4 @@
-"""What --trace adds to the page: trace's picture, and the trees of rays of its pixels."""
+"""The part of the page that --trace adds: trace's picture, and the trees of rays of its pixels."""
 import base64
 import math
 import pathlib

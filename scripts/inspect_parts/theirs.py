@@ -26,7 +26,7 @@ class Theirs:
         self.verdict = judge(self.files, inspection.scene_data, inspection.config_data)
 
     def read(self, kind, parse):
-        """What `parse` makes of a file's bytes and name; None if it cannot be read, for a reason that the
+        """The result of `parse` for a file's bytes and name; None if it cannot be read, for a reason that the
         verdict has."""
         try:
             return parse(self.files[kind].within(self.ours.limit(kind)), self.files[kind].name)

@@ -169,14 +169,14 @@ def draw_for_certain(options, *tools_and_calls):
 
 
 def state_of(options):
-    """What changes if another writes to the model's file, or to the config's."""
+    """The state of the model's file and of the config's, which changes if another program writes to one."""
     paths = [options.model] * (options.data is None) + [options.config] * (options.config is not None)
     return [(status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns)
             for status in map(os.stat, paths)]
 
 
 def told(certainty, width, tried):
-    """What a user reads of a picture; pixels are uncertain that were `tried` so."""
+    """The line on a picture for its user; pixels are uncertain that were `tried` so."""
     count, places = certainty.uncertain_count, certainty.places[:MOST_LISTED]
     total = certainty.pixel_count
     text = f"{total - count:,} of {total:,} pixels are what exact arithmetic shows"

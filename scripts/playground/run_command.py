@@ -38,7 +38,7 @@ def prepare():
 
 
 def run_command(name, *words_and_files):
-    """What a command prints, its messages too; the last word is a {name: bytes} of its folder."""
+    """The output of a command, with its messages; the last word is a {name: bytes} of its folder."""
     *words, files = words_and_files
     folder = tempfile.mkdtemp(dir="/home")
     os.chdir(folder)

@@ -6,7 +6,8 @@ from trade_parts.timing import CHEAPER, TIE, UNTOLD
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """What a setting takes and loses. Rows are in the order of their settings: the simpler one first."""
+    """A setting with its cost and its losses. Rows are in the order of their settings: the simpler one
+    first."""
     setting: object
     seconds: object      # Quartiles
     ratio: float         # the CPU time over the default's
@@ -22,7 +23,7 @@ class Row:
 
 @dataclasses.dataclass(frozen=True)
 class Limits:
-    """What was asked; None is: no matter."""
+    """The user's limits; None is: no matter."""
     percent_wrong: float = None
     ratio: float = None
 

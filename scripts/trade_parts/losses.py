@@ -1,4 +1,4 @@
-"""What each setting gives up against the picture that exact arithmetic shows."""
+"""The losses of each setting against the picture that exact arithmetic shows."""
 import dataclasses
 import filecmp
 import itertools

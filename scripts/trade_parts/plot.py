@@ -86,7 +86,7 @@ def row_of(row, y, axes, start_up, is_chosen):
 
 
 def last_of(row):
-    """What the last panel shows of it: its levels, if colors were compared, else its gap."""
+    """Its value in the last panel: its levels, if colors were compared, else its gap."""
     return row.loss.gap if row.loss.levels is None else row.loss.levels
 
 

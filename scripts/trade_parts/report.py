@@ -40,7 +40,7 @@ def cells(row):
 
 
 def about_times(times):
-    """What the times are worth."""
+    """How far the times can be trusted."""
     share = min(1, times.start_up / times.seconds_of_default)
     words = (
         f"CPU: medians of {times.rounds} round{'s' * (times.rounds != 1)}. {seconds(times.start_up)} of "

@@ -96,7 +96,7 @@ def doubled(texts, number, rng):
 
 
 def without_eye(texts):
-    """What view makes of the points if it does not subtract the eye: they lie farther off by the eye's place
+    """The points as view makes them if it does not subtract the eye: they lie farther off by the eye's place
     in view space."""
     return [tuple(sum(a * b for a, b in zip(row, p)) for row in axes(texts)) for p in points_of(texts[1])]
 

@@ -154,7 +154,7 @@ class Page(unittest.TestCase):
 
 
 class Pages(unittest.TestCase):
-    """What a page holds, and what --extract makes of it."""
+    """The cases of a page, and their files by --extract."""
 
     def case(self, stage, *lines):
         """The last case of a page."""
@@ -314,7 +314,7 @@ class Runner(unittest.TestCase):
                           for line in tests], [str(i + 1) for i in range(len(CASES["project"]))])
 
     def shown(self, *words):
-        """What conform shows people."""
+        """The report of conform for people."""
         done = subprocess.run([sys.executable, PACK / "conform", "--sandbox", "no", *map(str, words)],
                               stdout=subprocess.PIPE, text=True)
         return done.returncode, done.stdout
@@ -520,7 +520,7 @@ class Runner(unittest.TestCase):
 
 
 class Shared(unittest.TestCase):
-    """What most of the wrong numbers of a run share."""
+    """The sentence on what most of the wrong numbers of a run share."""
 
     def sentence(self, expected, found, **others):
         return shared.sentence(shared.wrong_points(expected.encode(), found.encode(), True, **others))

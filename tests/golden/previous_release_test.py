@@ -33,7 +33,7 @@ def reason_to_skip():
 
 
 def pipe(tools, sample, options):
-    """What each stage writes, and the picture; None if a stage refuses its input. `tools` has a folder for
+    """The output of each stage, and the picture; None if a stage refuses its input. `tools` has a folder for
     each stage."""
     text, made = (sample / "scene.txt").read_bytes(), []
     with tempfile.TemporaryDirectory() as folder:

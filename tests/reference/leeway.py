@@ -1,4 +1,4 @@
-"""What the specification leaves open where the reference calculates exactly: F1 to F7."""
+"""The freedom that the specification leaves where the reference calculates exactly: F1 to F7."""
 import decimal
 import re
 from fractions import Fraction

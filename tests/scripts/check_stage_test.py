@@ -19,7 +19,7 @@ SCENES = ("1-one-triangle", "2-camera", "3-transforms", "4-push-and-pop", "5-win
 
 
 def check(*words):
-    """What check-stage has done; its stdout without the last line, on the sandbox, if there is one."""
+    """A finished run of check-stage; its stdout without the last line, on the sandbox, if there is one."""
     done = run_script("check-stage", "--read", BIN, *words)
     done.stdout, done.note = re.fullmatch(r"((?s:.*?))((?:no|in a) sandbox.*\n)?", done.stdout).groups()
     return done

@@ -86,7 +86,7 @@ class Words(unittest.TestCase):
 
 
 class Keys(ToolTest):
-    """What the Tab key does in a terminal."""
+    """The Tab key in a terminal."""
 
     def setUp(self):
         super().setUp()
@@ -112,7 +112,7 @@ class Keys(ToolTest):
         super().tearDown()
 
     def typed(self, keys, until):
-        """What the terminal shows after the keys, up to the words `until`."""
+        """The terminal's text after the keys, up to the words `until`."""
         os.write(self.master, keys.encode())
         shown, end = "", time.monotonic() + 30
         while until not in shown.replace("\r", ""):

@@ -55,7 +55,7 @@ def links(text):
 
 
 def anchors(text):
-    """What a link may name behind a #: the headings, in lower case, blanks as dashes, without other
+    """The anchors that a link may name: the headings, in lower case, blanks as dashes, without other
     punctuation."""
     headings = re.findall(r"^#+ (.*)$", BLOCK.sub("", text), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}

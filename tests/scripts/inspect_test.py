@@ -125,7 +125,7 @@ class InABrowser(ToolTest):
         self.browser.wait_for(lambda: self.js("return document.body.dataset.ready") == "yes")
 
     def js(self, code, *arguments):
-        """What a script returns, which has short names for what is on the page."""
+        """The result of a script, which has short names for the things on the page."""
         function = f"(function () {{ {code} }})"
         return self.browser.run(f"{SHORT} return {function}.apply(null, arguments)", *arguments)
 

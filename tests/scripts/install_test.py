@@ -345,7 +345,7 @@ class Licenses(unittest.TestCase):
 @unittest.skipUnless(
     shutil.which("dpkg-deb") and shutil.which("dpkg-shlibdeps"), "this is no Debian system with dpkg-dev")
 class Packages(unittest.TestCase):
-    """What cpack makes."""
+    """The packages of cpack."""
 
     @classmethod
     def setUpClass(cls):

@@ -113,7 +113,7 @@ class Prefix(ToolTest):
         self.assertEqual(self.on_terminal("show", env=path), "show <--help>\n")
 
     def on_terminal(self, command, **settings):
-        """What `help` shows on a terminal."""
+        """The output of `help` on a terminal."""
         try:
             master, terminal = os.openpty()
         except OSError as error:

@@ -94,7 +94,7 @@ def runs_of_models():
 
 
 def native(run):
-    """What a native tool makes of a run."""
+    """A native tool's result for a run."""
     with tempfile.TemporaryDirectory() as folder:
         for name, data in run["files"].items():
             (pathlib.Path(folder) / name).write_bytes(data)
@@ -283,7 +283,7 @@ class PageTest(unittest.TestCase):
       return [document.querySelector("#told").innerText, told ? told.innerText : ""];"""
 
     def own(self, tool, code="", kind="js"):
-        """What the page says of a stage of one's own, when it has run."""
+        """The page's word on a stage of one's own, when it has run."""
         self.browser.run(self.OWN, {"#own-tool": tool, "#own-kind": kind}, code)
         self.browser.wait_for(lambda: any(self.browser.run(self.TOLD)))
         return self.browser.run(self.TOLD)
@@ -567,7 +567,7 @@ class TheFolder(PageTest):
         self.browser.wait_for(lambda: "a.stl" in self.browser.run(told))
 
     def told_by_python(self, panel, label):
-        """What a panel says when its button has been pressed."""
+        """The text of a panel when its button has been pressed."""
         press = ("const [panel, label] = arguments, button = [...document.querySelectorAll(panel + ' .asked "
                  "button')].find(other => other.textContent === label); if (button) button.click(); "
                  "return Boolean(button)")

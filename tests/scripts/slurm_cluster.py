@@ -116,7 +116,7 @@ class Cluster:
         return process
 
     def output(self, *words):
-        """What a command prints, in a line."""
+        """The output of a command, in a line."""
         return " ".join(
             subprocess.run(words, env=self.environment, capture_output=True, text=True,
                            timeout=120).stdout.split())

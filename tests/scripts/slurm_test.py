@@ -75,7 +75,7 @@ class OnSlurm(ToolTest):
             f"the end of job {job}")
 
     def job_of_part(self, number):
-        """What Slurm knows of the newest job that draws a part."""
+        """Slurm's record of the newest job that draws a part."""
         lines = [
             dict(word.split("=", 1)
                  for word in line.split()
@@ -87,7 +87,7 @@ class OnSlurm(ToolTest):
         return max(found, key=lambda job: int(job["JobId"]), default={})
 
     def begun(self, number):
-        """What Slurm knows of the job that draws a part, as soon as its view runs."""
+        """Slurm's record of the job that draws a part, as soon as its view runs."""
         self.cluster.wait(pathlib.Path(f"begun-{number}").exists, f"part {number} to begin")
         job = self.cluster.wait(
             lambda: (found := self.job_of_part(number)).get("JobState") == "RUNNING" and found,

@@ -146,7 +146,7 @@ class Fly(SquareTest):
         cls.enterClassContext(Display())
 
     def first_words(self, *words):
-        """What fly has written on stderr when its window waits."""
+        """The text on fly's stderr when its window waits."""
         program = (
             "import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; del sys.argv[1]\n"
             "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import "

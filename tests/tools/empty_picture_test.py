@@ -18,7 +18,7 @@ LIT = "light 0 0 -9 1 1 1\n"
 
 
 def stderr_of(scene, config, options):
-    """What the four stages of a pipe write to stderr, one after the other."""
+    """The messages of the four stages of a pipe, one after the other."""
     data, told = scene.encode(), []
     for tool in ("model", "view", "project", "zbuf"):
         words = [config] if tool == "zbuf" else []

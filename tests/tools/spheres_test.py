@@ -228,7 +228,7 @@ class Facets(ToolTest):
 
 
 class Symmetry(ToolTest):
-    """What leaves a sphere as it is leaves its picture, byte by byte."""
+    """A change that leaves a sphere as it is leaves its picture, byte by byte."""
 
     def test_quarter_turns(self):
         text = LIGHT + "color 200 150 100\n{}sphere\n0 0 0 1.5\n"

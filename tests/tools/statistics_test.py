@@ -52,8 +52,8 @@ def random_scene(rng, projection):
 
 
 class Projected:
-    """What project should count, from the text it reads: the planes of a frustum in view space, by Sutherland
-    and Hodgman."""
+    """The right counts of project, from the text it reads: the planes of a frustum in view space, by
+    Sutherland and Hodgman."""
 
     def __init__(self, window, near, far, is_parallel):
         left, right, bottom, top = window
@@ -186,7 +186,7 @@ class Places(ToolTest):
 
 
 def drawn(text, config, pixels_of):
-    """What zbuf should count, by drawing everything pixel by pixel."""
+    """The right counts of zbuf, by drawing everything pixel by pixel."""
     front, rear = Fraction(config.front), Fraction(config.rear)
     depths, owners, counts, visible = {}, {}, dict.fromkeys(ZBUF_KEYS, 0), set()
     for number, triangle in enumerate(triangles_of(text, "zbuf")):

@@ -97,7 +97,7 @@ def pseudo_terminal():
 
 
 def end_by_signal(process, number):
-    """What a process that is waiting has written to stdout and stderr when the signal has ended it. Python
+    """The text that a waiting process has written to stdout and stderr when the signal has ended it. Python
     may be about to wait when a signal arrives and would then notice it only after the next one, so the signal
     is sent until the process ends."""
     for _ in range(60):

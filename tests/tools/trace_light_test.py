@@ -232,8 +232,8 @@ class Refraction(LightTest):
         self.assertEqual(self.picture(slabs((-5.0, -7.0)))[40], tuple(round(c) for c in expected))
 
     def test_units_are_free(self):
-        """What is twice as large and absorbs half as much looks the same, to the byte, as does any power of
-        2."""
+        """A scene that is twice as large and absorbs half as much looks the same, to the byte, as does any
+        power of 2."""
         pictures = set()
         for scale in (1, 2, 2 ** -10, 2 ** 30):
             glass = turned_all(box((-2, -2, -8), (2, 1.5, -5)), 0.5, (0, 0, -6))

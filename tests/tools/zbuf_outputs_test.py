@@ -212,7 +212,7 @@ class Depths(OutputTest):
 
 class Terminal(OutputTest):
     def shown(self, *words, text):
-        """What the terminal and stderr show."""
+        """The texts on the terminal and on stderr."""
         reader, terminal = pseudo_terminal()
         done = run("zbuf", *words, stdin=text, stdout=terminal)
         os.write(terminal, b"|")  # marks the end of the output

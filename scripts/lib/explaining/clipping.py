@@ -1,4 +1,5 @@
-"""What `project` does to a triangle in clip space before the divide: cull, drop or cut it, exactly."""
+"""The way of a triangle through `project`, in clip space before the divide: culled, dropped or cut,
+exactly."""
 import dataclasses
 import string
 

@@ -17,7 +17,7 @@ class Digits:
     largest: float = 1.0
 
     def unit(self, x):
-        """What one unit in the last digit of x is worth."""
+        """The value of one unit in the last digit of x."""
         if self.decimals is not None:
             return 10.0 ** -self.decimals
         return 10.0 ** (exponent_of(x) - self.significant + 1) if x else 0.0

@@ -72,7 +72,7 @@ class HandIn:
 
     @staticmethod
     def readings(before, memory):
-        """What a stage may have read: the points of the file before it, and those in memory."""
+        """The possible inputs of a stage: the points of the file before it, and those in memory."""
         is_near = before is not None and is_of_this_world(before.points)
         return ([Reading(before.points, before.units)] if is_near else []) + (
             [Reading.exact(memory)] if memory is not None else [])
@@ -118,7 +118,7 @@ class HandIn:
         return [image(m, p, stage == "project") for p in readings[-1].points]
 
     def clipped(self, readings):
-        """What may be left of the points if project clips them, for each reading."""
+        """The points that may be left if project clips them, for each reading."""
         exact = self.ours.exact["view"]
         parts = (self.ours.exact_clipped if reading.points == exact else self.ours.clipped(reading.points)
                  for reading in readings)
@@ -140,7 +140,7 @@ class HandIn:
 
     # reading
     def read(self, kind, parse):
-        """What `parse` makes of a file's bytes and name; None, and a verdict in `failed`, if it cannot be
+        """The result of `parse` for a file's bytes and name; None, and a verdict in `failed`, if it cannot be
         read."""
         file = self.files[kind]
         try:

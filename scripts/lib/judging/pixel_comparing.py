@@ -1,4 +1,4 @@
-"""What a hand-in shows in stage 4, compared with what its triangles give under a rule."""
+"""Compares the pixels of a hand-in with those that its triangles give under a rule."""
 import collections
 import contextlib
 import dataclasses

@@ -24,7 +24,7 @@ WRITES = {"model": "stage1", "view": "stage2", "project": "stage3", "zbuf": "dep
 
 
 def input_of(stage, scene, tools, is_bare):
-    """What the stage reads, and as bare text."""
+    """The text for the stage, with a header and bare."""
     if stage == "model":
         return scene, scene
     bare = ["--bare"] if is_bare else []

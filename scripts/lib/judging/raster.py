@@ -90,7 +90,7 @@ class Rule:
 
 @dataclasses.dataclass
 class Span:
-    """What a triangle has on a row: where it begins and ends in columns, its depth at both, and how uncertain
+    """A triangle's part of a row: where it begins and ends in columns, its depth at both, and how uncertain
     all that is."""
     triangle: int
     left: float
@@ -354,7 +354,7 @@ class Drawing:
         return owner, depth
 
     def could_show(self, row, column, tolerance):
-        """What a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of
+        """All that a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of
         depths; the triangle -1 stands for none. `tolerance` is that of a depth."""
         sure, possible, unsure, spans, center = [], [], [], self.spans(row), column - self.rule.shift[0]
         spend(self.work, len(spans))

@@ -1,4 +1,4 @@
-"""What our own tools make of a scene and a config, once for all hand-ins that are judged by them."""
+"""Our own tools' results for a scene and a config, once for all hand-ins that are judged by them."""
 import functools
 import math
 import re

@@ -56,8 +56,8 @@ def read_colors(data, name, window, background):
 
 @dataclasses.dataclass
 class Pixels:
-    """What each pixel shows, row by row. `drawn` and `colors` are None without a picture; a row of `depths`
-    is None if it cannot be told which pixels its numbers belong to: those are in `listed`."""
+    """The visible triangle of each pixel, row by row. `drawn` and `colors` are None without a picture; a row
+    of `depths` is None if it cannot be told which pixels its numbers belong to: those are in `listed`."""
     drawn: list
     colors: list
     depths: list

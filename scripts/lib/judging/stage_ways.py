@@ -19,7 +19,7 @@ PI = "pi is taken as {:.8g}"
 
 @dataclasses.dataclass
 class Reading:
-    """What a stage may have read: points, and how far each coordinate may be off."""
+    """A possible input of a stage: points, and how far each coordinate may be off."""
     points: list
     units: list
 

@@ -26,7 +26,7 @@ def kind_of(line, columns):
 
 
 def of_a_text(text):
-    """What does not belong into a stage text, in words; empty if all does."""
+    """Names what does not belong into a stage text; empty if all does."""
     lines = text.split("\n")
     columns = None if any(line.split()[:1] == ["attributes"] for line in lines) else 3
     strays, blocks, in_block = [], [], []

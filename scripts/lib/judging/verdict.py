@@ -1,4 +1,4 @@
-"""What the judge says of a hand-in: a FileVerdict for each file, and from those the Verdict."""
+"""The judge's verdict on a hand-in: a FileVerdict for each file, and from these the Verdict."""
 import dataclasses
 
 from lib.judging.mistakes import sentence
@@ -65,7 +65,7 @@ class FileVerdict:
 
     @property
     def counts(self):
-        """What another rule earns, in words."""
+        """The points that another rule earns, in words."""
         return "counts as right" if self.worth == 1 else f"earns {100 * self.worth:.4g} % of the points"
 
     @property

@@ -60,7 +60,7 @@ class Edge:
 
     @property
     def distance(self):
-        """Of the pixel's center in pixels."""
+        """The pixel's center, in pixels."""
         return Fraction(as_decimal(self.value) / as_decimal(root(self.square)))
 
     @property

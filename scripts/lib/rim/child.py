@@ -23,7 +23,8 @@ def cpu_seconds(usage):
 
 
 def adopt_orphans():
-    """What a child leaves behind becomes a child of this process, on Linux, so that end_children finds it."""
+    """Makes the children of a child that has ended children of this process, on Linux, so that end_children
+    finds it."""
     with contextlib.suppress(AttributeError):
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 

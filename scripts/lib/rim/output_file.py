@@ -35,7 +35,7 @@ def target_of(path):
 
 
 def place_of(path):
-    """What all names of a file have in common, as in libpipeline/text/output_file.h; `-` is standard input.
+    """The identity of a file, whatever its name, as in libpipeline/text/output_file.h; `-` is standard input.
     None for a device or a socket, which may be named twice, unless it is an open file of this process."""
     try:
         target = target_of(path)

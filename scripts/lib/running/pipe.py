@@ -160,7 +160,7 @@ class Pipe:
         return sum(done.seconds for done in self.tools.pipe(*calls, stdout=subprocess.DEVNULL))
 
     def command_line(self, setting, scene, config):
-        """What to type for a setting; the files as the user named them."""
+        """The command line of a setting, with the files as the user named them."""
         stages = []
         for tool in TOOLS:
             words = self.words(tool, setting)

@@ -159,7 +159,7 @@ class Tools:
         return done
 
     def through(self, *runs, stdin=b""):
-        """What comes out of tools, each a list of its name and its words, one after the other."""
+        """The output of a pipe of tools, each a list of its name and its words."""
         for words in runs:
             stdin = self.output(*words, stdin=stdin)
         return stdin

@@ -15,7 +15,7 @@ def line_of(words_of):
 
 
 def tangents(header):
-    """Of half the field of view of a perspective: the horizontal tangent and the vertical one."""
+    """The tangents of half the field of view of a perspective, horizontal and vertical."""
     fov_y, aspect = map(float, header["perspective"][:2])
     top = math.tan(math.radians(fov_y) / 2)
     if header["perspective"][4:] == ["ratio"]:

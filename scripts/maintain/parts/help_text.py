@@ -1,4 +1,4 @@
-"""What --help says, option by option: what man pages and completion are made from."""
+"""The text of --help, option by option, from which man pages and completion are made."""
 import argparse
 import contextlib
 import dataclasses

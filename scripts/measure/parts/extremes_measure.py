@@ -1,4 +1,4 @@
-"""What the settings lose on a scene of scripts/measure/extremes, and what the tools note about it."""
+"""The losses of the settings on a scene of scripts/measure/extremes, and the tools' notes about them."""
 import dataclasses
 import math
 import operator

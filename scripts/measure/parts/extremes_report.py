@@ -86,7 +86,7 @@ def certainty(results):
 
 
 def promise(results):
-    """What the check of single digits has found."""
+    """The findings of the check of single digits."""
     counts = counts_of(results, "wrong_without_note")
     found = f"{sum(counts)} runs" if any(counts) else "none"
     return (f"Of {3 * len(counts)} runs of a stage, {found} printed a digit without a note that is not the "

@@ -1,4 +1,4 @@
-"""What a run has shown: TAP and a table on stdout, JSON and JUnit's XML in files."""
+"""The results of a run: TAP and a table on stdout, JSON and JUnit's XML in files."""
 import json
 import re
 from collections import namedtuple
@@ -106,7 +106,7 @@ def most_like(heading, results):
 
 
 def shared_by_most(results):
-    """What most of the wrong numbers share, as a sentence; empty if nothing."""
+    """A sentence on what most of the wrong numbers share; empty if nothing."""
     wrong = [result.difference for result in results if result.state == "wrong"]
     return shared.sentence([point for difference in wrong for point in difference.points])
 

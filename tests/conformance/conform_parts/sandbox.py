@@ -1,4 +1,4 @@
-"""What a program sees in a sandbox of bubblewrap: read-only the system and what belongs to the program,
+"""A program's view in a sandbox of bubblewrap: read-only the system and what belongs to the program,
 and the folder that it may write."""
 import os
 import pathlib
@@ -94,8 +94,8 @@ def hiding_words(folder):
 
 
 def needed(command):
-    """What a command reads: the folders of its files and those on the PATH, with the installations that they
-    are the `bin` of. Of a folder of many things, such as the home, it is the files alone."""
+    """The paths that a command reads: the folders of its files and those on the PATH, with the installations
+    that they are the `bin` of. Of a folder of many things, such as the home, it is the files alone."""
     shared = [os.path.expanduser("~"), tempfile.gettempdir(), "/tmp", "/var/tmp", "/home/any"]
 
     def is_shared(folder):

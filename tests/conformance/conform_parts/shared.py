@@ -1,4 +1,4 @@
-"""What most of the wrong numbers of a run have in common."""
+"""Finds what most of the wrong numbers of a run have in common."""
 import statistics
 
 from .judge import NUMBER
@@ -46,8 +46,8 @@ def guesses(axis, axes, wrong):
 
 
 def sentence(points):
-    """What three of four wrong numbers share: "87 of 89 wrong numbers: x and z are negated"; empty if
-    nothing."""
+    """A sentence on what three of four wrong numbers share: "87 of 89 wrong numbers: x and z are negated";
+    empty if nothing."""
     axes = AXES if points and len(points[0][0]) == 3 else ("the depths", )
     found, total, explained = {}, 0, 0
     for axis, name in enumerate(axes):

@@ -51,7 +51,7 @@ def words_for(case, command, text):
 
 
 def missing_need(case, command):
-    """What the case needs and the command does not offer; None if nothing."""
+    """Names what the case needs and the command does not offer; None if nothing."""
     return "options" if case.has("options.txt") and "{options}" not in command else None
 
 
@@ -62,7 +62,7 @@ def fit_for_print(text):
 
 
 def hint_of_header(stage, given, option):
-    """What a program that reads nothing but numbers stumbles over; empty if it was fed nothing else."""
+    """Names the words over which a program stumbles that reads only numbers; empty if there are none."""
     line = fit_for_print(given.partition(b"\n")[0].decode(errors="replace"))
     return (f": it must read past the lines before the first triangle, such as '{line}' ({option} feeds none)"
             if stage in ("view", "project") and line[:1].isalpha() else "")
@@ -126,7 +126,7 @@ def run_and_judge(case, terms):
 
 
 class Outputs:
-    """What the program has written: `text`, on stdout or in {depths}, and `image`, each None if it is not
+    """The output of the program: `text`, on stdout or in {depths}, and `image`, each None if it is not
     there."""
 
     def __init__(self, ending, descriptor, terms):
