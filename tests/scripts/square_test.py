@@ -16,7 +16,8 @@ import unittest
 import zlib
 
 from display import MISSING, Display
-from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals, run_script
+from lib.text.square import note_on_squares
+from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals, pipe, run_script
 
 # Half of a square that faces the camera: its side is 2.
 SCENE = "0 0 5\n0 0 0\n0 1 0\n{}\ntriangle\n-1 -1 0\n1 -1 0\n1 1 0\nend\n"
@@ -72,7 +73,7 @@ class SquareTest(ToolTest):
         columns, rows, left, bottom = (numbers + [-1, -1])[:4]
         points = [
             tuple(map(float, line.split()))
-            for line in pathlib.Path("five/stage3.txt").read_text().split("\n")
+            for line in pathlib.Path("stage3.txt").read_text().split("\n")
             if line]
         width, height = (max(p[axis] for p in points) - min(p[axis] for p in points) for axis in (0, 1))
         return (width * columns / -left) / (height * rows / -bottom)
@@ -80,19 +81,17 @@ class SquareTest(ToolTest):
 
 class Stages(SquareTest):
     def note(self, projection, config):
-        done = self.call("stages", projection, config, "five")
-        self.assertEqual((done.returncode, done.stdout), (0, ""))
-        return done.stderr
+        """The note, after the square is projected."""
+        view = pipe(["model"], ["view"], stdin=SCENE.format(projection))
+        pathlib.Path("stage3.txt").write_bytes(pipe(["project"], stdin=view))
+        return note_on_squares(view.decode().partition("\n")[0].split(), config)
 
     def test_the_note_tells_what_is_drawn_and_its_mend_helps(self):
         for projection, config, mend, mended in NOTED:
             with self.subTest(projection=projection, config=config):
                 note = self.note(projection, config)
                 self.assertEqual(
-                    note,
-                    f"stages: note: a square is drawn {self.drawn(config):.3g} times as wide as high: "
-                    f"{mend}\n"
-                )
+                    note, f"a square is drawn {self.drawn(config):.3g} times as wide as high: {mend}")
                 self.assertGreater(abs(self.drawn(config) - 1), 0.01)
                 self.assertEqual(self.note(mended, config), "")
                 self.assertAlmostEqual(self.drawn(config), 1, delta=0.001)
