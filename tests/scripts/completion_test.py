@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import select
+import shutil
 import subprocess
 import time
 import unittest
@@ -83,6 +84,33 @@ class Words(unittest.TestCase):
         self.assertEqual(completed("project", "--cull", ""), ["back", "front"])
         for tool in TOOLS:
             self.assertIn("--stats", completed(tool, "--"))
+
+
+class OtherShells(unittest.TestCase):
+    CASES = {
+        "pipeline pro": {"project"}, "pipeline help sc": {"scene"}, "pipeline zbuf --samples ": set(),
+        "pipeline project --clip ": {"auto", "near", "frustum", "reject", "none"},
+        "pipeline zbuf --depth-i": {"--depth-image"}}
+
+    @unittest.skipUnless(shutil.which("fish"), "fish is missing")
+    def test_fish_completes_the_same(self):
+        script = f"source {PREFIX}/share/fish/vendor_completions.d/pipeline.fish; complete -C $argv[1]"
+        for line, expected in self.CASES.items():
+            done = subprocess.run(["fish", "--no-config", "-c", script, line], capture_output=True, text=True)
+            found = {line.split("\t")[0] for line in done.stdout.splitlines()}
+            self.assertEqual((found, done.stderr), (expected, ""))
+
+    @unittest.skipUnless(shutil.which("zsh"), "zsh is missing")
+    def test_zsh_completes_the_same(self):
+        """With the words that its function adds in place of a terminal."""
+        script = """compadd() { shift; printf '%s\\n' "$@" }; _files() { }; compset() { }
+words=(${(s: :)1}); [[ $1 != *' ' ]] || words+=(''); CURRENT=$#words PREFIX=$words[-1]; source $2"""
+        file = PREFIX / "share/zsh/vendor-completions/_pipeline"
+        for line, expected in self.CASES.items():
+            words = ["zsh", "-f", "-c", script, "zsh", line, file]
+            done = subprocess.run(words, capture_output=True, text=True)
+            found = {word for word in done.stdout.split() if word.startswith(line.rpartition(" ")[2])}
+            self.assertEqual((found, done.stderr), (expected, ""))
 
 
 class Keys(ToolTest):
