@@ -7,7 +7,7 @@ sed 's/^deb /deb-src /; s/trixie/bookworm/' /etc/apt/sources.list > /etc/apt/sou
 mkdir /usr/src/assimp
 cd /usr/src/assimp
 apt-get -q update
-apt-get -q source assimp
+apt-get -q source assimp=5.2.5~ds0-1
 # The sources ask for it even where it is not used.
 : > dracoConfig.cmake
 
