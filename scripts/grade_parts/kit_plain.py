@@ -28,8 +28,8 @@ network, and nothing outside of this folder.
 PROGRAM = """
 What is handed in is a program for the stage {stage}. It is built and run in a sandbox of bubblewrap; where
 that does not work, root runs it as a user of its own (61184 to 65519), who may read nothing that is closed to
-others: then close this folder (`chmod -R go= .`), and start the judge without a network. With neither, it is
-not run, and the exit status is 2.
+others: then close this folder and all hand-ins (`chmod -R go=`), and start the judge without a network; a
+new OUT is closed. With neither, it is not run, and the exit status is 2.
 """
 PACKAGES = """
 It needs these packages of Debian: {packages}.

@@ -77,6 +77,7 @@ def expect_protection(hidden):
         places_for_all()
         print(f"no sandbox ({box.reason}): each program runs as a user of its own, with network, abstract "
               "sockets and System V segments, which are removed after its run", flush=True)
+        os.umask(0o077)  # results of others show the right pictures
         if tempfile.tempdir:  # the command's own folder, in which they are to work
             os.chmod(tempfile.tempdir, 0o711)
     return box.user is not None
