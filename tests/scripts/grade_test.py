@@ -398,11 +398,12 @@ class Results(ClassTest):
             tests, settings = read_tests("tests")
         os.mkdir("hand-ins/anna")
         limits = graders.Limits(60, 2048, 1, (), settings.program)
-        with mock.patch.object(programs, "SECONDS_OF_RUN", 0.05):
+        with mock.patch.object(programs, "SECONDS_OF_RUN", 0.25), \
+                mock.patch("conform_parts.workers.PATIENCE", 1):
             _, verdict, remark = next(programs.verdicts(contents_of("hand-ins/anna"), tests, limits))
         self.assertEqual([(file.verdict, file.causes) for file in verdict.files],
                          [("could not be judged", [])])
-        self.assertEqual(remark, "square: the program failed: it does not end within 0.5 s")
+        self.assertEqual(remark, "square: the program failed: it does not end within 2.5 s")
 
     @unittest.skipIf(os.geteuid(), "root alone runs programs as others")
     def test_without_a_sandbox_all_open_folders_are_named_at_once(self):

@@ -124,7 +124,7 @@ def run_apart(words, stdin, folder, limits, box):
         status, why, *texts = run(words, stdin, folder, limits, box)
         return [status, why, *(text.decode("latin-1") for text in texts)]
 
-    [answer] = spread(task, 1, 1, limits.seconds)
+    [answer] = spread(task, 1, 1, limits.clock * limits.seconds)
     return answer and Ending(*answer[:2], *(text.encode("latin-1") for text in answer[2:]))
 
 
