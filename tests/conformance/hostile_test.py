@@ -125,11 +125,11 @@ subprocess.run(["{BIN}/zbuf", *(sys.argv[1:] or ["config.txt"])], check=True)"""
         "    try: os.write(taken, (6).to_bytes(4, 'big') + b'[null]')\n    except OSError: pass\nsys.exit(7)",
         "exit status 7"),
     "kills-all": ("kill -9 -1; zbuf", "right", None),
-    "locks-its-folder": ("zbuf; mkdir x; touch x/y; chmod 0 x", "right"),
+    "locks-its-folder": ("zbuf; mkdir x; touch x/y; chmod 0 x", "right|closes a folder of its own"),
     "locks-deep-folders": (
-        "import os\nfor i in range(30): os.mkdir('d' * 250); os.chdir('d' * 250)\nopen('f', 'w')\n"
-        "os.chmod('.', 0)",
-        "depths: (the number of lines|line 1) differs"),
+        "import os, time\nfor i in range(30): os.mkdir('d' * 250); os.chdir('d' * 250)\nopen('f', 'w')\n"
+        "os.chmod('.', 0)\ntime.sleep(60)",
+        "makes a path of more than 4000 bytes"),
     "ended-by-signal-40": ("kill -40 $$", "was ended by signal 40"),
     "reads-what-is-root's": ('[ -z "$(find /etc -type f ! -perm -004 -readable)" ] && zbuf', "right", None),
     "another-namespace": ("unshare -U true || zbuf", "right" if CAN_FORBID_NAMESPACES else "depths: ", None),

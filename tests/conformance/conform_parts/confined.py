@@ -22,6 +22,7 @@ from .workers import PR_SET_NO_NEW_PRIVS, descendants, end_all, first_in_line, p
 
 MEBIBYTE = 1 << 20
 LARGEST_FILE, MOST_WRITTEN, MOST_FILES = 64 * MEBIBYTE, 256 * MEBIBYTE, 1000
+LONGEST_PATH = 4000  # bytes; the system reaches nothing by one of more than 4095
 MOST_OPEN, MOST_THREADS = 256, 1024
 MOST_OF_USER = 8192  # processes and threads of a user who is not root, so that a program cannot take all
 PR_CAPBSET_DROP, CAP_DAC_OVERRIDE = 24, 1
@@ -267,12 +268,19 @@ def excess_of_files(folder, pids):
     """The same of the files in a folder, and of open ones without a name."""
     found, used, folders = [], {}, [folder]
     while folders:
-        with contextlib.suppress(OSError), os.scandir(folders.pop()) as entries:
-            added = list(itertools.islice(entries, MOST_FILES + 1))
-            folders += [entry.path for entry in added if entry.is_dir(follow_symlinks=False)]
-            found += added
+        try:
+            with os.scandir(folders.pop()) as entries:
+                added = list(itertools.islice(entries, MOST_FILES + 1))
+        except PermissionError:
+            return "closes a folder of its own"
+        except OSError:  # it may be gone
+            continue
+        folders += [entry.path for entry in added if entry.is_dir(follow_symlinks=False)]
+        found += added
         if len(found) > MOST_FILES:  # no look at each, which takes its time where more are made
             return f"writes more than {MOST_FILES} files"
+        if any(len(os.fsencode(entry.path)) > LONGEST_PATH for entry in added):
+            return f"makes a path of more than {LONGEST_PATH} bytes"
     used.update(inode_and_bytes(entry.path) for entry in found)
     for pid in pids:
         with contextlib.suppress(OSError):
