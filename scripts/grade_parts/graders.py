@@ -21,7 +21,9 @@ from grade_parts.hints import fixes, gives, in_words
 from grade_parts.programs import Unusable, free_user, remove_what_is_left, verdicts
 from lib.judging.hand_in import KINDS, STAGE_OF
 from lib.judging.judge import HandIn as Judge
+from lib.judging.pixel_words import AT_BORDERS
 from lib.judging.program import end_all
+from lib.judging.reference import kinds_of
 from lib.judging.verdict import OPEN, UNDECIDED, WRONG, FileVerdict, Verdict
 from lib.rim.child import adopt_orphans
 from lib.running.pipe_tools import ToolKilled
@@ -101,7 +103,7 @@ def grade(path, tests, level, limits, keep):
         return failed(tests, f"It could not be read: {error}.")
     except TooLong:
         return failed(tests, f"It could not be read: {too_long(limits)}.")
-    graded = Graded(max_score=sum(test.max_score for test in tests), remarks=contents.remarks)
+    graded, accused = Graded(max_score=sum(test.max_score for test in tests), remarks=contents.remarks), {}
     of_program = verdicts(contents, tests, limits) if limits.program else None
     for test in tests:
         try:
@@ -109,12 +111,30 @@ def grade(path, tests, level, limits, keep):
                 files, verdict, remark = next(of_program) if of_program else (
                     judge_files(contents, test, len(tests) == 1))
                 made = graded_test(test, files, verdict, level, graded.wrong)
+                if any(file.stage == "zbuf" and file.causes for file in verdict.files):
+                    accused[len(graded.tests)] = test, files
         except (TooLong, StopIteration):  # a generator that has raised is at its end
             made, remark = not_judged(test, level), f"{test.name}: it could not be judged: {too_long(limits)}"
         graded.remarks += [remark] * bool(remark)
         graded.tests.append(made)
         keep(made)
+    if any(AT_BORDERS in file.rule for made in graded.tests for file in made.verdict.files):
+        with contextlib.suppress(TooLong):
+            for number, (test, files) in accused.items():
+                with processor_seconds(limits.seconds):
+                    judge_borders_first(graded, number, test, files, level)
     return graded
+
+
+def judge_borders_first(graded, number, test, files, level):
+    """Judges a test again, of a hand-in that is right by another rule at the borders in some other one: one
+    scene must not call a mistake what another one tolerates."""
+    before, kinds = graded.tests[number].verdict, kinds_of(test.reference.config)
+    verdict = Judge(files, test.reference, kinds, borders_first=True).judge()
+    by_stage = Verdict([file for file in verdict.files if before.of(file.stage)])
+    if all(file.is_good for file in by_stage.of("zbuf")):
+        graded.wrong = {key: digest for key, digest in graded.wrong.items() if key[0] != test.name}
+        graded.tests[number] = graded_test(test, files, by_stage, level, graded.wrong)
 
 
 def graded_test(test, files, verdict, level, wrong):

@@ -309,6 +309,36 @@ class Results(ClassTest):
             self.assertEqual(self.scores(), {"anna": score})
             self.assertEqual(self.page(1).count(words), 3)  # in the sentence, and for each file
 
+    def test_borders_are_decided_once_for_all_tests(self):
+        """The last row is empty in one of two, which is a mistake, unless the other needs a rule of its own
+        at the borders: two rows end a pixel early."""
+        def cut(place, from_end, count):
+            """Clears the last pixels of a row of 40, counted from the last one that has any."""
+            picture, text = pathlib.Path(place, "out.bmp"), pathlib.Path(place, "z_buffer.txt")
+            data, lines = bytearray(picture.read_bytes()), text.read_text().split("\n")
+            row = max(i for i, line in enumerate(lines) if line) - from_end
+            pixels = [54 + ((39 - row) * 40 + i) * 3 for i in range(40)]
+            for pixel in [pixel for pixel in pixels if any(data[pixel:pixel + 3])][-count:]:
+                data[pixel:pixel + 3] = bytes(3)
+            lines[row] = "\t".join(lines[row].split("\t")[:-count - 1])
+            picture.write_bytes(data)
+            text.write_text("\n".join(lines))
+
+        self.add_test("again")
+        for test in "again", "square":
+            pathlib.Path("tests", test, "config.txt").write_text("40 40\n")
+            for name in "anna", "ben":
+                self.add(name, test)
+                place = f"hand-ins/{name}/{test}"
+                subprocess.run([BIN / "zbuf", f"tests/{test}/config.txt", f"{place}/stage3.txt", "--z-buffer",
+                                f"{place}/z_buffer.txt", "-o", f"{place}/out.bmp"], check=True)
+        cut("hand-ins/anna/square", 0, 40)
+        cut("hand-ins/ben/square", 0, 40)
+        for row in 4, 6:
+            cut("hand-ins/ben/again", row, 1)
+        self.grade()
+        self.assertEqual(self.scores(), {"anna": 1.6, "ben": 2.0})
+
     def test_the_teacher_has_the_last_word(self):
         self.add("anna", mistake=True)
         pathlib.Path("hand-ins/ben.rar").write_bytes(b"Rar!\x1a\x07\x00")

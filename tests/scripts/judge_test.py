@@ -263,8 +263,8 @@ class AnotherRule(HandIn):
         verdict = self.assert_verdicts([*self.RULE[:4], "right"], 0)
         self.assertIn("with the rear limit", verdict.files[3].rule)
 
-    def test_pixels_inside_are_excused_by_one_in_32_at_the_borders(self):
-        for at_borders, inside, status in (1, 0, 0), (0, 1, 1), (20, 1, 1), (40, 1, 0), (40, 2, 1):
+    def test_pixels_inside_are_excused_by_none_at_the_borders(self):
+        for at_borders, inside, status in (1, 0, 0), (40, 0, 0), (0, 1, 1), (40, 1, 1):
             with self.subTest(at_borders=at_borders, inside=inside):
                 self.hand_in()
                 pixels = Pixels()

@@ -1,22 +1,12 @@
-"""Another rule at the borders: whether each pixel that differs lies within REACH of an edge, or of the line
-where two triangles meet, and the pixels are not all shifted."""
+"""Another rule at the borders: whether each pixel that differs shows what lies within REACH of it, an edge or
+the line where two triangles meet."""
 import collections
-import functools
 import math
 
-from lib.judging.raster import Rule, kept, spend
+from lib.judging.raster import kept, spend
 
-REACH = 1.5        # pixels between one that differs and an edge
+REACH = 1.5        # pixels between one that differs and what it shows
 DEPTH_REACH = 1.0  # pixels along which the depth of a triangle may be taken
-DEEP = 1.5         # pixels
-SHIFT = 0.4        # pixels, on average
-LEAST_ENDS = 3     # before their average says anything
-# All that differs should lie within a pixel of an edge. Honest programs have a few pixels astray, for example
-# where a row passes just by a vertex, and depths that depend on the ends of their row: no more is let through
-# than they need.
-MOST_STRAYS = 1 / 32   # of the pixels that are drawn, or not, otherwise
-MOST_OTHERS = 1 / 64   # of the pixels with a triangle, that may show one which is none within a pixel
-MOST_DEPTHS = 1 / 5    # of them, that may have a depth which the triangle has nowhere within a pixel
 
 
 class Borders:
@@ -29,8 +19,8 @@ class Borders:
 
     def plane(self, t):
         """Of a triangle in pixels: its edges as (a, b, c) with a column + b row + c the distance from the
-        inside, its depth as (per column, per row, at 0 0), its columns from and to, and its depths from and
-        to."""
+        inside, its depth as (per column, per row, at 0 0), and from where to where its columns, rows and
+        depths go."""
         if t not in self.planes:
             self.planes[t] = self.make_plane(t)
         return self.planes[t]
@@ -44,31 +34,35 @@ class Borders:
         box = [(min(values), max(values)) for values in zip(*corners)]
         sides = [(px, py, qx - px, qy - py, math.hypot(qx - px, qy - py))
                  for (px, py, _), (qx, qy, _) in zip(corners, corners[1:] + corners[:1])]
-        if not self.triangles.has_area(t) or abs(area) < REACH * max(side[-1] for side in sides):
-            return None, None, box
+        if not self.triangles.has_area(t):
+            return None, (0.0, 0.0, 0.0), box
+        per_column = ((bz - az) * (cy - ay) - (cz - az) * (by - ay)) / area
+        per_row = ((cz - az) * (bx - ax) - (bz - az) * (cx - ax)) / area
+        depth = per_column, per_row, az - per_column * ax - per_row * ay
+        if abs(area) < REACH * max(side[-1] for side in sides):
+            return None, depth, box
         sign, edges = math.copysign(1.0, area), []
         for px, py, dx, dy, length in sides:
             a, b = -sign * dy / length, sign * dx / length
             edges.append((a, b, -(a * px + b * py)))
-        per_column = ((bz - az) * (cy - ay) - (cz - az) * (by - ay)) / area
-        per_row = ((cz - az) * (bx - ax) - (bz - az) * (cx - ax)) / area
-        return edges, (per_column, per_row, az - per_column * ax - per_row * ay), box
+        return edges, depth, box
 
     def fragment(self, t, row, column, tolerance):
         """(triangle, least depth, largest depth) and whether it is there for certain; None if it is out of
         reach."""
-        edges, depth, ((left, right), (top, bottom), (nearest, farthest)) = self.plane(t)
-        if not (left - REACH <= column <= right + REACH and top - REACH <= row <= bottom + REACH):
+        edges, (per_column, per_row, at_0), (of_x, of_y, of_z) = self.plane(t)
+        if not (of_x[0] - REACH <= column <= of_x[1] + REACH and of_y[0] - REACH <= row <= of_y[1] + REACH):
             return None
+        slope = abs(per_column) + abs(per_row)
         if edges is None:
-            # Thinner than a pixel: open where it is drawn.
-            return (t, nearest - tolerance, farthest + tolerance), False
+            # Thinner than a pixel: open where it is drawn, and which of its depths is extrapolated.
+            slack = slope * REACH + tolerance
+            return (t, of_z[0] - slack, of_z[1] + slack), False
         inside = min(a * column + b * row + c for a, b, c in edges)
         if inside < -REACH:
             return None
-        per_column, per_row, at_0 = depth
         z = per_column * column + per_row * row + at_0
-        slack = (abs(per_column) + abs(per_row)) * DEPTH_REACH + tolerance
+        slack = slope * max(DEPTH_REACH, -inside) + tolerance  # outside, it may be the depth of the edge
         low, high = z - slack, z + slack
         return (t, low, high), inside >= REACH and low >= self.front and high < self.rear
 
@@ -92,11 +86,6 @@ class Borders:
         spend(self.work, len(boxes))
         return [t for t, left, right in boxes if left - REACH <= column <= right + REACH]
 
-    def allows(self, row, column, is_drawn):
-        """Whether a pixel may or may not be drawn within a pixel of the edges, whatever it shows."""
-        found = [fragment for t in self.near(row, column) if (fragment := self.fragment(t, row, column, 0.0))]
-        return bool(found) if is_drawn else not any(is_sure for _, is_sure in found)
-
     def could_show(self, row, column, is_drawn, z, tolerance, seen):
         """Whether the pixel may show what it does: a triangle (one of `seen`, unless that is None) with the
         depth z (unless that is None), or nothing."""
@@ -110,87 +99,39 @@ class Borders:
             for t, low, high in options)
 
 
-def shows_each(drawing, borders, is_other):
-    """Whether the picture shows half of the visible pixels of each triangle that has one at least DEEP inside
-    its outline, and any of all smaller ones. `is_other(row, column, triangle)` tells whether a pixel shows
-    something else than the triangle that the drawing has there."""
-    visible, agreeing, deep = collections.Counter(), collections.Counter(), set()
-    for row in range(drawing.triangles.grid.height):
-        for column, t in enumerate(drawing.row(row)[0]):
-            if t >= 0:
-                visible[t] += 1
-                agreeing[t] += not is_other(row, column, t)
-                if t not in deep and borders.inside(t, row, column) >= DEEP:
-                    deep.add(t)
-    small = visible.keys() - deep
-    return all(2 * agreeing[t] >= visible[t] for t in deep) and (not small or any(agreeing[t] for t in small))
-
-
-def runs(row):
-    """(first, last) of each run of true values."""
-    ends, first = [], None
-    for column, value in enumerate([*row, False]):
-        if value and first is None:
-            first = column
-        elif not value and first is not None:
-            ends.append((first, column - 1))
-            first = None
-    return ends
-
-
-def shift(drawing, drawn):
-    """By how many columns the left and the right ends of the drawn pixels have moved, if both have moved the
-    same way, each by more than SHIFT on average; else 0."""
-    left, right = [], []
-    width = drawing.width
-    for row, theirs in enumerate(drawn):
-        ours = [t >= 0 for t in drawing.row(row)[0]]
-        a, b = runs(theirs), runs(ours)
-        if len(a) == len(b):
-            left += [p[0] - q[0] for p, q in zip(a, b) if min(p[0], q[0]) > 0 and abs(p[0] - q[0]) <= 2]
-            right += [
-                p[1] - q[1] for p, q in zip(a, b) if max(p[1], q[1]) < width - 1 and abs(p[1] - q[1]) <= 2]
-    if min(len(left), len(right)) < LEAST_ENDS:
-        return 0.0
-    left, right = sum(left) / len(left), sum(right) / len(right)
-    is_shift = min(left, right) > SHIFT or max(left, right) < -SHIFT
-    return (left + right) / 2 if is_shift else 0.0
-
-
 class BorderRule:
     """Whether the nearest of our two rules, with its Mismatch, explains all but borders. `context` is a
     pixel_comparing.Context of a picture."""
 
     def __init__(self, context, mismatch):
-        self.context, self.mismatch, self.pixels = context, mismatch, context.shown.pixels()
-        self.tolerance = context.shown.depths.tolerance if context.shown.depths else None
+        self.mismatch, self.pixels = mismatch, context.shown.pixels()
+        self.tolerance = context.shown.depths.tolerance if context.shown.depths else lambda z: 0.0
         self.drawing = context.drawing(mismatch.reading, mismatch.rule)
         self.borders = Borders(self.drawing.triangles, context.limits, context.work)
 
-    @functools.cached_property
-    def shift(self):
-        return shift(self.context.drawing(self.context.first, Rule()), self.pixels.drawn)
-
-    def beyond(self):
-        """A Counter of the pixels that differ beyond REACH from the edges; None if they are too many."""
-        mismatch, shapes = self.mismatch, len(self.mismatch.of_shape)
+    @property
+    def explains_all(self):
         # Where more differs than is drawn, these are not the borders of what there is to draw.
-        if not self.pixels.drawn or mismatch.has_rows or shapes > mismatch.drawn:
-            return None
-        of_drawn = mismatch.drawn if shapes else 0  # where no border differs, no other rule holds there
-        most = {
-            "stray": MOST_STRAYS * shapes, "other": MOST_OTHERS * of_drawn, "depth": MOST_DEPTHS * of_drawn}
-        if not self.shows_each_triangle():
-            return None
-        found = collections.Counter()
-        for what in filter(None, map(self.place_beyond, mismatch.pixels)):
-            found[what] += 1
-            if found[what] > most[what]:
-                return None
-        return found
+        mismatch = self.mismatch
+        return bool(self.pixels.drawn) and not mismatch.has_rows and (
+            len(mismatch.of_shape) <= mismatch.drawn and self.shows_each_triangle and
+            all(map(self.is_within_reach, mismatch.pixels)))
 
+    @property
     def shows_each_triangle(self):
-        return shows_each(self.drawing, self.borders, self.is_other)
+        """Whether the picture shows half of the visible pixels of each triangle that has one at least REACH
+        inside its outline, and any of all smaller ones."""
+        visible, agreeing, deep = collections.Counter(), collections.Counter(), set()
+        for row in range(self.drawing.triangles.grid.height):
+            for column, t in enumerate(self.drawing.row(row)[0]):
+                if t >= 0:
+                    visible[t] += 1
+                    agreeing[t] += not self.is_other(row, column, t)
+                    if t not in deep and self.borders.inside(t, row, column) >= REACH:
+                        deep.add(t)
+        small = visible.keys() - deep
+        return all(2 * agreeing[t] >= visible[t] for t in deep) and (
+            not small or any(agreeing[t] for t in small))
 
     def is_other(self, row, column, t):
         """Whether a pixel shows something else than triangle t. A triangle whose pixels have the color and
@@ -208,22 +149,10 @@ class BorderRule:
             self.borders.has(other, row, column, z, tolerance)
             for other in self.borders.near(row, column) if other in same and other != t)
 
-    def place_beyond(self, place):
-        """`stray` if a pixel is drawn, or not, farther than a pixel from the edges, or has a depth beyond the
-        limits; `other` if it shows a triangle that is not within a pixel, `depth` a depth that its triangle
-        does not have there; else empty."""
-        (row, column), kind, borders, pixels = place, self.mismatch.pixels[place], self.borders, self.pixels
+    def is_within_reach(self, place):
+        """Whether a pixel shows what a triangle with its color, if it has one, has within REACH."""
+        (row, column), pixels = place, self.pixels
         is_drawn = pixels.drawn[row][column]
         z = pixels.depths[row][column] if pixels.depths and pixels.depths[row] else None
-        tolerance = self.tolerance(z) if z is not None else 0.0
         seen = self.mismatch.of_color(pixels.colors[row][column]) if is_drawn else None
-        if borders.could_show(row, column, is_drawn, z, tolerance, seen):
-            return ""
-        front, rear = self.context.limits
-        is_kept = z is None or front - tolerance <= z < rear + tolerance
-        is_shape = kind in ("extra", "missing")
-        if not is_kept or is_shape and not borders.allows(row, column, is_drawn):
-            return "stray"
-        if is_shape:
-            return ""
-        return "depth" if borders.could_show(row, column, is_drawn, None, tolerance, seen) else "other"
+        return self.borders.could_show(row, column, is_drawn, z, self.tolerance(z or 0.0), seen)

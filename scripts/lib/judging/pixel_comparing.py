@@ -13,7 +13,7 @@ from lib.judging.shown import DEPTH_BASE
 PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else they could show
 # Pixels of triangles and spans that are looked at, in the search for a cause and for the rules that are open.
 # They are counted: seconds would make a verdict depend on the machine.
-MOST_WORK, MOST_OPEN_WORK = 12_000_000, 60_000_000
+MOST_WORK, MOST_OPEN_WORK = 10_000_000, 60_000_000
 
 
 @dataclasses.dataclass
@@ -24,6 +24,7 @@ class Mismatch:
     reading: str
     pixels: dict = dataclasses.field(default_factory=dict)
     drawn: int = 0       # pixels with a triangle, by the rule
+    doubtful: int = 0    # pixels whose shape is that of the hand-in only as far as the rule is uncertain
     areas: collections.Counter = dataclasses.field(default_factory=collections.Counter)  # these by triangle
     offsets: dict = dataclasses.field(default_factory=dict)  # of depths, at these pixels
     colors: dict = dataclasses.field(default_factory=dict)  # of each triangle, by the majority of its pixels
@@ -75,16 +76,19 @@ class Context:
     """All that rules are compared by: `readings` are {name: (points, units)}, the numbers of the file, those
     in memory, and the right ones; `window` has the size and the limits, `shown` the hand-in's files."""
 
-    def __init__(self, readings, window, shown, is_one_of_two=False, triangles=None):
+    def __init__(self, readings, window, shown, is_one_of_two=False, triangles=None, borders_first=False):
+        self.borders_first = borders_first
         self.readings, self.window, self.shown, self.is_one_of_two = readings, window, shown, is_one_of_two
         self.first = next(iter(readings))
         self.limits = float(window.front), float(window.rear)
         self.triangles, self.work = {} if triangles is None else triangles, [MOST_OPEN_WORK]
         self.left = [MOST_WORK]  # of the search for a cause
+        self.compared = {}
 
     def of_one_file(self, kind):
         """The Context of the depths, or of the picture, alone. The search in both has one limit."""
-        one = Context(self.readings, self.window, self.shown.only(kind), True, self.triangles)
+        one = Context(self.readings, self.window, self.shown.only(kind), True, self.triangles,
+                      self.borders_first)
         one.left = self.left
         return one
 
@@ -125,7 +129,11 @@ class Context:
 
     def compare(self, reading, rule, limit=math.inf):
         """The Mismatch of a rule; None if more than `limit` pixels are not explained."""
-        return Attempt(self, reading, rule).mismatch(limit)
+        if limit < math.inf:
+            return Attempt(self, reading, rule).mismatch(limit)
+        if (reading, rule) not in self.compared:
+            self.compared[reading, rule] = Attempt(self, reading, rule).mismatch()
+        return self.compared[reading, rule]
 
 
 class Attempt:
@@ -136,7 +144,7 @@ class Attempt:
         self.height, self.rear, self.depths = context.window.height, context.limits[1], context.shown.depths
         self.drawing = context.drawing(reading, rule)
         self.pixels = context.shown.pixels(rule.picture_flip, rule.text_flip)
-        self.budget = PIXELS_LOOKED_AT
+        self.budget, self.background, self.doubtful = PIXELS_LOOKED_AT, context.shown.background, 0
 
     @property
     def has_torn_rows(self):
@@ -165,16 +173,19 @@ class Attempt:
         if self.pixels.depths and depths is None:
             yield from self.differences_of_list(row, (owner, depth), self.pixels.listed[row])
         drawn = self.pixels.drawn[row] if self.pixels.drawn else [z is not None for z in depths or ()]
-        if not depths and [t >= 0 for t in owner] == drawn or max(owner) < 0 and not any(drawn):
+        if not any(drawn) and max(owner) < 0 or not depths and [t >= 0 for t in owner] == drawn:
             return
         tolerance = self.depths.tolerance if depths else None
-        for column, (t, is_drawn) in enumerate(zip(owner, drawn)):
+        for column in [i for i, (t, is_drawn) in enumerate(zip(owner, drawn)) if t >= 0 or is_drawn]:
+            t, is_drawn = owner[column], drawn[column]
             z = depths[column] if depths and is_drawn else None
             if (t >= 0) == is_drawn and (z is None or abs(z - depth[column]) <= DEPTH_BASE
                                          or abs(z - depth[column]) <= tolerance(z)):
                 continue
             if not self.could_show_after_all(row, column, is_drawn, z):
                 yield column, "extra" if t < 0 else "missing" if not is_drawn else "depth"
+            elif (t >= 0) != is_drawn:
+                self.doubtful += 1
 
     def differences_of_list(self, row, drawn_row, listed):
         """The same without a pixel for each depth: the depths of a row in their order, all or only the ones
@@ -203,18 +214,20 @@ class Attempt:
         pairs = collections.Counter()
         for row in range(self.height):
             owner, depth = drawing.row(row)
-            result.areas.update(owner)
+            if is_seen := max(owner) >= 0:
+                result.areas.update(owner)
             for column, kind in self.differences(row, (owner, depth)):
                 self.add(result, row, column, kind, (owner, depth))
             if len(result.pixels) > limit:
                 return None
-            if pixels.colors:
-                pairs.update((t, color)
-                             for t, color, is_drawn in zip(owner, pixels.colors[row], pixels.drawn[row])
-                             if t >= 0 and is_drawn)
+            if pixels.colors and is_seen:
+                pairs.update(zip(owner, pixels.colors[row]))
         del result.areas[-1]
-        result.drawn = sum(result.areas.values())
+        result.drawn, result.doubtful = sum(result.areas.values()), self.doubtful
         if pixels.colors:
+            for t, color in [*pairs]:
+                if t < 0 or color == self.background:
+                    del pairs[t, color]
             self.add_colors(result, pairs, limit)
         return result if len(result.pixels) <= limit else None
 

@@ -1,4 +1,6 @@
 """The findings on the two files of stage 4, together and each by itself."""
+import dataclasses
+
 from lib.judging.borders import BorderRule
 from lib.judging.pixel_rules import CENTER
 from lib.judging.pixel_search import by_open_rule, exact, finding_of, sample_rows, unknown
@@ -70,7 +72,7 @@ class Findings:
         if kind == "depths" or found.verdict not in ("exact", "borders"):
             return found
         by_both = self.context.compare(found.mismatch.reading, found.mismatch.rule)
-        return found if BorderRule(self.context, by_both).shows_each_triangle() else self.of_all
+        return found if BorderRule(self.context, by_both).shows_each_triangle else self.of_all
 
     def by_the_rule_of_the_picture(self):
         """The Finding of depths that nothing explains."""
@@ -89,5 +91,5 @@ def mismatch_to_show(context, finding, is_wrong):
         return found
     before = Rule(rule.left, rule.right, rule.depth, rule.clamp) if is_by_mistake else Rule()
     mismatch = context.compare(found.reading, before)
-    mismatch.pixels = {place: kind for place, kind in mismatch.pixels.items() if place not in found.pixels}
-    return mismatch
+    return dataclasses.replace(mismatch, pixels={
+        place: kind for place, kind in mismatch.pixels.items() if place not in found.pixels})

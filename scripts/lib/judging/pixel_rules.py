@@ -99,6 +99,7 @@ def open_rules(window, readings, has_depths):
     depths = [rule for rule in OPEN_DEPTHS[:None if has_depths else 1]
               if is_beyond or rule.get("clamp") is None]
     rules = [((i > 1) + (j > 0), {**ends, **depth})
-             for i, ends in enumerate(OPEN_ENDS) for j, depth in enumerate(depths)]
+             for i, ends in enumerate(OPEN_ENDS) for j, depth in enumerate(depths)
+             if is_beyond or ends == CENTER or "down" not in ends.values()]  # columns are not negative then
     return sorted(rules, key=lambda pair: pair[0])
 

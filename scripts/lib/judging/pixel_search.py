@@ -7,10 +7,10 @@ import itertools
 from lib.judging.borders import BorderRule
 from lib.judging.matching import named
 from lib.judging.pixel_comparing import Attempt, Mismatch
-from lib.judging.pixel_rules import BLANK, CENTER, MISTAKES, MOST_PAIRS, OPEN_ENDS, can_matter, pairs
+from lib.judging.pixel_rules import BLANK, CENTER, MISTAKES, MOST_PAIRS, can_matter, pairs
 from lib.judging.pixel_words import border_rule_in_words, rule_in_words
 from lib.judging.raster import Rule, TooMuch
-from lib.judging.verdict import Cause, cause_of, cause_of_all
+from lib.judging.verdict import cause_of, cause_of_all
 
 SAMPLE_ROWS = 8
 # A mistake leaves at most one pixel in NEARLY of the ones, in SAMPLE_ROWS, that the best open rule leaves;
@@ -19,7 +19,6 @@ NEARLY, LEAST_NEARLY = 8, 8
 LOST = 0.9  # of the pixels of a triangle, that are as if it were not there, before it is missing
 LEAST_HOLES = 5  # on common edges, before they are no accident of rounding
 GIVEN_UP = "the search for a cause was given up: it would take too many steps"
-SHIFTED = "All outlines lie {:.1f} of a pixel too far to the {}"
 LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
 
 
@@ -49,26 +48,25 @@ def finding_of(context):
     if found := by_open_rule(context, rows):
         return found
     center = context.compare(context.first, Rule(**CENTER))
-    best, remarks = min((plain, center), key=lambda one: (len(one.of_shape), len(one.pixels))), []
+    best = min((plain, center), key=lambda one: (len(one.of_shape), len(one.pixels)))
+    found, remarks = context.borders_first and at_borders(context, best), []
     try:
         with context.limited():
-            if found := by_mistake(context, rows):
-                return with_triangle(context, best, found)
-            some = filter(None, (without_triangles(context, best), by_most_pixels(context, rows, best)))
-            if found := min(some, key=lambda one: len(one.mismatch.pixels), default=None):
-                return found
+            found = found or by_mistakes(context, rows, best)
     except TooMuch:
         remarks = [GIVEN_UP]
-    found = at_borders(context, best)
-    if (not found or found.causes) and not remarks:
-        try:
-            with context.limited():
-                found = by_two_mistakes(context, rows) or found
-        except TooMuch:
-            remarks = [GIVEN_UP]
-    found = found or unknown(best)
+    found = found or at_borders(context, best) or unknown(best)
     found.remarks += remarks
     return found
+
+
+def by_mistakes(context, rows, best):
+    """The Finding of one mistake, of several triangles that are missing, or of two mistakes."""
+    if found := by_mistake(context, rows):
+        return with_triangle(context, best, found)
+    some = filter(None, (without_triangles(context, best, len(best.pixels) // NEARLY),
+                         by_most_pixels(context, rows, best)))
+    return min(some, key=lambda one: len(one.mismatch.pixels), default=None) or by_two_mistakes(context, rows)
 
 
 def unknown(mismatch):
@@ -138,12 +136,13 @@ def by_mistake(context, rows):
 
 
 def everything_explained(context, reading, rule, rows):
-    """The Mismatch, without a pixel, of a mistake that explains everything and draws something; else None.
-    `rows` are looked at first."""
+    """The Mismatch, without a pixel, of a mistake that explains everything, draws something, and leaves no
+    more open than it explains; else None. `rows` are looked at first."""
     if not context.explains(reading, rule, rows):
         return None
     mismatch = context.compare(reading, rule, limit=0)
-    return mismatch if mismatch and mismatch.drawn and has_enough_holes(context, reading, rule) else None
+    is_one = mismatch and mismatch.drawn and mismatch.doubtful <= len(context.plain.pixels)
+    return mismatch if is_one and has_enough_holes(context, reading, rule) else None
 
 
 def has_enough_holes(context, reading, rule):
@@ -167,8 +166,9 @@ def by_most_pixels(context, rows, best):
     """The mistakes, by our two rules, that explain all but one in NEARLY of the pixels that no open rule
     explains, and of all that differ."""
     least, found = 10**9, {}
-    for ends in OPEN_ENDS:
-        least = min(least, Attempt(context, context.first, Rule(**ends)).count(rows, least))
+    for _, changes in context.open_rules:
+        if "depth" not in changes:
+            least = min(least, Attempt(context, context.first, Rule(**changes)).count(rows, least))
     for names, changes in MISTAKES if least >= LEAST_NEARLY else ():
         if not can_matter(changes, context.window, context.shown):
             continue
@@ -184,22 +184,23 @@ def by_most_pixels(context, rows, best):
 
 def with_triangle(context, best, found):
     """A Finding with what else may be: that one triangle is missing."""
-    other = without_triangles(context, best)
-    if other and not other.mismatch.pixels and len(other.mismatch.rule.without) == 1:
+    other = without_triangles(context, best, 0)
+    if other and len(other.mismatch.rule.without) == 1:
         found.causes += other.causes
     return found
 
 
-def without_triangles(context, best):
+def without_triangles(context, best, limit):
     """The Finding if the pixels of some triangles, all of them, are as if those were not there, and that
-    explains nearly all that differs."""
+    leaves no more than `limit`."""
     counts = collections.Counter(best.owners.values())
     lost = {t for t, count in counts.items() if count >= LOST * best.areas[t]}
     if not lost or len(lost) == len(best.areas):
         return None
     rules = (Rule(**ends, without=frozenset(lost)) for ends in ({}, CENTER))
-    mismatch = min((context.compare(best.reading, rule) for rule in rules), key=lambda one: len(one.pixels))
-    if NEARLY * len(mismatch.pixels) > len(best.pixels) or mismatch.has_rows:
+    mismatches = filter(None, (context.compare(best.reading, rule, limit) for rule in rules))
+    mismatch = min(mismatches, key=lambda one: len(one.pixels), default=None)
+    if mismatch is None or mismatch.has_rows:
         return None
     last = best.triangle_count - 1
     cause = cause_of("zbuf/last-triangle-missing") if lost == {last} else cause_of(
@@ -230,18 +231,10 @@ def files_spoiled(context, mismatch):
 
 
 def at_borders(context, best):
-    """A Finding if all differences from the nearest of our two rules lie within a pixel of an edge; with a
-    cause if they are a shift."""
-    borders = BorderRule(context, best)
-    beyond = borders.beyond()
-    if beyond is None:
+    """A Finding if all differences from the nearest of our two rules lie within reach of an edge."""
+    if not BorderRule(context, best).explains_all:
         return None
-    if not borders.shift:
-        return Finding("borders", best, border_rule_in_words(best, context.shown.pixels(),
-                                                             beyond["other"] + beyond["depth"]))
-    found = unknown(best)
-    found.causes = [Cause("", SHIFTED.format(abs(borders.shift), "left" if borders.shift < 0 else "right"))]
-    return found
+    return Finding("borders", best, border_rule_in_words(best, context.shown.pixels()))
 
 
 def of_blank(context, plain):

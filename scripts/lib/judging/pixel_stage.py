@@ -35,10 +35,12 @@ def pixel_readings(stage3, memory, right_ndc):
 
 
 class PixelStage:
-    """Judges depths and picture. `thin` names a stage3.txt that holds too little to judge by."""
+    """Judges depths and picture. `thin` names a stage3.txt that holds too little to judge by; `borders_first`
+    is that of judge.HandIn."""
 
-    def __init__(self, ours, files, readings, thin):
+    def __init__(self, ours, files, readings, thin, borders_first):
         self.ours, self.files, self.readings, self.thin = ours, files, readings, thin
+        self.borders_first = borders_first
 
     def verdicts(self, depths, colors):
         """{kind: FileVerdict} of what could be read; each of the two may be None."""
@@ -56,7 +58,7 @@ class PixelStage:
             return verdicts | {
                 kind: undecided_outcome("zbuf", self.files[kind].name).verdict for kind in given}
         shown = self.shown(colors, depths)
-        context = Context(self.readings, self.ours.window, shown)
+        context = Context(self.readings, self.ours.window, shown, borders_first=self.borders_first)
         counts = (len(points) // 3 for points, _ in self.readings.values())
         has_many = pixel_colors.has_many(shown, max(len(self.ours.world) // 3, *counts))
         try:

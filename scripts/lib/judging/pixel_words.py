@@ -7,6 +7,7 @@ DIFFERENCES = {
     "depth": "another depth than that of triangle {}",
     "other": "another triangle than triangle {}",
 }
+AT_BORDERS = "another rule at the borders"
 ENDS = {"rounded": "rounded", "truncated": "truncated", "down": "rounded down", "up": "rounded up"}
 
 
@@ -30,8 +31,8 @@ def rule_in_words(rule):
     return ", ".join(words)
 
 
-def border_rule_in_words(mismatch, pixels, inside):
-    """The pixels in which another rule at the borders differs; `inside` of them lie farther in."""
+def border_rule_in_words(mismatch, pixels):
+    """The pixels in which another rule at the borders differs."""
     kinds = collections.Counter(mismatch.pixels.values())
     shapes = kinds["extra"] + kinds["missing"]
     others = {place for place, kind in mismatch.pixels.items()
@@ -41,14 +42,13 @@ def border_rule_in_words(mismatch, pixels, inside):
              if kinds[kind]]
     words = []
     if shapes:
-        words.append(f"another rule at the borders: {counted(shapes, 'pixel')} of {mismatch.drawn:,} "
+        words.append(f"{AT_BORDERS}: {counted(shapes, 'pixel')} of {mismatch.drawn:,} "
                      f"({', '.join(parts)})")
     if others:
         words.append(f"{len(others):,} of {mismatch.drawn:,} show another triangle where triangles meet")
     if offsets:
-        least = "" if inside else "less than one pixel makes, "
         differ = "depth differs" if len(offsets) == 1 else "depths differ"
-        words.append(f"{len(offsets):,} {differ} by {least}up to {max(offsets):.2g}")
+        words.append(f"{len(offsets):,} {differ} by less than one pixel makes, up to {max(offsets):.2g}")
     return "; ".join(words)
 
 

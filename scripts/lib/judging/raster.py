@@ -105,10 +105,6 @@ class Span:
     is_met_from_right: bool  # by the first of its edges
     is_certain: bool    # whether the row meets the triangle for certain, and the triangle has an area
 
-    def __post_init__(self):
-        """Between which columns it may have a pixel, however its ends are rounded."""
-        self.near_left, self.near_right = self.left - self.slack_left - 1, self.right + self.slack_right + 2
-
 
 FLAT_ROW = {
     "left": lambda span: span.z_left, "right": lambda span: span.z_right,
@@ -305,7 +301,7 @@ class Drawing:
     spans that may yet be looked at."""
 
     def __init__(self, triangles, rule, limits, work):
-        self.triangles, self.rule, self.work = triangles, rule, work
+        self.triangles, self.rule, self.work, self.reaches = triangles, rule, work, {}
         self.front = limits[0] if rule.has_front else -math.inf
         self.rear = 0.0 if rule.starts_at_zero else limits[1] if rule.has_rear else math.inf
         self.width = triangles.grid.width
@@ -353,23 +349,27 @@ class Drawing:
                     owner[column], depth[column] = t, z
         return owner, depth
 
+    def reach(self, row):
+        """Of each span of a row: the ends that it may have, those that it has for certain, and its depths."""
+        if row not in self.reaches:
+            self.reaches[row] = [(span, ends_of(span, self.rule, self.width, 1.0),
+                                  ends_of(span, self.rule, self.width, -1.0), self.line(span))
+                                 for span in self.spans(row)]
+        return self.reaches[row]
+
     def could_show(self, row, column, tolerance):
         """All that a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of
         depths; the triangle -1 stands for none. `tolerance` is that of a depth."""
-        sure, possible, unsure, spans, center = [], [], [], self.spans(row), column - self.rule.shift[0]
+        sure, possible, unsure, spans, center = [], [], [], self.reach(row), column - self.rule.shift[0]
         spend(self.work, len(spans))
-        for span in spans if self.rule.columns else [
-                span for span in spans if span.near_left <= center <= span.near_right]:
-            first, last = ends_of(span, self.rule, self.width, 1.0)
-            if not first <= column <= last:
+        for span, (least, most), (first, last), (at_0, slope) in spans:
+            if not least <= column <= most:
                 continue
-            at_0, slope = self.line(span)
             beyond = max(0.0, span.left - center, center - span.right) if self.rule.columns else 0.0
             stretch = 1 + 2 * beyond / max(span.right - span.left, NARROW)
             z, slack = at_0 + column * slope, tolerance + span.slack_z * stretch
             if not (z + slack >= self.front and z - slack < self.rear):
                 continue
-            first, last = ends_of(span, self.rule, self.width, -1.0)
             fragment = (span.triangle, z - slack, z + slack)
             possible.append(fragment)
             if z - slack >= self.front and z + slack < self.rear:

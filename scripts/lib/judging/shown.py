@@ -2,6 +2,7 @@
 import collections
 import copy
 import dataclasses
+import functools
 
 from lib.judging.digits import EXACT, Digits, digits_of
 from lib.rim.command import shown as printable
@@ -52,6 +53,18 @@ def read_colors(data, name, window, background):
     width, height = window.width, window.height
     rows = picture_of(data, name, background, (width, height))[2]
     return [[row[i:i + 3] for i in range(0, 3 * width, 3)] for row in rows]
+
+
+class Rows:
+    """A sequence whose rows are made when they are asked for: most rules fail in the first."""
+
+    def __init__(self, make, count):
+        self.make, self.count = functools.cache(make), count
+
+    def __getitem__(self, row):
+        if row >= self.count:
+            raise IndexError
+        return self.make(row)
 
 
 @dataclasses.dataclass
@@ -148,11 +161,10 @@ class Shown:
 
     def make_pixels(self, picture_flip, text_flip):
         colors = FLIPS[picture_flip](self.colors) if self.colors else None
-        drawn = [[color != self.background for color in row] for row in colors] if colors else None
+        drawn = colors and Rows(lambda r: [color != self.background for color in colors[r]], len(colors))
         listed = self.listed_rows(text_flip, drawn) if self.depths else None
-        return Pixels(drawn, colors,
-                      [self.aligned(drawn[r] if drawn else None, listed[r])
-                       for r in range(self.height)] if listed else None, listed)
+        return Pixels(drawn, colors, listed and Rows(
+            lambda r: self.aligned(drawn[r] if drawn else None, listed[r]), self.height), listed)
 
     def listed_rows(self, flip, drawn):
         rows = self.depths.rows
@@ -167,7 +179,7 @@ class Shown:
         if drawn and len(rows) != self.height and sum(map(len, rows)) == sum(map(
                 sum, drawn)):  # empty rows were left out
             values = iter([z for row in rows for z in row])
-            rows = [[next(values) for is_drawn in row if is_drawn] for row in FLIPS[flip](drawn)]
+            rows = [[next(values) for is_drawn in row if is_drawn] for row in FLIPS[flip]([*drawn])]
         rows = rows[:self.height] + [[]] * (self.height - len(rows))
         return FLIPS[flip](rows)
 
