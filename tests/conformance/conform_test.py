@@ -244,7 +244,8 @@ class Groups(unittest.TestCase):
     def test_what_the_assignment_asks_for_is_counted_apart(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "results")
-            conform("--stage", "view", "--json", path, "--", *self.SIGNED)
+            conform("--stage", "view", "--only", "refused-s*", "--only", "rolled-*", "--only",
+                    "zero-*", "--json", path, "--", *self.SIGNED)
             found = json.loads(path.read_text())
         groups = found["groups"]
         self.assertEqual(groups["what the assignment asks for"]["wrong"], 0)
@@ -253,7 +254,8 @@ class Groups(unittest.TestCase):
         for state in ("right", "wrong"):
             self.assertEqual(sum(counts[state] for counts in groups.values()), found["counts"][state])
         refused = [case["name"] for case in found["cases"] if case["group"] == "refusals of wrong input"]
-        self.assertEqual(refused, [case.name for case in CASES["view"] if case.refused_line is not None])
+        self.assertEqual(refused, [case.name for case in CASES["view"]
+                                   if case.short_name.startswith("refused-s")])
 
     def test_only_that_is_run_with_basic(self):
         done = conform("--stage", "view", "--basic", "--", *self.SIGNED)
@@ -306,12 +308,13 @@ class Runner(unittest.TestCase):
             self.assertIn(message, done.stdout)
 
     def test_prints_tap(self):
-        done = conform("--stage", "project", "--", *TOOLS["view"])
+        count = sum(case.short_name.startswith("cut-") for case in CASES["project"])
+        done = conform("--stage", "project", "--only", "cut-*", "--", *TOOLS["view"])
         version, plan, *lines = done.stdout.splitlines()
-        self.assertEqual((version, plan), ("TAP version 13", f"1..{len(CASES['project'])}"))
+        self.assertEqual((version, plan), ("TAP version 13", f"1..{count}"))
         tests = [line for line in lines if not line.startswith("#")]
         self.assertEqual([re.match(r"(not )?ok (\d+) - project/[a-z0-9-]+( # (SKIP|TODO) .+)?$", line)[2]
-                          for line in tests], [str(i + 1) for i in range(len(CASES["project"]))])
+                          for line in tests], [str(i + 1) for i in range(count)])
 
     def shown(self, *words):
         """The report of conform for people."""
@@ -511,7 +514,7 @@ class Runner(unittest.TestCase):
             self.assertEqual(conform(*words).returncode, 2, words)
 
     def test_names_no_mistake_of_a_program_that_gets_nothing_right(self):
-        for program, chosen in (("true", "*-o*"), ("cat", "*o*")):
+        for program, chosen in (("true", "*-of-[m-z]*"), ("cat", "*-of-[m-z]*")):
             for stage in STAGES:
                 with self.subTest(program=program, stage=stage):
                     done = conform("--stage", stage, "--assignment", "--only", chosen, "--", program)

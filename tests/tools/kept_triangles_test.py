@@ -130,7 +130,7 @@ class Memory(ToolTest):
 
     def test_it_is_bounded_by_the_picture(self):
         pathlib.Path("config.txt").write_text("60 60\n")
-        text = LIT + triangles(200_000, 4, 0.02, has_normals=True)
+        text = LIT + triangles(120_000, 4, 0.02, has_normals=True)
         image = ["--image", "/dev/null"]
         self.check(text, 60 * 60, self.TRIANGLE, *image)
         self.check(text, 60 * 60, self.TRIANGLE + self.EDGES, "--wireframe", "--threads", "3", *image)

@@ -2,7 +2,6 @@
 import json
 import re
 from collections import namedtuple
-from xml.sax.saxutils import escape, quoteattr
 
 from . import shared
 from .cases import ASSIGNMENT, BYTES, EXTENSIONS, LOOKS, REFUSALS
@@ -208,6 +207,8 @@ def as_json(results, terms, mistakes):
 
 def as_junit(results, stage):
     """The form of JUnit's reports that test runners read."""
+    from xml.sax.saxutils import escape, quoteattr  # which loads a client of HTTP
+
     def legal(text):  # XML 1.0 has no other characters
         return re.sub("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]", "?", text)
 
