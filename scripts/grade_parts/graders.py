@@ -18,7 +18,7 @@ from grade_parts.contents import ContentsError, contents_of
 from grade_parts.difference import pictures
 from grade_parts.hand_ins import files_for, looked_for
 from grade_parts.hints import fixes, gives, in_words
-from grade_parts.programs import Unusable, free_user, remove_what_is_left, verdicts
+from grade_parts.programs import Unusable, remove_what_is_left, take_user, verdicts
 from lib.judging.hand_in import KINDS, STAGE_OF
 from lib.judging.judge import HandIn as Judge
 from lib.judging.pixel_words import AT_BORDERS
@@ -187,9 +187,6 @@ def work(connection, path, tests, level, limits, scratch, pipe):
     os.setpgid(0, 0)
     os.umask(0o022)  # a user of its own reads what is handed in
     end_with_writers_of(*pipe)
-    if limits.needs_user:
-        limits = dataclasses.replace(limits, user=free_user())
-    connection.send(limits.user)
     tempfile.tempdir = scratch
     most = limits.mebibytes * MEBIBYTE  # a program that is run has limits of its own
     resource.setrlimit(resource.RLIMIT_AS, (
@@ -212,21 +209,19 @@ def work(connection, path, tests, level, limits, scratch, pipe):
 class Running:
     """The process of one hand-in, with a folder for what its tools write."""
 
-    def __init__(self, path, tests, level, limits):
+    def __init__(self, path, tests, level, limits, user):
         context = multiprocessing.get_context("fork")  # what is right has been calculated once, for all
-        self.tests, self.limits = tests, limits
+        self.tests, self.limits, self.user, self.start = tests, limits, user, time.time()
         self.connection, theirs = context.Pipe(duplex=False)
         self.scratch = tempfile.TemporaryDirectory()
         os.chmod(self.scratch.name, 0o711)  # a program that is run as another user works in it
         reader, self.alive = os.pipe()
+        limits = dataclasses.replace(limits, user=user)
         words = theirs, path, tests, level, limits, self.scratch.name, (reader, self.alive)
         self.process = context.Process(target=work, args=words)
         self.process.start()
         theirs.close()
         os.close(reader)
-        self.user = None
-        with contextlib.suppress(EOFError):
-            self.user = self.connection.recv()
         self.kept = []  # of GradedTest
         self.seconds = CLOCK * max(limits.seconds * len(tests), LEAST_SECONDS)
         self.end = time.monotonic() + self.seconds
@@ -263,27 +258,32 @@ class Running:
         self.connection.close()
         os.close(self.alive)
         if self.user is not None:
-            remove_what_is_left(self.user, self.scratch.name)
+            remove_what_is_left([self.user], self.start)
         self.scratch.cleanup()
 
 
 def grade_all(hand_ins, tests, level, limits):
     """Draws (HandIn, Graded), in the order in which they are done."""
-    waiting, running = list(reversed(hand_ins)), {}
+    waiting, running, start = list(reversed(hand_ins)), {}, time.time()
+    users = [take_user() if limits.needs_user else None for _ in range(min(limits.jobs, len(hand_ins)))]
     adopt_orphans()
     try:
         while waiting or running:
-            while waiting and len(running) < limits.jobs:
+            while waiting and users:
                 hand_in = waiting.pop()
-                one = Running(hand_in.path, tests, level, limits)
+                one = Running(hand_in.path, tests, level, limits, users.pop())
                 running[one.connection] = hand_in, one
             rest = min(one.end for _, one in running.values()) - time.monotonic()
             multiprocessing.connection.wait(list(running), max(0.0, rest))
             for connection, (hand_in, one) in list(running.items()):
                 if graded := one.result():
                     one.stop([each for _, each in running.values()])
+                    users.append(one.user)
                     del running[connection]
                     yield hand_in, graded
     finally:
         for _, one in running.values():
             one.stop(())
+            users.append(one.user)
+        if limits.needs_user:
+            remove_what_is_left(users, start)

@@ -10,6 +10,7 @@ import pwd
 import stat
 import subprocess
 import tempfile
+import time
 
 from grade_parts.assignment import CLOCK, SECONDS_OF_BUILD, SECONDS_OF_RUN
 from lib.judging.hand_in import KINDS
@@ -23,7 +24,6 @@ from lib.rim.places import place
 FIRST_USER, USERS = 61184, 4336  # numbers that no package gives to a user, and a container has
 LOCAL = ("ext4", "xfs", "btrfs", "zfs", "overlay", "tmpfs", "devtmpfs", "mqueue", "f2fs")  # file systems
 DEPTH = 6  # of folders in one, in which those that all may write are looked for
-REMOVE = ("-exec", "sh", "-c", 'chmod -R u+rwx -- "$@"; rm -rf -- "$@"', "sh", "{}", "+")
 MOST_BYTES, MOST_FILES = 64 << 20, 500  # of a hand-in that is built
 MOST_LINES = 10                         # of a compiler's messages, as shown
 MEMORY, PROCESSES = 1024, 64
@@ -43,17 +43,27 @@ def protection(command, read, hidden, user):
     raise CommandFailure(f"a program is run only in a sandbox, or by root as another user: {box.reason}")
 
 
-def free_user():
-    """The number of a user who has no name and no process. Processes that grade side by side get one each."""
-    found = {*owners_of_processes(), *(user.pw_uid for user in pwd.getpwall())}
-    numbers = (FIRST_USER + (os.getpid() + i) % USERS for i in range(USERS))
-    return next(number for number in numbers if number not in found)
+def take_user():
+    """The number of a user who has no name and no process. It becomes a group of this process, by which
+    others see that it is taken: of two that take one at once, at least one sees the other."""
+    own, named = os.getgroups(), {user.pw_uid for user in pwd.getpwall()}
+    for number in (FIRST_USER + (os.getpid() + i) % USERS for i in range(USERS)):
+        if number not in named and number not in own:
+            with contextlib.suppress(PermissionError):  # only root runs programs as others
+                os.setgroups([*own, number])
+            if number not in users_of_others():
+                return number
+    os.setgroups(own)
+    raise CommandFailure(f"all users from {FIRST_USER} to {FIRST_USER + USERS - 1} are taken")
 
 
-def owners_of_processes():
+def users_of_others():
+    """The users and groups of all other processes."""
     for name in filter(str.isdigit, os.listdir("/proc")):
-        with contextlib.suppress(OSError):  # it may have ended
-            yield os.stat(f"/proc/{name}").st_uid
+        with contextlib.suppress(OSError), open(f"/proc/{name}/status", "rb") as file:  # it may have ended
+            for line in file if int(name) != os.getpid() else ():
+                if line.startswith((b"Uid:", b"Groups:")):
+                    yield from map(int, line.split()[1:])
 
 
 def succeeds(user, *words):
@@ -72,7 +82,7 @@ def right_ones():
 def expect_protection(hidden):
     """Raises the CommandFailure of a machine that protects from no program, before there is any work. Tells
     what is not held without a sandbox; whether there is none."""
-    box = protection(["true"], (), hidden, free_user())
+    box = protection(["true"], (), hidden, take_user())
     if box.user is not None:
         places_for_all()
         print(f"no sandbox ({box.reason}): each program runs as a user of its own, with network, abstract "
@@ -88,23 +98,28 @@ def places_for_all():
     """Folders that a user without a name may write."""
     with open("/proc/self/mounts") as file:
         tops = {top for _, top, kind, *_ in map(str.split, file) if kind in LOCAL and os.path.isdir(top)}
-    user = free_user()
+    user = take_user()
     return subprocess.run(["find", "/", *tops, "-xdev", "-maxdepth", str(DEPTH), "-type", "d", "-writable",
                            "-print0"], capture_output=True, user=user, group=user, extra_groups=[],
                           cwd="/").stdout.split(b"\0")[:-1]
 
 
-def remove_what_is_left(user, since):
-    """Removes, as a user, what it has made in such folders since a file was last made in another, and its
+def remove_what_is_left(users, since):
+    """Removes what users have made since a time in such folders, and there in folders of programs, and their
     segments, semaphores and queues of System V."""
-    succeeds(user, "find", *places_for_all(), "-mindepth", "1", "-maxdepth", "1", "-user", str(user),
-             "-cnewer", since, *REMOVE)
+    theirs = [word for user in users for word in ("-o", "-uid", str(user))][1:]
+    others = ["-uid", f"-{FIRST_USER}", "-o", "-uid", f"+{FIRST_USER + USERS - 1}"]
+    # by -execdir, as a program may put links in place of folders; it takes only absolute ones on the PATH
+    subprocess.run(["find", *places_for_all(), "-mindepth", "1", "(", *theirs, ")", "-newerct", f"@{since}",
+                    "-prune", "-execdir", "rm", "-rf", "--", "{}", "+", "-o", "(", *others, ")", "-prune"],
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd="/",
+                   env={"PATH": os.pathsep.join(filter(os.path.isabs, os.get_exec_path()))})
     for kind in ("shm", "sem", "msg"):
         with open(f"/proc/sysvipc/{kind}") as file:
             names, *rows = map(str.split, file)
         remove = getattr(ctypes.CDLL(None), f"{kind}ctl")
         for row in rows:
-            if row[names.index("cuid")] == str(user):
+            if row[names.index("cuid")] in theirs:
                 remove(int(row[1]), 0, 0)  # 0 is IPC_RMID
 
 
@@ -169,6 +184,7 @@ class Built:
 
     def __init__(self, contents, program, top, hidden, user):
         self.program, self.top, self.hidden, self.user = program, top, hidden, user
+        self.start = time.time()
         self.folder = top / "program/files"
         self.folder.mkdir(parents=True)
         unpack(contents, self.folder)
@@ -197,7 +213,7 @@ class Built:
             outcome(words, b"", self.folder, limits, box)
         finally:
             if self.user is not None:
-                remove_what_is_left(self.user, self.top)
+                remove_what_is_left([self.user], self.start)
                 give(self.folder, 0, self.user)
 
     def command(self):
@@ -234,7 +250,7 @@ class Built:
                                         given, top, limit)
             finally:
                 if self.user is not None:
-                    remove_what_is_left(self.user, self.top)
+                    remove_what_is_left([self.user], self.start)
             return hand_in(self.program.stage, output, before, work)
 
 

@@ -28,6 +28,7 @@ from grade_parts.results import csv_of, gradescope
 from grade_parts.summary import findings
 from lib.judging.mistakes import fix, sentences
 from lib.judging.verdict import Cause, FileVerdict, Verdict
+from lib.rim.command import CommandFailure
 from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pseudo_terminal, run_script
 
 SAMPLE = SOURCE / "samples/worked-example"
@@ -447,6 +448,20 @@ class Results(ClassTest):
             errors = self.grade(status=2).stderr
         names = " ".join(map(os.path.abspath, ("tests", "graded")))
         self.assertRegex(errors, f": chmod go= {names}( .*)?, or ")
+
+    @unittest.skipIf(os.geteuid(), "root alone runs programs as others")
+    def test_a_user_is_taken_as_long_as_its_judge_lives(self):
+        self.addCleanup(os.setgroups, os.getgroups())
+        with mock.patch.object(programs, "USERS", 1):
+            judge = os.fork()
+            if not judge:
+                programs.take_user()
+                os.kill(os.getpid(), signal.SIGSTOP)
+            os.waitpid(judge, os.WUNTRACED)
+            self.assertRaisesRegex(CommandFailure, "users from 61184 to 61184 are", programs.take_user)
+            os.kill(judge, signal.SIGKILL)
+            os.waitpid(judge, 0)
+            self.assertEqual(programs.take_user(), 61184)
 
     @unittest.skipIf(os.geteuid(), "root alone gives files away")
     def test_after_a_build_root_takes_what_is_of_the_builder_alone(self):

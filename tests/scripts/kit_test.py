@@ -86,6 +86,7 @@ THIEF = '''import ctypes, glob, os, sys, time
 OUT = "/autograder/*.out/*"
 ctypes.CDLL(None).shmget(0, 4096, 0o1600)
 os.mkdir("/tmp/left")
+os.chmod("/tmp/left", 0o777)
 end, given = time.monotonic() + 5, sys.stdin.read()
 while time.monotonic() < end and not any(os.access(path, os.R_OK) for path in glob.glob(OUT)):
     for path in glob.glob("/proc/[0-9]*/cmdline"):
@@ -319,7 +320,8 @@ class Judges(KitTest):
 
     def test_programs_without_a_sandbox_neither_end_nor_read_each_other(self):
         """Two at a time; each does its worst while the other one runs."""
-        slow = VIEW.replace("import sys", "import sys, time\ntime.sleep(1)")
+        slow = VIEW.replace("import sys", "import os, sys, time\ntime.sleep(1)\n"
+                            "if os.path.exists('/tmp/left'): os.makedirs('/tmp/left/guest/x', 0o700)")
         self.expect_programs(right=slow, killer=KILLER + VIEW, thief=THIEF + VIEW)
         shutil.rmtree("tests/nested-transforms")
         top = self.make("plain")
