@@ -82,10 +82,9 @@ class DrawingCounter {
 
   void add(const Span& span, FragmentDepths& found) {
     for (int column = span.first_column; column <= span.last_column; ++column) {
-      const DepthTestResult result = test_
-                                         .judge(visible_.row(span.row)[static_cast<std::size_t>(column)],
-                                                {column, span.row}, counts_.triangles, span.depth(column))
-                                         .result;
+      auto& seen = visible_.row(span.row)[static_cast<std::size_t>(column)];
+      const DepthTestResult result =
+          test_.judge(seen, {column, span.row}, counts_.triangles, span.depth(column)).result;
       ++counts_.fragments_tested;
       if (result == DepthTestResult::before_front)
         found.before_front = true;

@@ -36,7 +36,7 @@ class AnyCoverage {
 };
 
 /// A depth format that is chosen at run time, likewise. Stored depths are doubles, which hold those of every
-/// format.
+/// format. Its functions are inlined, as they are called for each fragment.
 class AnyDepth {
  public:
   AnyDepth(const PixelRules& chosen, const Viewport& screen)
@@ -44,10 +44,10 @@ class AnyDepth {
             std::visit([&]<typename Depth>(TypeValue<Depth>) -> AnyOf<DepthFormats> { return Depth(screen); },
                        chosen.depth)) {}
 
-  [[nodiscard]] double store(double z) const {
+  [[nodiscard, gnu::always_inline]] double store(double z) const {
     return std::visit([z](const auto& format) { return static_cast<double>(format.store(z)); }, format_);
   }
-  [[nodiscard]] double depth(double stored) const {
+  [[nodiscard, gnu::always_inline]] double depth(double stored) const {
     return std::visit(
         [stored]<typename Depth>(const Depth& format) {
           return static_cast<double>(format.depth(static_cast<typename Depth::Stored>(stored)));

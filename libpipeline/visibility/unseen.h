@@ -64,30 +64,17 @@ class EmptyPicture {
     coverage_.visit([&](const auto& rule) {
       const auto rows = rule.rows(triangle);
       for (int row = rows.first_row(); row <= rows.last_row() && !found.visible; ++row)
-        if (const auto span = rows.span(row)) add(*span, found);
+        if (const auto span = rows.span(row))
+          for (int column = span->first_column; column <= span->last_column && !found.visible; ++column) {
+            const double z = span->depth(column);
+            const bool is_before_front = !is_drawn(z, screen_.front);
+            const bool is_beyond_rear = !is_nearer(format_.store(z), rear_);
+            found.before_front |= is_before_front;
+            found.beyond_rear |= is_beyond_rear;
+            found.visible |= !is_before_front && !is_beyond_rear;
+          }
     });
     return found;
-  }
-
-  /// Every rounding in a SpanDepth is monotone, so depths rise or fall along the row and cross a limit once.
-  void add(const Span& span, FragmentDepths& found) const {
-    const auto is_behind_front = [&](int column) { return is_drawn(span.depth(column), screen_.front); };
-    const auto is_before_rear = [&](int column) {
-      return is_nearer(format_.store(span.depth(column)), rear_);
-    };
-    const auto add_pixel = [&](int column) {
-      found.before_front |= !is_behind_front(column);
-      found.beyond_rear |= !is_before_rear(column);
-      found.visible |= is_behind_front(column) && is_before_rear(column);
-    };
-    add_pixel(span.first_column);
-    add_pixel(span.last_column);
-    if (found.visible) return;
-    const bool rises = is_behind_front(span.last_column);
-    const int end = span.last_column + 1;
-    const int inside = rises ? first_column_where(span.first_column, end, is_behind_front)
-                             : first_column_where(span.first_column, end, is_before_rear);
-    if (inside < end) add_pixel(inside);
   }
 
   Viewport screen_;
