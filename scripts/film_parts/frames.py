@@ -27,8 +27,12 @@ TRACED = "stage trace config.txt --expect-framed $projection"
 DRAW = r'''draw() {
   picture=$1 camera=$2 projection=$3; shift 3
   [ ! -e "$picture" ] || return 0
-  { stage view $camera world.txt | DRAWING --z-buffer none "$@" --image "$picture"; } 2> "$picture.log" ||
+  statuses=$({ stage view $camera world.txt | DRAWING --z-buffer none "$@" --image "$picture"; } 3>&1 \
+    > /dev/null 2> "$picture.log") && [ -z "$statuses" ] || {
     failed=yes
+    grep -qv ": note: " "$picture.log" || echo "$statuses" >> "$picture.log"
+    rm -f "$picture"
+  }
   sed "s|^|${picture%.png} ($camera): |" "$picture.log" >&2
   rm -f "$picture.log"
 }'''

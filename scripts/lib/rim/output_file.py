@@ -143,6 +143,29 @@ def write_file(path, data):
         file.commit()
 
 
+@contextlib.contextmanager
+def replaced_at_end(*paths):
+    """Paths for tools to write to: those of files beside these, which take their places when the block has
+    succeeded, and which errors call by these. A device, a pipe and what cannot be written is left to the
+    tools."""
+    with contextlib.ExitStack() as stack:
+        files = {}
+        for path in paths:
+            with contextlib.suppress(OutputError):
+                if path not in (None, "-") and (os.path.isfile(path) or not os.path.exists(path)):
+                    files[path] = stack.enter_context(OutputFile(path))
+        beside = {path: file.temporary for path, file in files.items() if file.temporary}
+        try:
+            yield [beside.get(path, path) for path in paths]
+        except CommandFailure as failure:
+            text = str(failure)
+            for path, temporary in beside.items():
+                text = text.replace(temporary, os.fspath(path))
+            raise CommandFailure(text) from None
+        for path in beside:
+            files[path].commit()
+
+
 def expect_writable(path):
     """Raises the OutputError that writing would end in, before there is any work; a pipe is left alone."""
     if not stat.S_ISFIFO(os.stat(path).st_mode if os.path.exists(path) else 0):

@@ -60,15 +60,23 @@ def with_opaque_background(text):
 
 # What makes a part of a text refused, if a tool of the pipe is killed.
 FRAMING = {"model": ["--framed"], **dict.fromkeys(("join-seen", "zbuf", "trace"), ["--expect-framed"])}
-# A tool of a pipe in sh, which says if it is killed; the shell itself knows the status of the last one alone.
+# A tool of a pipe in sh, which says on stderr if it is killed, and on descriptor 3 if it ends with a status
+# above 0; the shell itself knows the status of the last one alone.
 STAGE_IN_SHELL = r'''
 stage() {
-  "$bin/$@" && return
+  "$bin/$@" 3>&- && return
   set -- "$1" $?
-  [ "$2" -le 128 ] || [ "$2" = 141 ] || echo "$1: ended by SIG$(kill -l "$2")" >&2
+  if [ "$2" -le 128 ]; then
+    echo "$1: exit status $2" >&3
+  elif [ "$2" != 141 ]; then
+    echo "$1: ended by SIG$(kill -l "$2")" >&2
+  fi
   return "$2"
 }
 '''
+
+
+NO_REASON = re.compile(r": note: |^\w+: \d+ triangles? in |^\d+,\d+: ")  # of --timing, and of trace's --probe
 
 
 class Done:
@@ -78,7 +86,7 @@ class Done:
         self.name, self.status = name, status
         lines = stderr.decode(errors="replace").strip().splitlines()
         self.notes = [line for line in lines if ": note: " in line]
-        self.reasons = [line for line in lines if ": note: " not in line]
+        self.reasons = [line for line in lines if not NO_REASON.search(line)]
 
 
 def name_of_signal(number):
