@@ -5,9 +5,12 @@ usage: picture_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib
+import signal
 import subprocess
+import time
 import unittest
 
+from lib.running.spheres import has_the_word
 from toolbox import BIN, SOURCE, ToolTest, expect_mesh2scene, pipe, pseudo_terminal, run
 
 
@@ -160,6 +163,23 @@ class Picture(ToolTest):
             picture("vase.obj", "-o", "one.png").stderr,
             f"mesh2scene: note: y is taken for up, as in most OBJ files (--up-axis chooses); it reaches from "
             f"{low} to {high} (--at looks elsewhere, --zoom closer)\n")
+
+    def test_a_search_in_a_long_file_is_ended_by_a_signal_and_by_truncation(self):
+        for end in (lambda pid: os.kill(pid, signal.SIGTERM), lambda pid: os.truncate("long", 0)):
+            with open("long", "wb") as file:
+                file.truncate(1 << 36)
+            child = os.fork()
+            if not child:
+                signal.signal(signal.SIGTERM, lambda *_: os._exit(0))
+                os._exit(has_the_word("long", b"sphere"))
+            time.sleep(0.3)
+            start = time.monotonic()
+            end(child)
+            self.assertEqual(os.waitpid(child, 0)[1], 0)
+            self.assertLess(time.monotonic() - start, 10)
+        for place in range((1 << 20) - 7, (1 << 20) + 1):
+            pathlib.Path("long").write_bytes(bytes(place) + b"sphere")
+            self.assertTrue(has_the_word("long", b"sphere"))
 
     def test_a_pipe_with_a_name_is_refused(self):
         os.mkfifo("pipe")
