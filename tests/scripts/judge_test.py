@@ -444,7 +444,7 @@ class Wrong(HandIn):
     def test_two_mistakes_at_once(self):
         for one, other in (("view/eye-added", "view/l-not-negated"), ("view/up-is-0-1-0", "view/r-not-unit"),
                            ("project/fovx-equals-fovy", "project/missing-two"),
-                           ("model/push-of-the-identity", "model/angle-in-radians"),
+                           ("model/axis-not-normalized", "model/angle-in-radians"),
                            ("zbuf/shifted-by-a-row", "zbuf/flat-depth"),
                            ("zbuf/shifted-by-a-column", "zbuf/width-minus-one"),
                            ("zbuf/last-wins", "zbuf/text-upside-down")):

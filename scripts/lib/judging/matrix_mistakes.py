@@ -11,7 +11,6 @@ DIVISIONS = {"no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDE
              "depth-is-linear": DIVIDES_X_AND_Y, "depth-in-view-space": DIVIDES_X_AND_Y,
              "depth-divided-twice": Z_TWICE}  # by w; other mistakes of project divide all three
 SAME = "left-handed"  # gives the numbers of l-is-eye-minus-look
-OF_THE_WHOLE = {"matrix-transposed", "depth-from-0-to-1"}  # made of the right matrix
 UNCHANGED = "The points are those of the stage before, unchanged"
 AXES = "xyzw"
 
@@ -26,7 +25,7 @@ def listed(stage, scene):
 def pairs(stage, scene):
     """Two mistakes of the list at once."""
     for names in itertools.combinations([name for name in names_of(stage) if name != SAME], 2):
-        if stage == "view" or OF_THE_WHOLE.isdisjoint(names) and len(DIVISIONS.keys() & names) < 2:
+        if len(DIVISIONS.keys() & names) < 2:
             for m, is_divided in itertools.islice(ways(stage, scene, names), 1):
                 yield cause_of_all(stage, names), m, is_divided
 

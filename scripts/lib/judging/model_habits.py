@@ -9,14 +9,7 @@ from lib.judging.mistakes import names_of
 from lib.maths.vectors import normalized
 
 ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
-
-
-def turned(degrees, axis, *factors):
-    return rotation(math.radians(degrees), normalized(axis), *factors)
-
-
-def turned_with(pi):
-    return lambda degrees, axis: rotation(degrees * pi / 180, normalized(axis))
+MANY = 1000
 
 
 def with_wrong_element(m, row):
@@ -24,11 +17,10 @@ def with_wrong_element(m, row):
     return tuple((*line[:2], line[1], line[3]) if i == row else line for i, line in enumerate(m))
 
 
-def by_euler_angles(order, is_unit):
+def by_euler_angles(order):
     """Makes turns about the three axes, multiplied in an order, of an angle and an axis."""
-    def turn(degrees, axis):
-        axis = normalized(axis) if is_unit else axis
-        about = [turned(degrees * x, row[:3]) for x, row in zip(axis, IDENTITY)]
+    def turn(radians, axis):
+        about = [rotation(radians * x, row[:3]) for x, row in zip(axis, IDENTITY)]
         return functools.reduce(product, (about[i] for i in order))
     return turn
 
@@ -39,8 +31,15 @@ class Habit:
     order: str = "right"            # on which side of the matrix a transform is multiplied: right, left, or
     #                                 left if it is a rotation
     stack: str = "nested"           # what push and pop do
-    turn: object = turned           # makes a matrix of an angle in degrees and an axis
+    radians: object = math.radians  # of degrees
+    axis: object = normalized       # what becomes of the axis of a rotation
+    form: object = rotation         # makes a matrix of radians and an axis
+    after: object = tuple           # what becomes of that matrix
     offset: str = ""                # added, put: what becomes of the matrix's last column at `translate`
+
+    def turn(self, degrees, axis):
+        """The matrix of a rotation."""
+        return self.after(self.form(self.radians(degrees), self.axis(axis)))
 
     def moved(self, matrix, made, keyword):
         """The matrix after a command for which one was made."""
@@ -66,22 +65,21 @@ MODEL_MISTAKES = {
         for empty in ("stay", "identity")] + [Habit(stack="one count")],
     "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")],
     "pop-takes-one-transform": [Habit(stack="one transform"), Habit(stack="one transform, push saves none")],
-    "axis-not-normalized": [Habit(turn=lambda degrees, axis: rotation(math.radians(degrees), axis))],
-    "angle-in-radians": [Habit(turn=lambda degrees, axis: rotation(degrees, normalized(axis)))],
-    "rotation-transposed": [Habit(turn=lambda degrees, axis: transposed(turned(degrees, axis)))],
+    "axis-not-normalized": [Habit(axis=tuple)],
+    "angle-in-radians": [Habit(radians=float)],
+    "rotation-transposed": [Habit(after=transposed)],
     "rotation-element-from-the-wrong-column": [
-        Habit(turn=lambda degrees, axis, row=row: with_wrong_element(turned(degrees, axis), row))
-        for row in range(3)],
-    "angle-negated": [Habit(turn=lambda degrees, axis: turned(-degrees, axis))],
+        Habit(after=functools.partial(with_wrong_element, row=row)) for row in range(3)],
+    "angle-negated": [Habit(radians=lambda degrees: math.radians(-degrees))],
     "translation-added": [Habit(offset="added"), Habit(offset="put")],
     "rotation-without-a-term": [
-        Habit(turn=lambda degrees, axis, factors=factors: turned(degrees, axis, factors))
+        Habit(form=functools.partial(rotation, factors=factors))
         for factors in (lambda c, s: (c, 1, s), lambda c, s: (c, 0, s), lambda c, s: (c, 1 - c, 0),
                         lambda c, s: (0, 1 - c, s))],
     "rotation-on-the-left": [Habit(order="left if a rotation")],
     "rotation-by-euler-angles": [
-        Habit(turn=by_euler_angles(order, is_unit))
-        for is_unit in (True, False) for order in itertools.permutations(range(3))],
+        Habit(form=by_euler_angles(order), axis=axis)
+        for axis in (normalized, tuple) for order in itertools.permutations(range(3))],
 }
 
 
@@ -152,9 +150,12 @@ def model_mistakes():
     return [(name, MODEL_MISTAKES[name]) for name in names_of("model") if name in MODEL_MISTAKES]
 
 
-def model_pairs():
-    """((name, name), Habit) for each two mistakes of model that change different things."""
-    for (a, (one, *_)), (b, (other, *_)) in itertools.combinations(model_mistakes(), 2):
-        changes = {key: value for key, value in vars(other).items() if value != getattr(RIGHT, key)}
-        if all(getattr(one, key) == getattr(RIGHT, key) for key in changes):
-            yield (a, b), dataclasses.replace(one, **changes)
+def model_pairs(triangle_count):
+    """((name, name), Habit) for each two mistakes of model that change different things, in all their ways if
+    there are not MANY triangles."""
+    chosen = slice(1 if triangle_count > MANY else None)
+    for (a, ones), (b, others) in itertools.combinations(model_mistakes(), 2):
+        for one, other in itertools.product(ones[chosen], others[chosen]):
+            changes = {key: value for key, value in vars(other).items() if value != getattr(RIGHT, key)}
+            if all(getattr(one, key) == getattr(RIGHT, key) for key in changes):
+                yield (a, b), dataclasses.replace(one, **changes)

@@ -15,7 +15,7 @@ OPEN_DEPTHS = [
     {"depth": "between ends", "clamp": 0}, {"depth": "from left"}, {"depth": "from left", "clamp": 0}]
 # mistakes that draw nothing, most of them in many scenes alone
 BLANK = ("starts-at-zero", "one-winding", "no-depth-passes", "black-picture")
-MOST_PAIRS = 3  # of mistakes that explain the same, before none is named
+MOST_PAIRS = 4  # of mistakes that explain the same, before none is named
 
 # {mistake, or several at once: the ways to make it, in the order to try}. A way that does less than the
 # mistake's sentence says comes after all others.

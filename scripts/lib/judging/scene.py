@@ -30,12 +30,12 @@ class Scene:
 
     def world(self, habit=model_habits.RIGHT):
         """The points after model with their slacks, one by one."""
-        stack, turn = model_habits.Stack(habit.stack), habit.turn
+        stack = model_habits.Stack(habit.stack)
         for command in self.commands:
             keyword = command.keyword
             if keyword in TRANSFORMS:
                 numbers = tuple(map(float, command.arguments[0]))
-                made = turn(numbers[0], numbers[1:]) if keyword == "rotate" else (
+                made = habit.turn(numbers[0], numbers[1:]) if keyword == "rotate" else (
                     translation if keyword == "translate" else scaling)(numbers)
                 stack.moved_to(habit.moved(stack.matrix, made, keyword))
             elif keyword == "triangle":
@@ -62,11 +62,13 @@ class Scene:
 
     def of_project(self, mistake="", pi=math.pi, spelling=0):
         """The matrix of project; None if the mistake cannot be made with this projection."""
-        if mistake == "matrix-transposed":
-            return transposed(self.of_project())
-        if mistake == "depth-from-0-to-1":
-            x_row, y_row, z_row, w_row = self.of_project()
-            return x_row, y_row, tuple((z + w) / 2 for z, w in zip(z_row, w_row)), w_row
+        mistakes = mistake.split()
+        for word in [word for word in ("matrix-transposed", "depth-from-0-to-1") if word in mistakes]:
+            m = self.of_project(" ".join(other for other in mistakes if other != word), pi, spelling)
+            if m and word == "depth-from-0-to-1":
+                z_row = tuple((z + w) / 2 for z, w in zip(m[2], self.of_project()[3]))
+                return *m[:2], z_row, m[3]
+            return m and transposed(m)
         kind = self.projection
         if kind.kind == "perspective":
             return perspective_matrix(*map(float, kind.numbers), kind.aspect_rule == "ratio", mistake, pi,
@@ -74,7 +76,7 @@ class Scene:
         exact = tuple(tuple(map(float, row)) for row in kind.matrix())
         if mistake in ("", "no-divide"):
             return exact
-        if kind.is_parallel or not {*mistake.split()} <= {*OF_FRUSTUMS}:
+        if kind.is_parallel or not {*mistakes} <= {*OF_FRUSTUMS}:
             return None
         window = (exact[0][0], exact[0][2], exact[1][1], exact[1][2])
         return projection_matrix(window, float(kind.near), float(kind.far), mistake)

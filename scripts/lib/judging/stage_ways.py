@@ -6,7 +6,7 @@ import math
 from lib.judging import fit, rows
 from lib.judging.matrices import IDENTITY, ROUNDING, image, slack
 from lib.judging.matrix_mistakes import UNCHANGED, changed_elements, listed, other_forms, pairs
-from lib.judging.model_habits import RIGHT, ROUGH_PIS, Habit, model_mistakes, model_pairs, turned_with
+from lib.judging.model_habits import RIGHT, ROUGH_PIS, Habit, model_mistakes, model_pairs
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.scene import NO_UNITS
 from lib.judging.verdict import Cause, cause_of, cause_of_all
@@ -56,7 +56,8 @@ class ModelWays:
             right.cause, lambda part: [[(p, slacks) for p, (_, slacks) in zip(exact_world, images)][part]
                                        for images in right.images(ALL)], lambda: exact_world)
         self.right = [with_exact_points, *(
-            self.way(Cause("", PI.format(pi)), Habit(turn=turned_with(pi))) for pi in ROUGH_PIS)]
+            self.way(Cause("", PI.format(pi)), Habit(radians=lambda degrees, pi=pi: degrees * pi / 180))
+            for pi in ROUGH_PIS)]
 
     def way(self, cause, habit):
         def images(part):
@@ -79,7 +80,8 @@ class ModelWays:
 
     def several(self):
         """(Ways, how many of them may fit before none counts)."""
-        yield (self.way(cause_of_all("model", pair), habit) for pair, habit in model_pairs()), MOST_PAIRS
+        found = model_pairs(len(self.scene_lines))
+        yield (self.way(cause_of_all("model", pair), habit) for pair, habit in found), MOST_PAIRS
 
     def with_details(self, causes, result):
         return [*causes[:-1], *(dataclasses.replace(cause, detail=self.place(result) if cause.name else "")
