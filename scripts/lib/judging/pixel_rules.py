@@ -26,10 +26,10 @@ WAYS = {
     "shifted-by-a-column": [
         {"shift": (step, 0), "is_cut_first": is_cut} for step in (1, -1) for is_cut in (True, False)],
     "shifted-by-a-row": [{"shift": (0, step)} for step in (1, -1)],
-    "column-short": [{"column_more": -1}],
+    "column-short": [{"column_more": -1}, {"columns_before": -1}],
     "row-short": [{"row_short": True}],
     "column-short row-short": [{"column_more": -1, "row_short": True}],
-    "column-long": [{"column_more": 1}],
+    "column-long": [{"column_more": 1}, {"columns_before": 1}],
     "row-long": [{"row_long": True}],
     "min-for-max": [{"columns": columns} for columns in COLUMNS if columns],
     "width-minus-one": [{"is_one_less": True}],

@@ -64,7 +64,8 @@ class Rule:
     half: str = ""                # upper, lower: what is drawn of a triangle
     ends_z: str = ""              # as met: edge by edge, not from left to right; exchanged
     starts_at_zero: bool = False
-    column_more: int = 0          # how many columns the ends of rows lie farther to the right
+    column_more: int = 0          # how many columns rows have too many at their right ends
+    columns_before: int = 0       # and at their left ends
     row_short: bool = False
     row_long: bool = False
     columns: str = ""             # one of COLUMNS, where min stands for max
@@ -274,7 +275,7 @@ def ends_of(span, rule, width, slack=0.0):
         first, last = max(first, 0), min(last, width - 1)
     if rule.columns:
         first, last = COLUMNS[rule.columns](first, last, width - 1)
-    return first + rule.shift[0], last + rule.column_more + rule.shift[0]
+    return first - rule.columns_before + rule.shift[0], last + rule.column_more + rule.shift[0]
 
 
 def depth_line(span, rule, width):
