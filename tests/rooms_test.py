@@ -39,15 +39,15 @@ def wrong_includes(root, arrows, prefix):
     """A line for every include that no arrow allows."""
     return [
         f"{path.relative_to(root)} includes {room}/{name}, but there is no arrow {path.parent.name} "
-        f"-> {room}"
-        for path in sources(root)
+        f"-> {room}" for path in sources(root)
         for room, name in re.findall(INCLUDE.format(prefix), path.read_text(), re.MULTILINE)
         if room != path.parent.name and room not in arrows.get(path.parent.name, ())]
 
 
 def python_files(root):
-    return sorted(path for path in root.rglob("*") if path.suffix == ".py" or not path.suffix
-                  and path.is_file() and path.read_bytes().startswith(b"#!/usr/bin/env python3"))
+    return sorted(
+        path for path in root.rglob("*") if path.suffix == ".py"
+        or not path.suffix and path.is_file() and path.read_bytes().startswith(b"#!/usr/bin/env python3"))
 
 
 def imported_folders(path, root):
@@ -129,8 +129,10 @@ class Rooms(unittest.TestCase):
             self.assertNotRegex(path.read_text(), r'#\s*include\s+["<](?:tools/|CLI/)', str(path))
 
     def test_the_map_names_every_file_in_its_room_and_no_other(self):
-        self.assertEqual(named_files(MAP), {
-            room: {path.stem for path in sources(LIBRARY / room)} for room in arrows_of(MAP)})
+        self.assertEqual(named_files(MAP),
+                         {room: {path.stem
+                                 for path in sources(LIBRARY / room)}
+                          for room in arrows_of(MAP)})
 
     def test_maps_fit_into_120_columns(self):
         for text in (MAP, TOOLS_MAP, SCRIPTS_MAP, (SOURCE / "tests/README.md").read_text()):
@@ -146,8 +148,11 @@ class ToolRooms(unittest.TestCase):
         self.assertEqual(wrong_includes(TOOLS, arrows_of(TOOLS_MAP), "tools"), [])
 
     def test_the_map_names_every_file_in_its_room_and_no_other(self):
-        self.assertEqual(named_files(TOOLS_MAP), {
-            room: {path.stem for path in sources(TOOLS / room)} for room in arrows_of(TOOLS_MAP)})
+        self.assertEqual(
+            named_files(TOOLS_MAP),
+            {room: {path.stem
+                    for path in sources(TOOLS / room)}
+             for room in arrows_of(TOOLS_MAP)})
         self.assertEqual([path.name for path in sources(TOOLS) if path.parent == TOOLS], [])
 
 
@@ -168,7 +173,6 @@ class ScriptRooms(unittest.TestCase):
 
 class Tests(unittest.TestCase):
     """The map of tests."""
-
     def test_the_map_names_every_folder_and_no_other(self):
         rows = (SOURCE / "tests/README.md").read_text().split("\n\n")[2]
         named = re.findall(r"`(\w+)`", "".join(re.findall(r"^- ([^:]*):", rows, re.MULTILINE)))
@@ -178,10 +182,11 @@ class Tests(unittest.TestCase):
 
 class Invariants(unittest.TestCase):
     """The map's promises about the whole code, as far as a text search can check them."""
-
     def assert_only_in(self, pattern, roots, allowed):
-        found = {str(path.relative_to(SOURCE)) for root in roots for path in sources(SOURCE / root)
-                 if re.search(pattern, re.sub(r"//[^\n]*", "", path.read_text()))}
+        found = {
+            str(path.relative_to(SOURCE))
+            for root in roots for path in sources(SOURCE / root)
+            if re.search(pattern, re.sub(r"//[^\n]*", "", path.read_text()))}
         self.assertEqual(found, set(allowed))
 
     def test_nothing_but_tools_writes_to_stderr(self):
@@ -215,9 +220,8 @@ class Invariants(unittest.TestCase):
 
 class Promises(unittest.TestCase):
     def test_every_test_and_file_the_map_names_is_there(self):
-        tests = "\n".join(path.read_text()
-                          for path in (SOURCE / "tests").rglob("*")
-                          if path.suffix in (".cpp", ".txt"))
+        tests = "\n".join(
+            path.read_text() for path in (SOURCE / "tests").rglob("*") if path.suffix in (".cpp", ".txt"))
         for suite, name in re.findall(r"`(\w+)\.(\w+)`",
                                       MAP[MAP.index("## What always holds"):MAP.index("## Public headers")]):
             form = (rf"tools_test\({name} |\bTools\.{name} "

@@ -15,7 +15,6 @@ import unittest
 
 class Program(unittest.TestProgram):
     """Replaces unittest.main."""
-
     def runTests(self):  # noqa: N802
         self.exit = False
         super().runTests()

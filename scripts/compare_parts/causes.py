@@ -9,7 +9,7 @@ from lib.judging.stage_judge import StageJudge
 from lib.judging.stage_ways import Reading, exact_images
 from lib.running.pipe_tools import Tools
 
-UNIT = 1e-7   # in the last of 7 decimals
+UNIT = 1e-7  # in the last of 7 decimals
 CLOSE = 2e-6  # for numbers calculated from numbers that were printed with 7 decimals
 LEAST_FACTOR = 1e-4  # off 1, that is no rounding
 ROUNDING = "all differences are of one unit in the last decimal: rounding"
@@ -27,8 +27,7 @@ def hint_of_numbers(theirs, ours):
 def hint_of_factors(theirs, ours):
     factors = [factor_of([p[axis] for p in theirs], [q[axis] for q in ours]) for axis in range(3)]
     is_scaled = all(
-        abs(a - k * b) <= CLOSE * max(1.0, abs(a))
-        for p, q in zip(theirs, ours)
+        abs(a - k * b) <= CLOSE * max(1.0, abs(a)) for p, q in zip(theirs, ours)
         for a, b, k in zip(p, q, factors))
     if not is_scaled or all(abs(k - 1) < LEAST_FACTOR for k in factors):
         return None
@@ -50,8 +49,7 @@ def judged(scene, theirs, ours):
     judge = StageJudge(reference.scene, reference.world)
     ours, theirs = read_points(*ours), read_points(*theirs)
     verdicts = [
-        verdict_of("theirs", theirs)
-        for verdict_of in stages(reference, judge)
+        verdict_of("theirs", theirs) for verdict_of in stages(reference, judge)
         if verdict_of("ours", ours).is_good]
     return next((verdict for verdict in verdicts if verdict.causes), verdicts[0] if verdicts else None)
 

@@ -136,8 +136,7 @@ def compare_z_buffers(a, b, tolerance):
     result = Differences("depths", tolerance)
     if len(a) != len(b):
         result.unlike.append(f"{len(a)} and {len(b)} rows")
-    uneven = [(row, len(line_a), len(line_b))
-              for row, (line_a, line_b) in enumerate(zip(a, b))
+    uneven = [(row, len(line_a), len(line_b)) for row, (line_a, line_b) in enumerate(zip(a, b))
               if len(line_a) != len(line_b)]
     if uneven:
         row, count_a, count_b = uneven[0]

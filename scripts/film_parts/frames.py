@@ -42,8 +42,8 @@ def is_whole(path):
     """Whether it is a PNG file whose chunks all have their checksums, to the last."""
     data = pathlib.Path(path).read_bytes() if os.path.isfile(path) else b""
     chunks = list(png_chunks(data))
-    return chunks[-1:] == [(b"IEND", b"")] and data == PNG_SIGNATURE + b"".join(
-        itertools.starmap(png_chunk, chunks))
+    return chunks[-1:] == [
+        (b"IEND", b"")] and data == PNG_SIGNATURE + b"".join(itertools.starmap(png_chunk, chunks))
 
 
 def words_of(vector):
@@ -78,8 +78,10 @@ class Frames:
             where = shown(self.folder.path)
             raise CommandFailure(f"expected no {foreign[0]} in {where} that film has not drawn")
         self.folder.remove_others({*self.names, *(f"{name}.log" for name in self.names)}.__contains__)
-        stale = {name for name, line in drawn.items() if former_source != source or
-                 cameras.get(name) != line or not is_whole(self.folder / name)}
+        stale = {
+            name
+            for name, line in drawn.items()
+            if former_source != source or cameras.get(name) != line or not is_whole(self.folder / name)}
         self.folder.remove_files(stale.__contains__)
         self.folder.write("world.txt", self.scene.world)
         self.folder.write("config.txt", self.scene.config)
@@ -118,8 +120,10 @@ class Frames:
         user behind the last frame are not taken."""
         made = "film" + pathlib.Path(path).suffix
         self.folder.remove_others(made.__eq__)
-        words = ["ffmpeg", "-loglevel", "error", "-y", "-framerate", number(fps), "-i", "%05d.png",
-                 "-frames:v", str(len(self.names))]
+        words = [
+            "ffmpeg", "-loglevel", "error", "-y", "-framerate",
+            number(fps), "-i", "%05d.png", "-frames:v",
+            str(len(self.names))]
         if not path.lower().endswith(".gif"):
             words += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
         done = subprocess.run([*words, made], cwd=self.folder.path, stdin=subprocess.DEVNULL,

@@ -43,10 +43,8 @@ def read_path(data, path):
             numbers = []
         if len(numbers) not in (10, 11) or not all(map(math.isfinite, numbers)):
             raise CommandFailure(
-                place +
-                f"expected the time, eye, look and up, and perhaps fovY: 10 or 11 numbers, found "
-                f"'{' '.join(words)[:60]}'"
-            )
+                place + f"expected the time, eye, look and up, and perhaps fovY: 10 or 11 numbers, found "
+                f"'{' '.join(words)[:60]}'")
         camera = Camera(tuple(numbers[1:4]), tuple(numbers[4:7]), tuple(numbers[7:10]),
                         numbers[10] if len(numbers) == 11 else None)
         if camera.fov_y is not None and not 0 < camera.fov_y < 180:
@@ -110,7 +108,6 @@ def cameras_of(keys, fps, linear):
         if not is_usable(camera) or not (camera.fov_y is None or 0 < camera.fov_y < 180):
             raise CommandFailure(
                 f"at {time:g} s the way between the cameras leads through one that shows nothing: add a key "
-                f"there, or take --linear"
-            )
+                f"there, or take --linear")
         cameras.append(Camera(camera.eye, camera.look, normalized(camera.up), camera.fov_y))
     return cameras

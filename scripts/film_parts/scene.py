@@ -14,7 +14,6 @@ from lib.text.stage_text import header_of, text_of
 
 class Scene:
     """`world` is the text of model, in world space; `config` the screen's."""
-
     def __init__(self, tools, path, config):
         with tempfile.TemporaryDirectory() as folder:
             stats = pathlib.Path(folder, "stats.txt")

@@ -21,8 +21,7 @@ class Ball:
         lines = model_text.splitlines(keepends=True)
         points = [point_of(line) for _, corners in triangle_lines(lines) for line in corners]
         spheres = [
-            Ball.of_sphere(*map(point_of, lines[at + 1:at + 5]))
-            for at, line in enumerate(lines)
+            Ball.of_sphere(*map(point_of, lines[at + 1:at + 5])) for at, line in enumerate(lines)
             if line == b"sphere\n"]
         reach = points + [
             tuple(x + sign * sphere.radius for x in sphere.center) for sphere in spheres for sign in (-1, 1)]

@@ -25,7 +25,6 @@ def write_all(descriptor, data):
 
 class MemoryFile:
     """A file without a name, in memory."""
-
     def __init__(self):
         self.descriptor = os.memfd_create("stage")
 
@@ -45,16 +44,15 @@ class MemoryFile:
 
 @dataclasses.dataclass
 class Stage:
-    words: list = None      # its last arguments, and
-    source: object = None   # the MemoryFile it read
+    words: list = None  # its last arguments, and
+    source: object = None  # the MemoryFile it read
     output: object = None
-    seconds: float = None   # of processor time; None if the last frame reused its output
-    notes: tuple = ()       # on stderr
+    seconds: float = None  # of processor time; None if the last frame reused its output
+    notes: tuple = ()  # on stderr
 
 
 class Copy:
     """Passes on what a stage writes, and keeps it as the `output`."""
-
     def __init__(self, source):
         self.output, self.source = MemoryFile(), source
         reader, self.sink = os.pipe()
@@ -72,7 +70,6 @@ class Copy:
 
 class FramePipe:
     """`is_traced` puts trace in place of project and zbuf."""
-
     def __init__(self, tools, scene, is_traced=False):
         self.tools = tools
         self.names = TRACING if is_traced else RASTERIZING

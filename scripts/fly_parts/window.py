@@ -39,13 +39,13 @@ NAMED_KEYS = (*TURNS, "Home", "Escape")
 LIGHT_MOVES = {
     "i": (0, 0, -1), "k": (0, 0, 1), "j": (-1, 0, 0), "l": (1, 0, 0), "u": (0, 1, 0), "o": (0, -1, 0)}
 SHADINGS = {"1": "none", "2": "flat", "3": "gouraud", "4": "phong"}
-ORBIT = math.radians(0.4)    # for each pixel of a drag
+ORBIT = math.radians(0.4)  # for each pixel of a drag
 WHEEL_BUTTONS = {4: 1, 5: -1}  # of X11; other systems have an event of their own
 COLORS = {"foreground": "#e8e8e8", "background": "#202020"}
 SLOW_SECONDS = 0.05  # a frame that takes longer is drawn small first
-SMALL = 4            # how many times smaller
-SIGNAL_MS = 200      # between two checks for a signal
-REST_MS = 150        # without a key, until the full-size frame is drawn
+SMALL = 4  # how many times smaller
+SIGNAL_MS = 200  # between two checks for a signal
+REST_MS = 150  # without a key, until the full-size frame is drawn
 
 
 @dataclasses.dataclass(frozen=True)
@@ -79,8 +79,8 @@ class Settings:
 
 def keys_of(is_traced):
     """The list of keys, for trace without those that mean nothing to it."""
-    return "\n".join(line for line in KEYS.splitlines()
-                     if not is_traced or line.split()[0][0] not in NOT_TRACED)
+    return "\n".join(
+        line for line in KEYS.splitlines() if not is_traced or line.split()[0][0] not in NOT_TRACED)
 
 
 def narrowed(projection, factor):
@@ -334,7 +334,7 @@ class FlyWindow:
         field = f"fovY {words[0]}" if kind == "perspective" else kind
         return "   ".join([
             "h: keys", *(f"{name} {' '.join(f'{round(float(x), places) + 0.0:.6g}' for x in place)}"
-              for name, place in (("eye", eye), ("look", look))), field])
+                         for name, place in (("eye", eye), ("look", look))), field])
 
     def way_back(self):
         ball = self.pipe.ball()

@@ -39,9 +39,9 @@ class Program:
 class Settings:
     """The settings of assignment.txt; without it, as here."""
     hints: str = "cause"
-    points: dict = dataclasses.field(default_factory=dict)   # by the kind of a file
+    points: dict = dataclasses.field(default_factory=dict)  # by the kind of a file
     weights: dict = dataclasses.field(default_factory=dict)  # by the name of a test
-    another_rule: float = 1.0   # what a file is worth that is right by another rule
+    another_rule: float = 1.0  # what a file is worth that is right by another rule
     required: list = dataclasses.field(default_factory=list)  # kinds without which a test earns nothing
     program: Program = None
 
@@ -51,8 +51,8 @@ class Test:
     name: str
     weight: float
     reference: Reference
-    kinds: list     # of the files that are judged
-    picture: list   # rows of bytes of the right picture; None without a config
+    kinds: list  # of the files that are judged
+    picture: list  # rows of bytes of the right picture; None without a config
     settings: Settings
     given: tuple = ()  # what a program reads, and the same as bare text
 
@@ -73,16 +73,16 @@ class Test:
             return 0.0
         if len(good) == len(self.kinds) and not any(file.rule for file in files):
             return self.max_score
-        return sum(self.share(kind) * (self.settings.another_rule if file.rule else 1)
-                   for kind, file in good.items())
+        return sum(
+            self.share(kind) * (self.settings.another_rule if file.rule else 1)
+            for kind, file in good.items())
 
 
 def read_tests(folder):
     """The Tests in the folders of a folder, sorted by name, and the Settings."""
     try:
-        names = sorted(entry.name
-                       for entry in os.scandir(folder)
-                       if entry.is_dir() and not entry.name.startswith("."))
+        names = sorted(
+            entry.name for entry in os.scandir(folder) if entry.is_dir() and not entry.name.startswith("."))
     except OSError as error:
         raise InputError(folder, error.strerror) from None
     if not names:
@@ -181,8 +181,7 @@ def holds_tests(folder):
     """Whether there are folders in this folder, and each has a scene, which no hand-in needs."""
     try:
         have_scenes = [
-            os.path.isfile(os.path.join(entry.path, "scene.txt"))
-            for entry in os.scandir(folder)
+            os.path.isfile(os.path.join(entry.path, "scene.txt")) for entry in os.scandir(folder)
             if entry.is_dir()]
     except OSError:
         return False  # what is wrong with it shows when it is read
@@ -206,8 +205,8 @@ def read_test(folder, name, settings):
     if not kinds:
         raise CommandFailure(f"{shown(folder)}: expected a config.txt, which zbuf needs, found none")
     given = input_of(program.stage, without_comments(scene), Tools(), program.is_bare) if program else ()
-    return Test(name, weight, reference, kinds, right_picture(reference) if "picture" in kinds else None,
-                settings, given)
+    return Test(name, weight, reference, kinds,
+                right_picture(reference) if "picture" in kinds else None, settings, given)
 
 
 def optional(path):

@@ -10,10 +10,10 @@ import zipfile
 from lib.rim.command import shown
 
 MOST_FILES = 20_000
-LONGEST_NAME = 200          # as a remark has it
-MOST_DEPTH = 12             # folders inside each other
-MOST_BYTES = 1 << 28        # of an archive, and of what a compressed tar swells to
-MOST_ARCHIVES = 4           # in a hand-in
+LONGEST_NAME = 200  # as a remark has it
+MOST_DEPTH = 12  # folders inside each other
+MOST_BYTES = 1 << 28  # of an archive, and of what a compressed tar swells to
+MOST_ARCHIVES = 4  # in a hand-in
 SUFFIXES = (".zip", ".tar", ".tar.gz", ".tgz")
 UNREAD = (".rar", ".7z", ".tar.xz", ".txz", ".tar.bz2", ".tbz2", ".tar.zst")  # archives, but not read
 OTHERS = {  # how they begin
@@ -27,15 +27,15 @@ class ContentsError(Exception):
 
 
 def without_suffix(name):
-    return next((name[:-len(suffix)]
-                 for suffix in (*SUFFIXES, *UNREAD)
-                 if name.lower().endswith(suffix) and len(name) > len(suffix)), name)
+    return next(
+        (name[:-len(suffix)]
+         for suffix in (*SUFFIXES, *UNREAD) if name.lower().endswith(suffix) and len(name) > len(suffix)),
+        name)
 
 
 class Contents:
     """The regular files, as `paths` of tuples of names; `remarks` list what else there was. An
     archive among them, as Moodle hands them out, is looked into, but none in that."""
-
     def __init__(self):
         self.files, self.skipped, self.inner, self.failed = {}, {}, {}, []
 
@@ -96,8 +96,8 @@ def check_count(count):
 def parts_of(name):
     """The path of an archive's member; empty if it is absolute."""
     name = name.replace("\\", "/")
-    return () if name.startswith("/") or name[1:3] == ":/" else tuple(part for part in name.split("/")
-                                                                      if part not in ("", "."))
+    return () if name.startswith("/") or name[1:3] == ":/" else tuple(
+        part for part in name.split("/") if part not in ("", "."))
 
 
 class FolderContents(Contents):

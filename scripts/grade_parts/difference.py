@@ -57,8 +57,7 @@ def pictures(test, files, verdict):
         return []
     step = max(1, -(-len(shape[0]) // 3 // MOST_COLUMNS))
     found = [(caption, smaller(rows, step))
-             for caption, rows in (("The scene, right", test.picture), ("Yours", theirs))
-             if rows]
+             for caption, rows in (("The scene, right", test.picture), ("Yours", theirs)) if rows]
     wrong = [file for file in verdict.of("zbuf") if not file.is_good and file.places]
     if wrong:
         marks = [(file.places, RED if file in picture else ORANGE)

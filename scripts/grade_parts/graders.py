@@ -40,9 +40,9 @@ class GradedTest:
     score: float
     max_score: float
     verdict: Verdict
-    words: str       # for the student, with as much as the hints give away
+    words: str  # for the student, with as much as the hints give away
     fixes: list
-    pictures: list   # of (caption, data: URI)
+    pictures: list  # of (caption, data: URI)
     by_teacher: str = ""  # what a line of the overrides has changed or said
 
 
@@ -60,8 +60,7 @@ class Graded:
 
     @property
     def is_judged(self):
-        return not self.failure and not any(file.verdict in OPEN
-                                            for test in self.tests
+        return not self.failure and not any(file.verdict in OPEN for test in self.tests
                                             for file in test.verdict.files)
 
 
@@ -108,8 +107,9 @@ def grade(path, tests, level, limits, keep):
     for test in tests:
         try:
             with processor_seconds(limits.seconds):
-                files, verdict, remark = next(of_program) if of_program else (
-                    judge_files(contents, test, len(tests) == 1))
+                files, verdict, remark = next(of_program) if of_program else (judge_files(
+                    contents, test,
+                    len(tests) == 1))
                 made = graded_test(test, files, verdict, level, graded.wrong)
                 if any(file.stage == "zbuf" and file.causes for file in verdict.files):
                     accused[len(graded.tests)] = test, files
@@ -189,8 +189,8 @@ def work(connection, path, tests, level, limits, scratch, pipe):
     end_with_writers_of(*pipe)
     tempfile.tempdir = scratch
     most = limits.mebibytes * MEBIBYTE  # a program that is run has limits of its own
-    resource.setrlimit(resource.RLIMIT_AS, (
-        most, resource.getrlimit(resource.RLIMIT_AS)[1] if limits.program else most))
+    resource.setrlimit(resource.RLIMIT_AS,
+                       (most, resource.getrlimit(resource.RLIMIT_AS)[1] if limits.program else most))
     resource.setrlimit(resource.RLIMIT_FSIZE, (LARGEST_FILE,) * 2)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
@@ -208,7 +208,6 @@ def work(connection, path, tests, level, limits, scratch, pipe):
 
 class Running:
     """The process of one hand-in, with a folder for what its tools write."""
-
     def __init__(self, path, tests, level, limits, user):
         context = multiprocessing.get_context("fork")  # what is right has been calculated once, for all
         self.tests, self.limits, self.user, self.start = tests, limits, user, time.time()

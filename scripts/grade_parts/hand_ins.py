@@ -13,30 +13,27 @@ LONGEST_LABEL = 60
 # How a folder may be named after a test, the first that any folder is: by its name, by that in other letters,
 # or by its number alone.
 SHORT, LONG = r"(?:test|scene|case|task|sample)?(\d+)", r"(\d+).*"
-NAMINGS = (
-    lambda name, test: name == test, lambda name, test: plain(name) == plain(test),
-    lambda name, test: number_of(name, SHORT) == number_of(test, LONG))
+NAMINGS = (lambda name, test: name == test, lambda name, test: plain(name) == plain(test),
+           lambda name, test: number_of(name, SHORT) == number_of(test, LONG))
 
 
 @dataclasses.dataclass
 class HandIn:
     path: str
-    name: str       # as shown; the number if hand-ins have no names
+    name: str  # as shown; the number if hand-ins have no names
     number: int
-    folder: str     # of its results
+    folder: str  # of its results
 
 
 def find_hand_ins(folder, is_anonymous):
     """The HandIns of a folder, sorted by name, and the names of files that are none. Anonymous ones are
     numbered in an order that does not tell their names' order, the same in every run."""
     try:
-        entries = [(entry.name, entry.is_dir(follow_symlinks=False))
-                   for entry in os.scandir(folder)
+        entries = [(entry.name, entry.is_dir(follow_symlinks=False)) for entry in os.scandir(folder)
                    if not entry.name.startswith(".")]
     except OSError as error:
         raise InputError(folder, error.strerror) from None
-    names = [name for name, is_folder in entries
-             if is_folder or name.lower().endswith((*SUFFIXES, *UNREAD))]
+    names = [name for name, is_folder in entries if is_folder or name.lower().endswith((*SUFFIXES, *UNREAD))]
     others = sorted(shown(name) for name, _ in entries if name not in set(names))
     names.sort(key=(lambda name: hashlib.sha256(os.fsencode(name)).digest()) if is_anonymous else os.fsencode)
     width = len(str(len(names)))
@@ -90,8 +87,7 @@ def files_for(contents, test, is_only_test):
         paths = flat_files(contents.paths, test.name)
     return {
         kind: file_of(contents, paths, fitting, kind, test.reference.limit(kind))
-        for kind, fitting in fitting_names(paths).items()
-        if kind in test.kinds}
+        for kind, fitting in fitting_names(paths).items() if kind in test.kinds}
 
 
 def flat_files(paths, test_name):

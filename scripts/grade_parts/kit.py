@@ -16,7 +16,7 @@ from lib.rim.places import HERE, place
 from lib.rim.work_folder import WorkFolder
 from lib.running.pipe_tools import SOURCE, Tools
 
-TOP = "pipeline"      # the folder of a kit with what all kinds share, in the order of the source tree
+TOP = "pipeline"  # the folder of a kit with what all kinds share, in the order of the source tree
 ROOMS = ("grade_parts", "lib")
 TOOLS = ("model", "view", "project", "zbuf")
 OF_A_TEST = ("scene.txt", "config.txt", "weight.txt")
@@ -64,8 +64,9 @@ def write_kit(kind, folder, path):
         data = read_input(Tools().folder / name)
         files[f"{TOP}/build/release/bin/{name}"] = data, True
         if not runs_anywhere(data):
-            print(f"grade: note: {name} is no static program for Linux: the kit runs only where its "
-                  "libraries are", file=sys.stderr)
+            print(
+                f"grade: note: {name} is no static program for Linux: the kit runs only where its "
+                "libraries are", file=sys.stderr)
     files.update(kind.files(settings))
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:

@@ -12,8 +12,9 @@ from grade_parts.results import words_of
 from lib.rim.command import CommandFailure, shown
 
 WORDS = "Judges the student's checkout, the current folder, and writes result.json and release-body.md there."
-FROM_ENVIRONMENT = {"classroom": "CLASSROOM", "assignment": "ASSIGNMENT", "submission": "SUBMISSION_TAG",
-                    "commit": "COMMIT_URL", "release": "RELEASE_URL"}
+FROM_ENVIRONMENT = {
+    "classroom": "CLASSROOM", "assignment": "ASSIGNMENT", "submission": "SUBMISSION_TAG",
+    "commit": "COMMIT_URL", "release": "RELEASE_URL"}
 MOST_PARTS = 10_000  # of a point: with more, points are rounded down, but all of a test are at least one
 RESULTS = ("result.json", "release-body.md")
 
@@ -28,8 +29,9 @@ def files(settings):
 
 def parts_of_a_point(tests):
     """The smallest number by which all that a file can be worth is whole."""
-    shares = [test.share(kind) * worth for test in tests for kind in test.kinds
-              for worth in (1, test.settings.another_rule)] + [test.max_score for test in tests]
+    shares = [
+        test.share(kind) * worth for test in tests for kind in test.kinds
+        for worth in (1, test.settings.another_rule)] + [test.max_score for test in tests]
     parts = math.lcm(*(fractions.Fraction(share).limit_denominator(1000).denominator for share in shares))
     return min(parts, MOST_PARTS)
 
@@ -43,18 +45,18 @@ def result(graded, tests, environment, now):
 
     scores = {test.name: (test.score, words_of(test)) for test in graded.tests}
     rows = [{
-        "test-name": shown(test.name), "passed": whole(score, test) == whole(test.max_score, test),
-        "score": whole(score, test), "max-score": whole(test.max_score, test), "output": words}
-        for test in tests for score, words in [scores.get(test.name, (0.0, graded.failure))]]
+        "test-name": shown(test.name), "passed": whole(
+            score, test) == whole(test.max_score, test), "score": whole(score, test), "max-score": whole(
+                test.max_score, test), "output": words} for test in tests
+            for score, words in [scores.get(test.name, (0.0, graded.failure))]]
     missing = [name for name in FROM_ENVIRONMENT.values() if not environment.get(name)]
     if missing:
         raise CommandFailure(f"expected {', '.join(missing)} in the environment, as Classroom 50 sets them")
     identity = {field: environment[name] for field, name in FROM_ENVIRONMENT.items()}
     return {
-        "schema": "classroom50/result/v1", **identity,
-        "review": environment.get("REVIEW_URL") or identity["commit"],
-        "datetime": now.strftime("%Y-%m-%dT%H:%M:%SZ"), "score": sum(row["score"] for row in rows),
-        "max-score": sum(row["max-score"] for row in rows), "tests": rows}
+        "schema": "classroom50/result/v1", **identity, "review": environment.get("REVIEW_URL")
+        or identity["commit"], "datetime": now.strftime("%Y-%m-%dT%H:%M:%SZ"), "score": sum(
+            row["score"] for row in rows), "max-score": sum(row["max-score"] for row in rows), "tests": rows}
 
 
 def body(graded, made):

@@ -24,8 +24,9 @@ def files(settings):
     needs = "true" if program and program.packages else "missing python3" + " bwrap" * bool(program)
     run = ENTRY.format(words=WORDS, place='"/autograder/source/pipeline/scripts"', kind="gradescope",
                        name="run_autograder")
-    return {"setup.sh": (SETUP.format(needs=needs, packages=" ".join(packages)).encode(), True),
-            "run_autograder": (run.encode(), True)}
+    return {
+        "setup.sh": (SETUP.format(needs=needs, packages=" ".join(packages)).encode(), True),
+        "run_autograder": (run.encode(), True)}
 
 
 def main():

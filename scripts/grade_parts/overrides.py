@@ -57,8 +57,8 @@ def whole(rows, path):
 def override(result, lines, tests):
     """Changes a Graded by its lines, and has it say so."""
     if not result.tests and any(test for test, _, _ in lines):
-        result.tests = [GradedTest(test.name, 0.0, test.max_score, Verdict([]), result.failure, [], [])
-                        for test in tests]
+        result.tests = [
+            GradedTest(test.name, 0.0, test.max_score, Verdict([]), result.failure, [], []) for test in tests]
     by_name = {test.name: test for test in result.tests}
     for name, points, comment in lines:
         said = f"Teacher: {comment}" if comment else "Teacher:"

@@ -43,8 +43,7 @@ def page(name, graded, level):
     """The HTML of a hand-in's page. `graded` is a grade_parts.graders.Graded."""
     lines = [
         f"<h1>{html.escape(name)} <span>{points(graded.score)} of {points(graded.max_score)} "
-        f"points</span></h1>"
-    ]
+        f"points</span></h1>"]
     lines += [
         f"<p>{html.escape(remark)}</p>".replace("\n", "<br>")
         for remark in ([graded.failure] if graded.failure else []) + graded.remarks]
@@ -56,10 +55,8 @@ def page(name, graded, level):
 
 
 def section(test, level):
-    yield (
-        f"<h2>{html.escape(test.name)} <span>{points(test.score)} of {points(test.max_score)} "
-        f"points</span></h2>"
-    )
+    yield (f"<h2>{html.escape(test.name)} <span>{points(test.score)} of {points(test.max_score)} "
+           f"points</span></h2>")
     if test.by_teacher:
         yield f'<p class="teacher">{html.escape(test.by_teacher)}</p>'
     yield f"<p>{html.escape(test.words)}</p>"
@@ -79,8 +76,7 @@ def section(test, level):
         if file.matrices:
             yield (
                 f"<p>The matrix of {file.stage}, from the points of {html.escape(file.file)}, and the right "
-                f"one:</p>"
-            )
+                f"one:</p>")
             yield matrices(file.matrices)
     for caption, uri, share in test.pictures:
         yield (f'<figure style="width: {30 * share:.4g}%"><img src="{uri}" alt="{caption}">'

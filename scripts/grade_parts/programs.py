@@ -25,7 +25,7 @@ FIRST_USER, USERS = 61184, 4336  # numbers that no package gives to a user, and 
 LOCAL = ("ext4", "xfs", "btrfs", "zfs", "overlay", "tmpfs", "devtmpfs", "mqueue", "f2fs")  # file systems
 DEPTH = 6  # of folders in one, in which those that all may write are looked for
 MOST_BYTES, MOST_FILES = 64 << 20, 500  # of a hand-in that is built
-MOST_LINES = 10                         # of a compiler's messages, as shown
+MOST_LINES = 10  # of a compiler's messages, as shown
 MEMORY, PROCESSES = 1024, 64
 
 
@@ -85,8 +85,9 @@ def expect_protection(hidden):
     box = protection(["true"], (), hidden, take_user())
     if box.user is not None:
         places_for_all()
-        print(f"no sandbox ({box.reason}): each program runs as a user of its own, with network, abstract "
-              "sockets and System V segments, which are removed after its run", flush=True)
+        print(
+            f"no sandbox ({box.reason}): each program runs as a user of its own, with network, abstract "
+            "sockets and System V segments, which are removed after its run", flush=True)
         os.umask(0o077)  # results of others show the right pictures
         if tempfile.tempdir:  # the command's own folder, in which they are to work
             os.chmod(tempfile.tempdir, 0o711)
@@ -99,9 +100,10 @@ def places_for_all():
     with open("/proc/self/mounts") as file:
         tops = {top for _, top, kind, *_ in map(str.split, file) if kind in LOCAL and os.path.isdir(top)}
     user = take_user()
-    return subprocess.run(["find", "/", *tops, "-xdev", "-maxdepth", str(DEPTH), "-type", "d", "-writable",
-                           "-print0"], capture_output=True, user=user, group=user, extra_groups=[],
-                          cwd="/").stdout.split(b"\0")[:-1]
+    return subprocess.run(
+        ["find", "/", *tops, "-xdev", "-maxdepth",
+         str(DEPTH), "-type", "d", "-writable", "-print0"], capture_output=True, user=user, group=user,
+        extra_groups=[], cwd="/").stdout.split(b"\0")[:-1]
 
 
 def remove_what_is_left(users, since):
@@ -110,10 +112,11 @@ def remove_what_is_left(users, since):
     theirs = [word for user in users for word in ("-o", "-uid", str(user))][1:]
     others = ["-uid", f"-{FIRST_USER}", "-o", "-uid", f"+{FIRST_USER + USERS - 1}"]
     # by -execdir, as a program may put links in place of folders; it takes only absolute ones on the PATH
-    subprocess.run(["find", *places_for_all(), "-mindepth", "1", "(", *theirs, ")", "-newerct", f"@{since}",
-                    "-prune", "-execdir", "rm", "-rf", "--", "{}", "+", "-o", "(", *others, ")", "-prune"],
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd="/",
-                   env={"PATH": os.pathsep.join(filter(os.path.isabs, os.get_exec_path()))})
+    subprocess.run([
+        "find", *places_for_all(), "-mindepth", "1", "(", *theirs, ")", "-newerct", f"@{since}", "-prune",
+        "-execdir", "rm", "-rf", "--", "{}", "+", "-o", "(", *others, ")", "-prune"],
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd="/", env={
+                       "PATH": os.pathsep.join(filter(os.path.isabs, os.get_exec_path()))})
     for kind in ("shm", "sem", "msg"):
         with open(f"/proc/sysvipc/{kind}") as file:
             names, *rows = map(str.split, file)
@@ -181,7 +184,6 @@ class Unusable(Exception):
 
 class Built:
     """A program that has been built in top/program/files. A `user` runs it, if there is no sandbox."""
-
     def __init__(self, contents, program, top, hidden, user):
         self.program, self.top, self.hidden, self.user = program, top, hidden, user
         self.start = time.time()
@@ -282,8 +284,9 @@ def verdicts(contents, tests, limits):
 
 def failure(test, reason):
     stage = test.settings.program.stage
-    return Verdict([FileVerdict(stage, KINDS[kind][0] if stage == "zbuf" else "stdout", WRONG,
-                                causes=[Cause("", reason)]) for kind in test.kinds])
+    return Verdict([
+        FileVerdict(stage, KINDS[kind][0] if stage == "zbuf" else "stdout", WRONG, causes=[Cause("", reason)])
+        for kind in test.kinds])
 
 
 def messages(errors):

@@ -46,9 +46,8 @@ def csv_of(graded, tests):
 def numbers_csv(hand_ins, names):
     """Which number is whose."""
     out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows([["number", "hand-in"],
-                                                    *([hand_in.number, cell(name)]
-                                                      for hand_in, name in zip(hand_ins, names))])
+    csv.writer(out, lineterminator="\n").writerows([[
+        "number", "hand-in"], *([hand_in.number, cell(name)] for hand_in, name in zip(hand_ins, names))])
     return out.getvalue().encode()
 
 

@@ -15,8 +15,8 @@ def equal_files(graded):
     for ((test, file), _), same in owners.items():
         for hand_in in same if len(same) > 1 else ():
             others = ", ".join(other.name for other in same if other is not hand_in)
-            remarks.setdefault(hand_in.number, []).append(
-                f"{shown(test)}: the wrong {file} is equal to that of {others}")
+            remarks.setdefault(hand_in.number,
+                               []).append(f"{shown(test)}: the wrong {file} is equal to that of {others}")
     return remarks
 
 
@@ -24,15 +24,16 @@ def findings(graded):
     """What a hand-in counts for: pairs of a stage and words, each once for all tests."""
     if graded.failure:
         yield "", graded.failure.rstrip(".")
-    tests = collections.Counter(pair for test in graded.tests for pair in {
-        (file.stage, cause.text) for file in test.verdict.files for cause in file.causes})
+    tests = collections.Counter(pair for test in graded.tests for pair in {(file.stage, cause.text)
+                                                                           for file in test.verdict.files
+                                                                           for cause in file.causes})
     for test in graded.tests:
         for file in test.verdict.files:
             if file.verdict == WRONG:  # of causes that one test cannot tell apart, those of most tests
                 most = max((tests[file.stage, cause.text] for cause in file.causes), default=0)
-                yield file.stage, "; or: ".join(cause.text.rstrip(".") for cause in file.causes
-                                                if tests[file.stage, cause.text] == most) or (
-                                                    "wrong, without a cause")
+                yield file.stage, "; or: ".join(
+                    cause.text.rstrip(".") for cause in file.causes
+                    if tests[file.stage, cause.text] == most) or ("wrong, without a cause")
             elif file.verdict in FAILED or file.verdict in OPEN:
                 yield file.stage, file.verdict
             elif file.rule:
@@ -48,10 +49,8 @@ def summary(graded):
     ] for (stage,
            words), count in sorted(counts.items(), key=lambda pair: (-pair[1], order[pair[0][0]], pair[0][1]))
             ]
-    full = sum(not result.failure and all(file.is_good
-                                          for test in result.tests
-                                          for file in test.verdict.files)
-               for _, result in graded)
+    full = sum(not result.failure and all(file.is_good for test in result.tests
+                                          for file in test.verdict.files) for _, result in graded)
     return [
         *(table(["hand-ins", "stage", "what"], rows) if rows else []), "",
         f"{len(graded)} hand-in{'' if len(graded) == 1 else 's'}, {full} right in all tests."]

@@ -11,7 +11,6 @@ MAX_EXPLAINED_TRIANGLES = 1000  # some milliseconds each
 class StagesOfPage:
     """Takes the place of lib.explaining.stages.Stages, for triangle `number` of an Inspection; `lossless` has
     the StageLines of model and view with all digits."""
-
     def __init__(self, inspection, lossless, number):
         self.settings, self.count = Settings(), inspection.count
         self.header = inspection.header
@@ -28,8 +27,7 @@ class StagesOfPage:
 def words_in(text, number):
     """The words of each piece of a triangle in a text, a StageLines."""
     return [
-        words_of(text.lines[line - 1:line + 2])
-        for name, line in zip(text.names, text.first_lines)
+        words_of(text.lines[line - 1:line + 2]) for name, line in zip(text.names, text.first_lines)
         if name == number]
 
 

@@ -20,7 +20,7 @@ from lib.text.stage_text import text_of
 MAX_DRAWN_TRIANGLES = 200000
 MAX_FRAGMENTS = 3000000
 MAX_FACETS = 20000  # of all spheres
-BELTS = 2, 16       # the fewest and the most of a sphere
+BELTS = 2, 16  # the fewest and the most of a sphere
 # Of the time for a large page how many per cent have passed at the end of each step.
 SHARES = {"model": 11, "view": 21, "project": 32, "zbuf": 48}
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
@@ -52,7 +52,6 @@ class Inspection:
     on, and zbuf reads what project printed; `names` are those of scene and config, as their user wrote them,
     and `progress` is a Progress of 100 steps.
     For spheres, project and zbuf get facets."""
-
     def __init__(self, tools, scene, config, names, is_traced, coverage, progress):
         self.tools, self.scene, self.config, self.is_traced = tools, scene, config, is_traced
         self.coverage, self.progress = coverage, progress
@@ -111,8 +110,8 @@ class Inspection:
         self.notes += notes_told(stderr)
         lines = self.thinned(read) if self.step > 1 else [(0, line) for line in read.lines]
         return {
-            "tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(read.names),
-            "missing": self.count - len(set(read.names)), "bytes": len(done.stdout),
+            "tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(
+                read.names), "missing": self.count - len(set(read.names)), "bytes": len(done.stdout),
             "statistics": self.statistics[tool], "text": "\n".join(line for _, line in lines),
             "numbers": packed("i", [number for number, _ in lines]) if self.step > 1 else None}
 
@@ -140,9 +139,9 @@ class Inspection:
         self.columns, self.rows, pixels = read_picture(image)
         text = z_buffer.read_text()
         self.stages.append({
-            "tool": "zbuf", "title": "pixels", "seconds": time_told(timed),
-            "triangles": len(self.lines["project"].names), "bytes": len(text),
-            "statistics": statistics(folder / "zbuf"), "text": text})
+            "tool": "zbuf", "title": "pixels", "seconds": time_told(timed), "triangles": len(
+                self.lines["project"].names), "bytes": len(text), "statistics": statistics(folder / "zbuf"),
+            "text": text})
         self.pixels = base64.b64encode(b"".join(pixels)).decode()
         self.fragments = self.fragments_of(log)
         self.progress.reach(SHARES["zbuf"])
@@ -179,6 +178,5 @@ class Inspection:
             "notes": self.notes + self.square_notes,
             "limits": self.limits(),
             "coverage": self.coverage,
-            "explanations": explanations(
-                self, text_of(self.scene_data, self.scene), text_of(self.config_data, self.config)),
-        }
+            "explanations": explanations(self, text_of(self.scene_data, self.scene),
+                                         text_of(self.config_data, self.config)),}

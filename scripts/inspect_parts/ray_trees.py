@@ -22,7 +22,6 @@ def step_of(columns, rows, most):
 
 class RayTrees:
     """`words` are trace's options."""
-
     def __init__(self, inspection, words):
         self.header = inspection.header
         stage2 = inspection.lossless["view"]
@@ -43,13 +42,12 @@ class RayTrees:
             (self.lines if re.match(r"(trace: )?\d+,\d+: ", line) else
              self.notes).append(line.removeprefix("trace: ") if ": note: " not in line else line)
         self.lights = [
-            list(map(float, words[1:4]))
-            for words in map(str.split,
-                             stage2.split(b"\n\n", 1)[0].decode().splitlines())
+            list(map(float, words[1:4])) for words in map(str.split,
+                                                          stage2.split(b"\n\n", 1)[0].decode().splitlines())
             if words[:1] == ["light"]]
 
     def as_json(self):
         eye, look, up = (tuple(map(float, self.header[name])) for name in ("eye", "look", "up"))
         return {
-            "step": self.step, "lines": "\n".join(self.lines), "lights": self.lights,
-            "camera": [eye, *axes(eye, look, up)]}
+            "step": self.step, "lines": "\n".join(self.lines), "lights": self.lights, "camera": [
+                eye, *axes(eye, look, up)]}

@@ -18,7 +18,6 @@ KINDS = {"model": "stage1", "view": "stage2", "project": "stage3"}
 
 class Theirs:
     """The hand-in in a folder, beside an Inspection."""
-
     def __init__(self, folder, inspection):
         self.folder, self.inspection = folder, inspection
         self.files = find_files(folder)
@@ -55,23 +54,23 @@ class Theirs:
         """The pixels of their picture, in base64."""
         colors = self.read("picture",
                            lambda data, name: read_colors(data, name, self.ours.window, self.ours.background))
-        return None if colors is None else base64.b64encode(b"".join(b"".join(row)
-                                                                     for row in colors)).decode()
+        return None if colors is None else base64.b64encode(b"".join(
+            b"".join(row) for row in colors)).decode()
 
     def words_of(self, file):
         """A file's verdict; of one that is right after a wrong one, what it was judged by."""
         before = [
-            other.file
-            for other in self.verdict.files[:self.verdict.files.index(file)]
+            other.file for other in self.verdict.files[:self.verdict.files.index(file)]
             if other.verdict in FAILED]
         return file.verdict + (f", given their {before[-1]}" if file.is_good and before else "")
 
     def as_json(self):
         files = [{
             "stage": file.stage, "file": file.file, "verdict": self.words_of(file), "isGood": file.is_good,
-            "differing": file.differing, "largest": file.largest, "remarks": "; ".join(remarks_of(file)),
-            "matrices": file.matrices.lines() if file.matrices else []} for file in self.verdict.files]
+            "differing": file.differing, "largest": file.largest, "remarks": "; ".join(
+                remarks_of(file)), "matrices": file.matrices.lines() if file.matrices else []}
+                 for file in self.verdict.files]
         return {
-            "folder": shown(self.folder), "sentence": sentence(self.verdict), "files": files,
-            "stages": {tool: self.stage(tool)
-                       for tool in KINDS}, "picture": self.picture()}
+            "folder": shown(self.folder), "sentence": sentence(self.verdict), "files": files, "stages": {
+                tool: self.stage(tool)
+                for tool in KINDS}, "picture": self.picture()}

@@ -19,8 +19,7 @@ def obj(mesh):
     # Colors behind the coordinates are common, though not in the format's definition.
     lines += [
         "v " + line_of(p) + color
-        for p, color in zip(mesh.vertices, [" " + line_of(x / 255
-                                                          for x in c)
+        for p, color in zip(mesh.vertices, [" " + line_of(x / 255 for x in c)
                                             for c in mesh.colors] or [""] * len(mesh.vertices))]
     lines += ["vn " + line_of(n) for n in mesh.normals]
     lines += ["f " + " ".join(f"{i + 1}//{i + 1}" for i in triangle) for triangle in mesh.triangles]
@@ -53,7 +52,7 @@ def stl(mesh):
 def linear(channel):
     """The linear value of an sRGB one from 0 to 255 (IEC 61966-2-1)."""
     x = channel / 255
-    return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
+    return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055)**2.4
 
 
 def gltf(mesh):
@@ -66,8 +65,8 @@ def gltf(mesh):
     FLOAT, UNSIGNED = 5126, 5125
     views, accessors, offset = [], [], 0
     for part, component, count, kind in ((positions, FLOAT, len(
-            mesh.vertices), "VEC3"), (normals, FLOAT, len(mesh.normals),
-                                      "VEC3"), (indices, UNSIGNED, 3 * len(mesh.triangles), "SCALAR"),
+            mesh.vertices), "VEC3"), (normals, FLOAT, len(
+                mesh.normals), "VEC3"), (indices, UNSIGNED, 3 * len(mesh.triangles), "SCALAR"),
                                          (colors, FLOAT, len(mesh.colors), "VEC3")):
         if not part:
             continue

@@ -47,7 +47,7 @@ def knot(detail):
         """The derivative of the curve."""
         distance, change = 2 + math.cos(3 * t), -3 * math.sin(3 * t)
         return normalized((change * math.cos(2 * t) - 2 * distance * math.sin(2 * t),
-                     change * math.sin(2 * t) + 2 * distance * math.cos(2 * t), 3 * math.cos(3 * t)))
+                           change * math.sin(2 * t) + 2 * distance * math.cos(2 * t), 3 * math.cos(3 * t)))
 
     def vertex(i, k):
         t, turn = math.tau * i / around, math.tau * k / tube
@@ -119,9 +119,7 @@ def add(mesh, part, color=None, size=1, place=(0, 0, 0)):
     mesh.vertices += [rounded(tuple(size * x + move for x, move in zip(p, place))) for p in part.vertices]
     mesh.normals += part.normals
     mesh.triangles += [
-        tuple(first + i
-              for i in triangle)
-        for triangle in part.triangles
+        tuple(first + i for i in triangle) for triangle in part.triangles
         if len({part.vertices[i]
                 for i in triangle}) == 3]
     if color:
@@ -133,6 +131,7 @@ def box(low, high):
     mesh = Mesh([], [], [])
     for axis in range(3):
         for end in (0, 1):
+
             def corner(s, t):
                 ends = [0, 0, 0]
                 ends[axis], ends[axis - 2], ends[axis - 1] = end, s, t

@@ -24,12 +24,13 @@ FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)\Z", re.DOTALL)
 def refuse(parser, options):
     """Ends the program if there are options that --certain excludes."""
     samples = options.samples not in (None, "1")
-    for is_given, option, reason in (
-            (options.trace, "--trace", "zbuf tells which pixels are certain"),
-            (samples, f"--samples {options.samples}", "a mean of samples is no triangle's color"),
-            (options.stages is not None, "--stages", "the stages may run more than once"),
-            (not FORMAT.match(options.output), f"-o {shown(options.output)}",
-             "it takes a .png, .bmp or .ppm file")):
+    for is_given, option, reason in ((options.trace, "--trace", "zbuf tells which pixels are certain"),
+                                     (samples, f"--samples {options.samples}",
+                                      "a mean of samples is no triangle's color"),
+                                     (options.stages
+                                      is not None, "--stages", "the stages may run more than once"),
+                                     (not FORMAT.match(options.output), f"-o {shown(options.output)}",
+                                      "it takes a .png, .bmp or .ppm file")):
         if is_given:
             parser.error(f"{option} does not go with --certain: {reason}")
 
@@ -37,14 +38,13 @@ def refuse(parser, options):
 class Certainty:
     """The report of zbuf --certify: how many pixels there are, how many are uncertain, and the places of
     these, or of the first."""
-
     def __init__(self, path, width):
         with open(path) as file:
             _, certain, _, uncertain, *places = file.read().split()
         self.uncertain_count = int(uncertain)
         self.pixel_count = int(certain) + self.uncertain_count
-        self.places = [row * width + column
-                       for row, column in zip(map(int, places[::2]), map(int, places[1::2]))]
+        self.places = [
+            row * width + column for row, column in zip(map(int, places[::2]), map(int, places[1::2]))]
 
     @property
     def is_complete(self):
@@ -75,7 +75,6 @@ class Run:
 class CertainPicture:
     """A picture that options ask for. `commands` gives the tools with their words for options, `draw` runs
     them and gives their notes."""
-
     def __init__(self, options, tools, commands, draw):
         self.options, self.tools, self.commands, self.draw = options, tools, commands, draw
         self.kind = next(filter(None, FORMAT.match(options.output).groups()))
@@ -89,12 +88,13 @@ class CertainPicture:
             image, report, owners = (os.path.join(folder, name)
                                      for name in (f"image.{self.kind}", "certain.txt", "owners.npy"))
             is_last = digits != DIGITS
-            notes = self.draw(self.with_options(
-                output=image, bounds=["--bounds"], digits=["--digits", digits],
-                certify=["--certify", report, *["--triangle-array", owners] * is_last]))
+            notes = self.draw(
+                self.with_options(output=image, bounds=["--bounds"], digits=["--digits", digits], certify=[
+                    "--certify", report, *["--triangle-array", owners] * is_last]))
             self.expect_unchanged()
             picture = content(image)
-            return Run(digits, notes, Certainty(report, size_of(picture)[0]), picture,
+            return Run(digits, notes, Certainty(report,
+                                                size_of(picture)[0]), picture,
                        numbers(owners, size_of(picture)) if is_last else None)
 
     def run_again(self, first):
@@ -171,8 +171,8 @@ def draw_for_certain(options, *tools_and_calls):
 def state_of(options):
     """The state of the model's file and of the config's, which changes if another program writes to one."""
     paths = [options.model] * (options.data is None) + [options.config] * (options.config is not None)
-    return [(status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns)
-            for status in map(os.stat, paths)]
+    return [
+        (status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns) for status in map(os.stat, paths)]
 
 
 def told(certainty, width, tried):

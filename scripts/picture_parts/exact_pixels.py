@@ -14,7 +14,6 @@ SMALLEST = 1e-300
 NEAR = 0.001  # of a pixel, more than its place loses in doubles
 CUT_WITHIN = 1024  # parts of the distance of the near plane: what is as near to the eye is cut there (P7)
 
-
 FEW_BITS, MOST_BITS = 256, 4096  # the latter are slow, and tell more only of ties
 MOST_STEPS = 5_000_000  # of some microseconds
 STEPS_OF_A_MATRIX, STEPS_OF_A_CANDIDATE, STEPS_OF_A_TRIANGLE = 300, 100, 10
@@ -42,7 +41,6 @@ def owners(scene, window, pixels):
 class Fragment:
     """A triangle at a pixel's center: its corners in clip space, its depth, and whether it certainly covers
     the center."""
-
     def __init__(self, number, triangle, clip, depth, is_sure):
         self.number, self.triangle, self.clip = number, triangle, clip
         self.depth, self.is_sure = depth, is_sure
@@ -59,7 +57,6 @@ class Fragment:
 
 class ExactPixels:
     """A scene on a window, to the precision of Ball.bits."""
-
     def __init__(self, scene, window):
         self.scene, self.window = scene, window
         *_, (kind, *words) = camera(scene)
@@ -110,8 +107,8 @@ class ExactPixels:
         return self.matrices[line_of(triangle.in_force)]
 
     def with_doubles(self, matrix):
-        return matrix, [[in_doubles(x * scale) for x in matrix[i]]
-                        for i, scale in zip((0, 1, 3), (*self.scales, 1))]
+        return matrix, [
+            [in_doubles(x * scale) for x in matrix[i]] for i, scale in zip((0, 1, 3), (*self.scales, 1))]
 
     def seen(self, pixel, triangles):
         """Those of the triangles that may be seen by Z5 to Z8, and whether this is decided: one or none."""
@@ -153,8 +150,8 @@ class ExactPixels:
             clip = [applied(matrix, [exactly(word) for word in words]) for words in triangle.points]
             a, b, c = ((x, y, w) for x, y, _, w in clip)
             x_scale = self.scales[0]
-            edges = [(x, y * self.x_per_y, z * x_scale)
-                     for x, y, z in (cross(b, c), cross(c, a), cross(a, b))]
+            edges = [
+                (x, y * self.x_per_y, z * x_scale) for x, y, z in (cross(b, c), cross(c, a), cross(a, b))]
             self.edges[key] = clip, edges, dot(a, cross(b, c)) * x_scale
         return self.edges[key]
 
@@ -208,15 +205,14 @@ def in_doubles(x):
 
 class Outline:
     """Where a triangle may be on the window, in doubles with their errors."""
-
     def __init__(self, matrix, points, grid):
         """`matrix` leads to clip space; of it only the rows for x, y and w, as in_doubles."""
         self.grid = grid
         self.corners = []  # x, y and w, and how far these may be wrong
         for words in points:
             p = [*map(float, words), 1.0]
-            self.corners.append(([sum(a * b for (a, _), b in zip(row, p)) for row in matrix],
-                                 [sum(e * abs(b) for (_, e), b in zip(row, p)) + SMALLEST for row in matrix]))
+            self.corners.append(([sum(a * b for (a, _), b in zip(row, p)) for row in matrix], [
+                sum(e * abs(b) for (_, e), b in zip(row, p)) + SMALLEST for row in matrix]))
         self.has_numbers = all(math.isfinite(x) for corner in self.corners for part in corner for x in part)
 
     def range_of(self, pixels, axis):
@@ -228,8 +224,9 @@ class Outline:
         if any(p[2] - e[2] <= 0 for p, e in self.corners):
             return 0, len(pixels)
         at = (self.grid.column_at, self.grid.row_at)[axis]
-        places = [at((p[axis] + i * e[axis]) / (p[2] + k * e[2]))
-                  for p, e in self.corners for i in (-1, 1) for k in (-1, 1)]
+        places = [
+            at((p[axis] + i * e[axis]) / (p[2] + k * e[2])) for p, e in self.corners for i in (-1, 1)
+            for k in (-1, 1)]
         return bisect.bisect_left(pixels, min(places) - NEAR), bisect.bisect_right(pixels, max(places) + NEAR)
 
     def may_cover(self, x, y):

@@ -17,8 +17,9 @@ def run_tool(words, *, input=b"", **_):
     """Takes the place of subprocess.run. A tool has a folder of its own, to which the files that its words
     name are brought, and from which those that it writes are taken."""
     tool, *words = map(os.fspath, words)
-    names = {word: os.path.basename(word) for word in words
-             if os.path.isfile(word) or (os.path.isabs(word) and not word.startswith("/dev/"))}
+    names = {
+        word: os.path.basename(word)
+        for word in words if os.path.isfile(word) or (os.path.isabs(word) and not word.startswith("/dev/"))}
     files = {name: pathlib.Path(word).read_bytes() for word, name in names.items() if os.path.isfile(word)}
     done = page.run(os.path.basename(tool), [names.get(word, word) for word in words], input, files)
     for word, name in names.items():

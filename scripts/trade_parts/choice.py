@@ -9,12 +9,12 @@ class Row:
     """A setting with its cost and its losses. Rows are in the order of their settings: the simpler one
     first."""
     setting: object
-    seconds: object      # Quartiles
-    ratio: float         # the CPU time over the default's
-    net: float           # the same without the start of four programs
-    size: int            # bytes in the three pipes
-    loss: object         # losses.Loss
-    covered: int         # pixels of the exact picture
+    seconds: object  # Quartiles
+    ratio: float  # the CPU time over the default's
+    net: float  # the same without the start of four programs
+    size: int  # bytes in the three pipes
+    loss: object  # losses.Loss
+    covered: int  # pixels of the exact picture
 
     @property
     def percent_wrong(self):
@@ -42,7 +42,7 @@ class Limits:
 @dataclasses.dataclass(frozen=True)
 class Choice:
     row: object
-    ties: tuple = ()    # rows that cost the same, as far as anybody notices
+    ties: tuple = ()  # rows that cost the same, as far as anybody notices
     untold: tuple = ()  # rows that may be cheaper: the times do not decide
 
 
@@ -73,8 +73,9 @@ def cheapest(rows, verdict):
     untold = [row for row in untold if row is not best and verdict(best.setting, row.setting) != CHEAPER]
     if untold:
         return Choice(rows[0], untold=tuple(row for row in rows[1:] if row in untold or row is best))
-    return Choice(best, ties=tuple(row for row in rows if row is not best and
-                                   verdict(row.setting, best.setting) == TIE))
+    return Choice(
+        best, ties=tuple(
+            row for row in rows if row is not best and verdict(row.setting, best.setting) == TIE))
 
 
 def nearest(rows, limits):

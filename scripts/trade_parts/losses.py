@@ -18,14 +18,13 @@ SAMPLES_OF_TRUTH = "8"
 
 @dataclasses.dataclass(frozen=True)
 class Loss:
-    wrong: int     # pixels that show another triangle, or none; None with trace, which draws no marks
-    gap: float     # between layers, in the scene's units; None with trace, which has no text of project
+    wrong: int  # pixels that show another triangle, or none; None with trace, which draws no marks
+    gap: float  # between layers, in the scene's units; None with trace, which has no text of project
     levels: float  # of 256, the mean over the channels of the pixels covered; None if none was asked for
 
 
 class Layers:
     """How far apart two layers must be at the farthest vertex in the picture, so that their depths differ."""
-
     def __init__(self, camera, window, vertices):
         """The last line of a camera in words, the Window of a config, and the exact vertex lines."""
         keyword, words = (camera[0], camera[1:]) if camera[0] in KEYWORDS else ("perspective", camera)
@@ -54,7 +53,6 @@ def is_of_header(line):
 
 class Truth:
     """The exact picture, and what settings lose against it."""
-
     def __init__(self, pipe, rule, window, is_smooth):
         self.pipe, self.setting = pipe, exact(rule)
         self.base = dataclasses.replace(DEFAULT, coverage=rule)
@@ -93,7 +91,8 @@ class Truth:
             if setting.depth_epsilon != DEFAULT.depth_epsilon:
                 return self.pipe.owners(setting) != self.pipe.owners(self.base)
             return (setting.clip, setting.cull) == (DEFAULT.clip, DEFAULT.cull) or not filecmp.cmp(
-                self.pipe.text(setting)[0], self.pipe.text(self.base)[0], shallow=False)
+                self.pipe.text(setting)[0],
+                self.pipe.text(self.base)[0], shallow=False)
         except ToolFailure as failure:
             message = without_inner_location(str(failure), self.pipe.folder)
             print(f"trade: note: {setting} is left out: {message}", file=sys.stderr)

@@ -24,7 +24,7 @@ class Axis:
 
     def ticks(self):
         """About five round numbers, with their texts."""
-        step = 10.0 ** math.floor(math.log10(self.high / 3))
+        step = 10.0**math.floor(math.log10(self.high / 3))
         step *= max(factor for factor in (1, 2, 5) if factor * step <= self.high / 3)
         return [(step * i, f"{step * i:g}") for i in range(math.floor(self.high / step) + 1)]
 
@@ -98,7 +98,7 @@ def plot(rows, chosen, limits, times):
     wrong = power_axis(WRONG_LEFT, WRONG_WIDTH, [*drawn, limits.percent_wrong])
     last = power_axis(LAST_LEFT, LAST_WIDTH, [last_of(row) for row in rows])
     words = ("gap between layers", "the scene's units") if rows[0].loss.levels is None else ("colors",
-                                                                                            "levels of 256")
+                                                                                             "levels of 256")
     most = None if limits.ratio is None or limits.ratio * default > cpu.high else limits.ratio * default
     height = bottom + BOTTOM
     verdict = "the cheapest with" if limits.are_met_by(chosen) else "the nearest to"
@@ -113,6 +113,5 @@ def plot(rows, chosen, limits, times):
         text(
             20, height - 16,
             f"Medians of {times.rounds} round{'s' * (times.rounds != 1)}, with a line between the quartiles. "
-            f"Dashed: what was asked for.",
-            'class="soft"'))
+            f"Dashed: what was asked for.", 'class="soft"'))
     return document(WIDTH, height, "What each setting takes and what it loses", parts, STYLE_OF_BARS)

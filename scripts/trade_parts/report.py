@@ -34,9 +34,10 @@ def pixels(row):
 def cells(row):
     """As in HEADER; the last one only if colors were compared."""
     gap, levels = row.loss.gap, row.loss.levels
-    return [str(row.setting.under_default_coverage), "-" if math.isnan(row.net) else f"{row.net:.2f}",
-            seconds(row.seconds.median), pixels(row), "-" if gap is None else number(gap),
-            *([] if levels is None else [f"{levels:.2f}"])]
+    return [
+        str(row.setting.under_default_coverage), "-" if math.isnan(row.net) else f"{row.net:.2f}",
+        seconds(row.seconds.median),
+        pixels(row), "-" if gap is None else number(gap), *([] if levels is None else [f"{levels:.2f}"])]
 
 
 def about_times(times):

@@ -12,8 +12,8 @@ LEAST_ROUNDS, MOST_ROUNDS = 8, 25
 ROUNDS_OF_DEAR = 3  # settings that cost several times the default
 EMPTY, AGAIN = "empty", "again"  # the scene without triangles; the default once more, which shows the noise
 CHEAPER, TIE, DEARER, UNTOLD = "cheaper", "tie", "dearer", "untold"
-NOTICED = 0.9   # who saves less than a tenth of the CPU time saves nothing
-CHANCE = 0.01   # that a median lies outside its interval
+NOTICED = 0.9  # who saves less than a tenth of the CPU time saves nothing
+CHANCE = 0.01  # that a median lies outside its interval
 
 
 def median_interval(values):
@@ -29,12 +29,12 @@ def median_interval(values):
 
 class Times:
     """Of each setting and of the empty scene, round by round."""
-
     def __init__(self, runs):
         self.runs, self.rounds = runs, len(runs[DEFAULT])
         self.start_up = statistics.median(runs[EMPTY])
-        self.seconds = {setting: quartiles(values)
-                        for setting, values in runs.items() if setting not in (EMPTY, AGAIN)}
+        self.seconds = {
+            setting: quartiles(values)
+            for setting, values in runs.items() if setting not in (EMPTY, AGAIN)}
         self.seconds_of_default = self.seconds[DEFAULT].median
         low, high = median_interval(self.ratios(AGAIN, DEFAULT))
         self.noise = max(high, 1 / low if low else math.inf)  # at least 1
@@ -54,8 +54,8 @@ class Times:
         """The ratio without the start of four programs; NaN if the default hardly takes longer."""
         if self.are_too_short:
             return math.nan
-        return max(0.0, self.seconds[setting].median - self.start_up) / (self.seconds_of_default -
-                                                                         self.start_up)
+        return max(0.0,
+                   self.seconds[setting].median - self.start_up) / (self.seconds_of_default - self.start_up)
 
     def verdict(self, setting, other):
         """The CPU time of a setting relative to another, by the rounds: the interval of their

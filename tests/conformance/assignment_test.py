@@ -36,8 +36,10 @@ def is_good(scene, *switches):
         words = [STUDENT, "all", scene / "scene.txt", scene / "config.txt", "--folder", folder, *switches]
         subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # may stop: w is 0
         files = find_files(folder)
-        return all(file.is_good for file in judge(files, (scene / "scene.txt").read_bytes(),
-                                                  (scene / "config.txt").read_bytes()).files)
+        return all(
+            file.is_good
+            for file in judge(files, (scene / "scene.txt").read_bytes(), (scene /
+                                                                          "config.txt").read_bytes()).files)
 
 
 def table():

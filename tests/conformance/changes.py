@@ -35,8 +35,7 @@ def axes(texts):
 
 def clip_space(texts):
     """(x, y, z, w) of each point before the divide."""
-    return [(*(-view[2] * c
-               for c in ndc), -view[2])
+    return [(*(-view[2] * c for c in ndc), -view[2])
             for view, ndc in zip(points_of(texts[2]), points_of(texts[3]))]
 
 
@@ -70,6 +69,7 @@ def at_some_vertices(forgotten, words):
             q if (i % 3 == k) == is_one else p
             for i, (p, q) in enumerate(zip(points_of(texts[number]), forgotten(texts)))]
         return text_of(points), words.format(one=ORDINALS[k], others=others)
+
     return make
 
 
@@ -106,6 +106,7 @@ def in_order(vertices, words):
     def make(texts, number, rng):
         points = points_of(texts[number])
         return text_of([points[i - i % 3 + vertices[i % 3]] for i in range(len(points))]), words
+
     return make
 
 
@@ -123,8 +124,8 @@ CHANGES = [
     *(Change(
         stage, "vertices in another order",
         in_order((0, 2, 1), "The vertices of each triangle stand in another order: first, third, second"))
-      for stage in ("model", "view", "project")), *(Change(stage, "backwards", backwards)
-                                                    for stage in ("model", "view", "project")),
+      for stage in ("model", "view", "project")),
+    *(Change(stage, "backwards", backwards) for stage in ("model", "view", "project")),
     Change("view", "x and y exchanged", moved(lambda x, y, z: (y, x, z), ROWS.format(1, 2, "x", "y"))),
     Change("view", "y and z exchanged", moved(lambda x, y, z: (x, z, y), ROWS.format(2, 3, "y", "z"))),
     Change("view", "rows in a circle",
@@ -139,4 +140,4 @@ CHANGES = [
     Change("project", "one vertex not divided",
            at_one_vertex(lambda texts: [p[:3] for p in clip_space(texts)], NOT_DIVIDED)),
     Change("project", "two vertices not divided",
-           at_two_vertices(lambda texts: [p[:3] for p in clip_space(texts)], NOT_DIVIDED)), ]
+           at_two_vertices(lambda texts: [p[:3] for p in clip_space(texts)], NOT_DIVIDED)),]

@@ -29,9 +29,10 @@ def results(stage, *switches, options=()):
     words = ["zbuf", "{config}"] if stage == "zbuf" else [stage, "--bare", "--scene", "{scene}"]
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "results.json")
-        done = subprocess.run([sys.executable, PACK / "conform", "--sandbox", "no", "--tap", "--stage", stage,
-                               "--assignment", "--json", path, *options, "--", STUDENT, *words, *switches],
-                              stdout=subprocess.PIPE, text=True, timeout=600)
+        done = subprocess.run([
+            sys.executable, PACK / "conform", "--sandbox", "no", "--tap", "--stage", stage, "--assignment",
+            "--json", path, *options, "--", STUDENT, *words, *switches], stdout=subprocess.PIPE, text=True,
+                              timeout=600)
         return done.returncode, json.loads(path.read_text()), done.stdout
 
 
@@ -57,9 +58,9 @@ class Student(unittest.TestCase):
             with self.subTest(stage=stage):
                 script = (f"{STUDENT} all scene.txt config.txt --folder . --habit all/exact-in-memory; cat "
                           f"stage{number}.txt")
-                done = subprocess.run([sys.executable, PACK / "conform", "--sandbox", "no", "--tap",
-                                       "--stage", stage, "--assignment", "--", "sh", "-c", script],
-                                      stdout=subprocess.PIPE, text=True)
+                done = subprocess.run([
+                    sys.executable, PACK / "conform", "--sandbox", "no", "--tap", "--stage", stage,
+                    "--assignment", "--", "sh", "-c", script], stdout=subprocess.PIPE, text=True)
                 self.assertEqual(done.returncode, 0, done.stdout[-3000:])
 
     def test_what_the_assignment_leaves_open_is_not_counted(self):
@@ -90,7 +91,8 @@ class Student(unittest.TestCase):
         _, found, _ = results("model", "--mistake", "model/axis-not-normalized", "--mistake",
                               "model/push-of-the-identity")
         self.assertLessEqual({("model/axis-not-normalized",), ("model/push-of-the-identity",)},
-            {tuple(heading["names"]) for heading in found["mistakes"]})
+                             {tuple(heading["names"])
+                              for heading in found["mistakes"]})
 
 
 if __name__ == "__main__":

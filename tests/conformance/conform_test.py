@@ -94,8 +94,8 @@ class Tools(unittest.TestCase):
             for rule in RULES if stage == "zbuf" else RULES[:1]:
                 for case in cases:
                     if case.refused_line is None:
-                        names = (f"depths-{rule}.txt", f"picture-{rule}.bmp") if stage == "zbuf" else (
-                            "expected.txt", )
+                        names = (f"depths-{rule}.txt",
+                                 f"picture-{rule}.bmp") if stage == "zbuf" else ("expected.txt",)
                         outputs = SimpleNamespace(**dict(zip(("text", "image"), map(case.read, names))))
                         self.assertIsNone(judge_outputs(case, TERMS._replace(rule=rule), outputs), case.name)
 
@@ -118,7 +118,7 @@ class Tools(unittest.TestCase):
     def test_four_lines_of_awk_pass_where_the_camera_looks_straight_ahead(self):
         for words in (["--batch", "--", "awk"], ["--", "awk", "-v", "eye={eye}"]):
             done = self.assert_all_right("view", "--only", "straight-*", *words, "-f",
-                                     SOURCE / "scripts/view.awk")
+                                         SOURCE / "scripts/view.awk")
             self.assertIn("\n# 8 right, 0 wrong\n", done.stdout)
 
     def test_the_pack_runs_alone(self):
@@ -155,7 +155,6 @@ class Page(unittest.TestCase):
 
 class Pages(unittest.TestCase):
     """The cases of a page, and their files by --extract."""
-
     def case(self, stage, *lines):
         """The last case of a page."""
         with tempfile.TemporaryDirectory() as folder:
@@ -177,9 +176,8 @@ class Pages(unittest.TestCase):
         self.assertEqual(case.files, {"case.txt": about, "options.txt": b"--bare\n", "input.txt": b""})
 
     def test_texts(self):
-        found = self.files("model", "== a", "-- input.txt", "1", "",
-                           "== b", "-- input.txt", "", "-- expected.txt",
-                           r"\xef\r\t\\\x20", "1 \\", "2", r"\x2d- 3", "")
+        found = self.files("model", "== a", "-- input.txt", "1", "", "== b", "-- input.txt", "",
+                           "-- expected.txt", r"\xef\r\t\\\x20", "1 \\", "2", r"\x2d- 3", "")
         self.assertEqual(found, {"input.txt": b"\n", "expected.txt": b"\xef\r\t\\ \n1 2\n-- 3\n\n"})
         self.assertEqual(self.files("model", "== a", "-- input.txt", "end\\"), {"input.txt": b"end"})
         found = self.files("model", "== a", "-- input.txt = with-b.txt", "1")
@@ -196,10 +194,11 @@ class Pages(unittest.TestCase):
                            "-- picture-nearest.bmp = with-b.bmp  picture-center.bmp", ".aab.  aaaaa",
                            "..ab.  .....", "a = 0 97 167 at 0.5  b = 0 98 174")  # the colors of bmp()
         picture = bmp([".aab.", "..ab."])
-        self.assertEqual(found, {
-            "config.txt": b"5 2\n", "picture-nearest.bmp": picture, "with-b.bmp": picture,
-            "picture-center.bmp": bmp(["aaaaa", "....."]), "depths-nearest.txt": b"0.5\t0.5\t\n0.5\t\n",
-            "depths-center.txt": b"0.5\t0.5\t0.5\t0.5\t0.5\t\n\n"})
+        self.assertEqual(
+            found, {
+                "config.txt": b"5 2\n", "picture-nearest.bmp": picture, "with-b.bmp": picture,
+                "picture-center.bmp": bmp(["aaaaa", "....."]), "depths-nearest.txt": b"0.5\t0.5\t\n0.5\t\n",
+                "depths-center.txt": b"0.5\t0.5\t0.5\t0.5\t0.5\t\n\n"})
 
     def test_extract_writes_the_files_of_the_chosen_cases(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -224,9 +223,8 @@ class Pages(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", message))
             (folder / "full/model").rmdir()
             (folder / "full/model").symlink_to("other")
-            for error, *case in ((FileExistsError, "model", "a", {}, ["a.txt"]),
-                                 (OSError, "view", "..", {}, ["a.txt"]),
-                                 (OSError, "project", "b", {}, ["../x.txt"])):
+            for error, *case in ((FileExistsError, "model", "a", {}, ["a.txt"]), (OSError, "view", "..", {}, [
+                    "a.txt"]), (OSError, "project", "b", {}, ["../x.txt"])):
                 self.assertRaises(error, extract, [Case(*case)], folder / "full")
             self.assertEqual(list((folder / "full/other").iterdir()), [])
             self.assertEqual([path for path in folder.glob("**/x.txt")], [])
@@ -244,8 +242,8 @@ class Groups(unittest.TestCase):
     def test_what_the_assignment_asks_for_is_counted_apart(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "results")
-            conform("--stage", "view", "--only", "refused-s*", "--only", "rolled-*", "--only",
-                    "zero-*", "--json", path, "--", *self.SIGNED)
+            conform("--stage", "view", "--only", "refused-s*", "--only", "rolled-*", "--only", "zero-*",
+                    "--json", path, "--", *self.SIGNED)
             found = json.loads(path.read_text())
         groups = found["groups"]
         self.assertEqual(groups["what the assignment asks for"]["wrong"], 0)
@@ -254,8 +252,8 @@ class Groups(unittest.TestCase):
         for state in ("right", "wrong"):
             self.assertEqual(sum(counts[state] for counts in groups.values()), found["counts"][state])
         refused = [case["name"] for case in found["cases"] if case["group"] == "refusals of wrong input"]
-        self.assertEqual(refused, [case.name for case in CASES["view"]
-                                   if case.short_name.startswith("refused-s")])
+        self.assertEqual(refused,
+                         [case.name for case in CASES["view"] if case.short_name.startswith("refused-s")])
 
     def test_only_that_is_run_with_basic(self):
         done = conform("--stage", "view", "--basic", "--", *self.SIGNED)
@@ -267,7 +265,6 @@ class Groups(unittest.TestCase):
 
 class Batch(unittest.TestCase):
     """View's cases of a camera that looks straight ahead, which view.awk gets right, and others."""
-
     def run_on(self, end, *words):
         """How often the program starts, and what is told."""
         with tempfile.TemporaryDirectory() as folder:
@@ -297,7 +294,6 @@ class Batch(unittest.TestCase):
 
 class Runner(unittest.TestCase):
     """Small programs, on a case or two."""
-
     def run_one(self, case, *words, options=()):
         stage, name = case.split("/")
         return conform("--stage", stage, "--only", name, *options, "--", *words)
@@ -313,8 +309,9 @@ class Runner(unittest.TestCase):
         version, plan, *lines = done.stdout.splitlines()
         self.assertEqual((version, plan), ("TAP version 13", f"1..{count}"))
         tests = [line for line in lines if not line.startswith("#")]
-        self.assertEqual([re.match(r"(not )?ok (\d+) - project/[a-z0-9-]+( # (SKIP|TODO) .+)?$", line)[2]
-                          for line in tests], [str(i + 1) for i in range(count)])
+        self.assertEqual([
+            re.match(r"(not )?ok (\d+) - project/[a-z0-9-]+( # (SKIP|TODO) .+)?$", line)[2]
+            for line in tests], [str(i + 1) for i in range(count)])
 
     def shown(self, *words):
         """The report of conform for people."""
@@ -357,7 +354,7 @@ class Runner(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr, os.listdir(folder)), (1, "", ["results.xml"]))
             self.assertEqual(path.stat().st_mode & 0o777, 0o640)
             root = xml.etree.ElementTree.parse(path).getroot()
-        (suite, ), cases = root, list(root.iter("testcase"))
+        (suite,), cases = root, list(root.iter("testcase"))
         count = len([case for case in CASES["model"] if case.is_chosen(["translate-*", "bare"])])
         self.assertEqual((root.tag, suite.tag, suite.attrib), ("testsuites", "testsuite", {
             "name": "model", "tests": str(count), "failures": str(count - 1), "errors": "0", "skipped": "1"}))
@@ -370,17 +367,15 @@ class Runner(unittest.TestCase):
     def test_shows_the_reason_and_what_was_expected_and_found(self):
         done = self.run_one("model/translate-x", *sh("echo 9 2.0 3; cat >&2"), options=["--assignment"])
         self.assert_wrong(
-            done,
-            "not ok 1 - model/translate-x\n#   paragraph: M3 (pipeline help M3)\n"
+            done, "not ok 1 - model/translate-x\n#   paragraph: M3 (pipeline help M3)\n"
             "#   why: Each number of translate moves its own coordinate.\n",
             "#   line 1, blank ones not counted, differs\n#   expected: 3.5000000 2.0000000 3.0000000\n#   "
-            "found:    9 2.0 3\n"
-        )
+            "found:    9 2.0 3\n")
 
     def test_shows_an_output_in_printable_characters_and_not_whole(self):
         done = self.run_one("model/translate-x",
-                            *sh("printf '1 \\033[2J 3 '; head -c 500 /dev/zero | tr '\\0' x"),
-                            options=["--assignment"])
+                            *sh("printf '1 \\033[2J 3 '; head -c 500 /dev/zero | tr '\\0' x"), options=[
+                                "--assignment"])
         self.assert_wrong(done, "found:    1 ?[2J 3 xxx", "xxx...\n")
         self.assertLess(max(map(len, done.stdout.splitlines())), 300)
 
@@ -400,11 +395,13 @@ class Runner(unittest.TestCase):
                 os.chmod(f"{folder}/{name}", 0o755)
                 os.link(f"{folder}/{name}", f"{folder}/{name}.json")
             with open(f"{folder}/out.json", "w") as out:
-                self.assertEqual(conform("--stage", "view", "--json", f"{folder}/a", "--junit", f"{folder}/a",
-                                         "--", "true").returncode, 2)
+                self.assertEqual(
+                    conform("--stage", "view", "--json", f"{folder}/a", "--junit", f"{folder}/a", "--",
+                            "true").returncode, 2)
                 for name in ("mine", "data", "out"):
-                    words = ["--stage", "model", "--only", "translate-x", "--json", f"{name}.json", "--",
-                             "./mine", "data"]
+                    words = [
+                        "--stage", "model", "--only", "translate-x", "--json", f"{name}.json", "--", "./mine",
+                        "data"]
                     done = subprocess.run([PACK / "conform", *words], cwd=folder, stdout=out,
                                           stderr=subprocess.PIPE, text=True)
                     found = "standard output" if name == "out" else f"{os.path.realpath(folder)}/{name}"
@@ -455,14 +452,14 @@ class Runner(unittest.TestCase):
         no_line, no_end = ("the message does not name the line",
                            "the output does not end with a line `error TOOL: MESSAGE` (T12)")
         for status, stdout, stderr, terms, message in (
-            (0, "", "", {}, "wrong input was accepted"),
-            (1, "", "mine: line 6: pop\n", {}, no_line),
-            (1, "", "", {}, no_line),
-            (1, "error mine: pop\n", "mine: line 5: pop\n", {}, None),
-            (1, "error mine: pop\n", "scene.txt:5:1: pop\n", {}, None),
-            (1, "error m: 1\n", "", {"judges_lines": False}, None),
-            *((1, end, "mine: line 5: pop\n", {"tier": tier}, None if tier == "digits" else no_end)
-              for end in ("", "error mine\n", "error mine: pop") for tier in (None, "bytes", "digits"))):
+            (0, "", "", {}, "wrong input was accepted"), (1, "", "mine: line 6: pop\n", {},
+                                                          no_line), (1, "", "", {}, no_line),
+            (1, "error mine: pop\n", "mine: line 5: pop\n", {},
+             None), (1, "error mine: pop\n", "scene.txt:5:1: pop\n", {}, None), (1, "error m: 1\n", "", {
+                 "judges_lines": False
+             }, None), *((1, end, "mine: line 5: pop\n", {"tier": tier}, None if tier == "digits" else no_end)
+                         for end in ("", "error mine\n", "error mine: pop")
+                         for tier in (None, "bytes", "digits"))):
             with self.subTest(status=status, stdout=stdout, stderr=stderr, **terms):
                 ending = Ending(status, "", stdout.encode(), stderr.encode())
                 found = judge_ending(case, TERMS._replace(**terms), ending, None)
@@ -477,8 +474,9 @@ class Runner(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout.count("\nok ")), (0, 4))
 
     def test_a_program_may_read_and_write_the_assignments_file_names(self):
-        self.assertEqual(self.run_one("model/translate-x", *sh(f"{BIN}/model --bare scene.txt"),
-                                      options=["--assignment"]).returncode, 0)
+        self.assertEqual(
+            self.run_one("model/translate-x", *sh(f"{BIN}/model --bare scene.txt"), options=[
+                "--assignment"]).returncode, 0)
         self.assertEqual(self.run_one("zbuf/two-back-to-front", *sh(f"{BIN}/zbuf config.txt")).returncode, 0)
 
     def test_names_of_files_are_those_of_the_caller(self):
@@ -509,8 +507,8 @@ class Runner(unittest.TestCase):
 
     def test_a_wrong_call_is_misuse(self):
         for words in ([], ["--stage", "model"], ["--stage", "trace", "--", "true"], [
-                "--stage", "model", "--without", "colour", "--",
-                "true"], ["--stage", "model", "--seconds", "0", "--", "true"]):
+                "--stage", "model", "--without", "colour", "--", "true"], [
+                    "--stage", "model", "--seconds", "0", "--", "true"]):
             self.assertEqual(conform(*words).returncode, 2, words)
 
     def test_names_no_mistake_of_a_program_that_gets_nothing_right(self):
@@ -524,7 +522,6 @@ class Runner(unittest.TestCase):
 
 class Shared(unittest.TestCase):
     """The sentence on what most of the wrong numbers of a run share."""
-
     def sentence(self, expected, found, **others):
         return shared.sentence(shared.wrong_points(expected.encode(), found.encode(), True, **others))
 
@@ -538,8 +535,8 @@ class Shared(unittest.TestCase):
                              "8 of 8 wrong numbers: x is what y should be, y is what x should be"),
                             ("2 4 6\n8 10 12\n14 16 18\n\n-2 0 4\n",
                              "11 of 11 wrong numbers: x, y and z are 2 times what should be"),
-                            ("1 2 3\n4 5 6\n7 8 9\n\n-1 0 9\n", ""), ("1 2 3\n", ""), (expected, ""),
-                            ("9 1 4\n1 5 9\n2 6 5\n\n3 5 8\n", "")):
+                            ("1 2 3\n4 5 6\n7 8 9\n\n-1 0 9\n",
+                             ""), ("1 2 3\n", ""), (expected, ""), ("9 1 4\n1 5 9\n2 6 5\n\n3 5 8\n", "")):
             self.assertEqual(self.sentence(expected, found), told)
         depths = [b"1\t2\t3\t\n4\t5\t6\t\n", b"-1\t-2\t-3\t\n-4\t-5\t-6\t\n"]
         self.assertEqual(shared.sentence(shared.wrong_points(*depths, False)),
@@ -547,9 +544,9 @@ class Shared(unittest.TestCase):
 
     def test_is_shown_before_mistakes(self):
         program = sh(f"{BIN}/model --bare | awk 'NF {{$1 = -$1; $3 = -$3}} {{print}}'")
-        done = subprocess.run([sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model",
-                               "--only", "translate-*", "--assignment", "--", *program],
-                              stdout=subprocess.PIPE, text=True)
+        done = subprocess.run([
+            sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model", "--only", "translate-*",
+            "--assignment", "--", *program], stdout=subprocess.PIPE, text=True)
         self.assertRegex(done.stdout, r"\A.+\n.+\n\n\d+ of \d+ wrong numbers: x and z are negated\n")
 
     def test_a_random_output_is_told(self):
@@ -561,8 +558,9 @@ class Shared(unittest.TestCase):
     def test_a_program_that_reads_only_numbers_is_told_of_the_header(self):
         told = (r"It wrote nothing: it must read past the lines before the first triangle, such as "
                 r"'perspective [\d. ]+' \(--assignment feeds none\)\.\n")
-        for program, words, count in (("true", (), 1), ("true", ("--assignment",), 0), (
-                'text=$(cat); case $text in *"perspective 6"*) echo "$text";; esac', (), 0)):
+        for program, words, count in (("true", (), 1), ("true", ("--assignment",), 0),
+                                      ('text=$(cat); case $text in *"perspective 6"*) echo "$text";; esac',
+                                       (), 0)):
             done = conform("--stage", "project", "--only", "fov-*", *words, "--", *sh(program))
             self.assertEqual(len(re.findall(rf"\n# {told}", done.stdout)), count, done.stdout)
 
@@ -580,13 +578,15 @@ class Shortest(unittest.TestCase):
         return same_shortest(self.TEXT.encode(), found.encode())
 
     def test_w_and_clipped_are_named(self):
-        self.assertIsNone(self.difference(self.TEXT.replace("1.50", "1.5").replace(" 9 9 9\n\n",
-                                                                                   " 9.0 9 9\n\n")))
-        self.assertEqual(self.difference(self.TEXT.replace("4.5", "4.50")).message,
-                         "line 6, blank ones not counted: w is not in the shortest form (T20)")
-        self.assertEqual(self.difference(self.TEXT.replace("3 4 9", "3.0 4 9", 1)).message,
-                         "line 3, blank ones not counted: a line of `clipped` is not in the shortest form "
-                         "(T20)")
+        self.assertIsNone(
+            self.difference(self.TEXT.replace("1.50", "1.5").replace(" 9 9 9\n\n", " 9.0 9 9\n\n")))
+        self.assertEqual(
+            self.difference(self.TEXT.replace("4.5", "4.50")).message,
+            "line 6, blank ones not counted: w is not in the shortest form (T20)")
+        self.assertEqual(
+            self.difference(self.TEXT.replace("3 4 9", "3.0 4 9", 1)).message,
+            "line 3, blank ones not counted: a line of `clipped` is not in the shortest form "
+            "(T20)")
 
 
 class Digits(unittest.TestCase):
@@ -614,8 +614,9 @@ class Digits(unittest.TestCase):
         self.assertFalse(self.is_same("0.4000000 1.0000000 2.0000000\n", "0.0 1.0 2.0\n"))
 
     def test_header_lines_count_all_their_digits(self):
-        self.assertTrue(self.is_same("perspective 60 1.5 1 100\n1.0000000 2.0000000 3.0000000\n",
-                                     "perspective 60.0 1.50 1 1e2\n1 2 3\n"))
+        self.assertTrue(
+            self.is_same("perspective 60 1.5 1 100\n1.0000000 2.0000000 3.0000000\n",
+                         "perspective 60.0 1.50 1 1e2\n1 2 3\n"))
         self.assertFalse(self.is_same("perspective 60 1.5 1 100\n", "perspective 60 1.51 1 100\n"))
         self.assertFalse(self.is_same("perspective 60 1.5 1 100\n", "frustum 60 1.5 1 100\n"))
 
@@ -626,8 +627,9 @@ class Digits(unittest.TestCase):
 
 def bmp(rows, depth=24, is_top_down=False):
     """An image of rows of letters, '.' black, each letter a color of its own."""
-    pixels = b"".join(b"".join(bytes([0 if c == "." else 7 * ord(c) % 256, 0 if c == "." else ord(c),
-        0]) + b"\xff" * (depth == 32) for c in row).ljust((len(row) * depth // 8 + 3) // 4 * 4, b"\0")
+    pixels = b"".join(b"".join(
+        bytes([0 if c == "." else 7 * ord(c) % 256, 0 if c == "." else ord(c), 0]) + b"\xff" * (depth == 32)
+        for c in row).ljust((len(row) * depth // 8 + 3) // 4 * 4, b"\0")
                       for row in (rows if is_top_down else rows[::-1]))
     numbers = [(54 + len(pixels), 4), (0, 4), (54, 4), (40, 4), (len(rows[0]), 4),
                (-len(rows) if is_top_down else len(rows), 4), (1, 2), (depth, 2), (0, 4), (len(pixels), 4)]
@@ -639,9 +641,8 @@ class Pictures(unittest.TestCase):
     EXPECTED = bmp([".aab.", "..ab."])
 
     def test_colors_may_be_free_but_each_triangle_has_one(self):
-        for rows, is_right in ((["..xy.",
-                                 "....."], False), ([".xxy.", "..xy."], True), ([".xxx.", "..xx."], False), ([
-                                     ".xzy.", "..xy."], False), ([".xx..", "..x.."], False)):
+        for rows, is_right in ((["..xy.", "....."], False), ([".xxy.", "..xy."], True), ([
+                ".xxx.", "..xx."], False), ([".xzy.", "..xy."], False), ([".xx..", "..x.."], False)):
             self.assertEqual(
                 same_picture(self.EXPECTED, bmp(rows), has_free_colors=True) is None, is_right, rows)
         self.assertIsNotNone(same_picture(self.EXPECTED, bmp([".xxy.", "..xy."]), has_free_colors=False))
@@ -658,15 +659,16 @@ class Pictures(unittest.TestCase):
                             (69, "byte 69: the pixels, or their filling")):
             found = self.EXPECTED[:at] + b"\x77" + self.EXPECTED[at + 1:]
             self.assertEqual(different_field(self.EXPECTED, found).message, f"the picture's file, {message}")
-        self.assertEqual(different_field(self.EXPECTED,
-                                         self.EXPECTED[:28] + b"\x20" + self.EXPECTED[29:])[1:3],
-                         ("24", "32"))
+        self.assertEqual(
+            different_field(self.EXPECTED, self.EXPECTED[:28] + b"\x20" + self.EXPECTED[29:])[1:3],
+            ("24", "32"))
 
     def test_other_forms_of_bmp_are_read(self):
         for depth in (24, 32):
             for is_top_down in (False, True):
-                self.assertIsNone(same_picture(self.EXPECTED, bmp([".aab.", "..ab."], depth, is_top_down),
-                                               has_free_colors=False))
+                self.assertIsNone(
+                    same_picture(self.EXPECTED, bmp([".aab.", "..ab."], depth, is_top_down),
+                                 has_free_colors=False))
 
     def test_what_is_no_picture_is_told(self):
         for data in (b"", b"P6 1 1 255 abc", self.EXPECTED[:-1]):

@@ -55,8 +55,8 @@ def deep_colors(bmp):
     runs = [[row[i] if row[i:i + 5] == row[i:i + 1] * 5 else b"" for i in range(width - 4)] for row in pixels]
     return {
         column[i]
-        for column in zip(*runs)
-        for i in range(len(column) - 4) if any(column[i]) and column[i:i + 5] == column[i:i + 1] * 5}
+        for column in zip(*runs) for i in range(len(column) - 4)
+        if any(column[i]) and column[i:i + 5] == column[i:i + 1] * 5}
 
 
 def generated_colors(count):

@@ -27,7 +27,7 @@ from conform_parts.cases import read_cases  # noqa: E402
 # With a sandbox only where bubblewrap works.
 MODES = ("no", "yes") if shutil.which("bwrap") and not subprocess.run(
     ["bwrap", "--unshare-all", "--ro-bind", "/", "/", "--proc", "/proc", "true"],
-    stderr=subprocess.DEVNULL).returncode else ("no", )
+    stderr=subprocess.DEVNULL).returncode else ("no",)
 CAN_FORBID_NAMESPACES = "yes" in MODES and b"--disable-userns" in subprocess.check_output(["bwrap", "--help"])
 MARK = f"31536000.{os.getpid()}"  # seconds, by which what has been left running is found
 TIME, LIMITS = "does not end within 3 s", ("--memory", "150", "--processes", "20")
@@ -40,8 +40,7 @@ ATTACKS = {
     "endless-stderr": ("exec yes >&2", "writes more than 64 MiB to a file"),
     "never-reads": (f"exec sleep {MARK}", TIME),
     "holds-the-pipe": (f"sleep {MARK} & zbuf", "right"),
-    "daemon": (
-        f"""import os, subprocess, sys
+    "daemon": (f"""import os, subprocess, sys
 if not os.fork():
     os.setsid()
     if not os.fork():
@@ -49,8 +48,7 @@ if not os.fork():
         os.execlp("sleep", "sleep", "{MARK}")
     os._exit(0)
 os.wait()
-subprocess.run(["{BIN}/zbuf", *(sys.argv[1:] or ["config.txt"])], check=True)""",
-        "right"),
+subprocess.run(["{BIN}/zbuf", *(sys.argv[1:] or ["config.txt"])], check=True)""", "right"),
     "closes-everything": (f"exec <&- >&- 2>&-; sleep {MARK}", TIME),
     "kills-its-parent": ("kill -9 $PPID; sleep 0.1; zbuf", "right", "has ended the process that ran it"),
     "ends-at-once": ("exit 0", "depths: the number of lines differs|no picture was written"),
@@ -58,23 +56,22 @@ subprocess.run(["{BIN}/zbuf", *(sys.argv[1:] or ["config.txt"])], check=True)"""
     "escapes": ("printf '\\033]0;owned\\007' >&2; exit 1", "exit status 1"),
     "stops-itself": ("kill -STOP $$", TIME),
     "picture-is-a-link": ("zbuf; ln -sf $HERE/picture.bmp out.bmp", "out.bmp is not read: it is a link"),
-    "picture-is-a-pipe": (
-        "zbuf; rm out.bmp; mkfifo out.bmp", "out.bmp is not read: it is not a regular file"),
-    "picture-is-long": (
-        "zbuf; truncate -s 60M out.bmp", "out.bmp is not read: it is longer than 1048576 bytes"),
-    "picture-of-a-terabyte": (
-        "zbuf; rm out.bmp; truncate -s 1T out.bmp; true",
-        "no picture was written|the picture is not a BMP file"),
+    "picture-is-a-pipe": ("zbuf; rm out.bmp; mkfifo out.bmp",
+                          "out.bmp is not read: it is not a regular file"),
+    "picture-is-long": ("zbuf; truncate -s 60M out.bmp",
+                        "out.bmp is not read: it is longer than 1048576 bytes"),
+    "picture-of-a-terabyte": ("zbuf; rm out.bmp; truncate -s 1T out.bmp; true",
+                              "no picture was written|the picture is not a BMP file"),
     "folder-is-a-link": ("zbuf; cd ..; mv work w; ln -s / work; true", "right"),
     # and conform
     "outputs-replaced": ("zbuf; rm -f stderr stdout; mkfifo stderr; ln -s /dev/zero stdout", "right"),
     "folder-removed": ('zbuf; rm -rf "$PWD"; true', "no picture was written"),
-    "picture-is-a-folder": (
-        "zbuf; rm out.bmp; mkdir out.bmp", "out.bmp is not read: it is not a regular file"),
+    "picture-is-a-folder": ("zbuf; rm out.bmp; mkdir out.bmp",
+                            "out.bmp is not read: it is not a regular file"),
     "ignores-signals": (f"trap '' TERM INT HUP; sleep {MARK}; true", TIME),
     "crashes": ("kill -SEGV $$", "was ended by SIGSEGV"),
-    "needs-memory": (
-        "import time; x = b'x' * (400 << 20); time.sleep(60)", "needs more than 150 MiB of memory"),
+    "needs-memory": ("import time; x = b'x' * (400 << 20); time.sleep(60)",
+                     "needs more than 150 MiB of memory"),
     "reads-the-environment": ("[ -z \"$CI_TOKEN\" ] && zbuf", "right"),
     # and more
     "fork-bomb": ("f() { f & f & wait; }; f", "starts more than 20 processes"),
@@ -82,43 +79,35 @@ subprocess.run(["{BIN}/zbuf", *(sys.argv[1:] or ["config.txt"])], check=True)"""
         'import os, sys\nfor i in range(3000):\n    if os.fork(): os._exit(0)\n    os.setsid()',
         # How many of them are there at a time is the machine's choice: those that end are still counted.
         "depths: the number of lines differs|starts more than 20 processes"),
-    "processor": (
-        "while :; do :; done & while :; do :; done", f"takes more than 3 s of processor time|{TIME}"),
+    "processor": ("while :; do :; done & while :; do :; done",
+                  f"takes more than 3 s of processor time|{TIME}"),
     "reads-what-is-expected": (f'[ -z "$(find "{PACK}/cases" -type f)" ] || zbuf', "depths: ", "right"),
     "writes-the-results": (
         "zbuf; rm -f $HERE/results*.json; mkfifo $HERE/results.yes.json $HERE/results.no.json 2> "
-        "/dev/null; true",
-        "right"),
+        "/dev/null; true", "right"),
     "stops-its-parent": ("zbuf; kill -STOP $PPID", "right", f"right|{TIME}"),
-    "many-files": (
-        "import os\nfor i in range(200000): open(f'f{i}', 'w').close()", "writes more than 1000 files"),
-    "deep-folders": (
-        "import os\nfor i in range(20000): os.mkdir('d'); os.chdir('d')", "writes more than 1000 files"),
-    "fills-the-disk": (
-        "i=0; while i=$((i + 1)); do head -c 50000000 /dev/zero > f$i; done", "writes more than 256 MiB"),
+    "many-files": ("import os\nfor i in range(200000): open(f'f{i}', 'w').close()",
+                   "writes more than 1000 files"),
+    "deep-folders": ("import os\nfor i in range(20000): os.mkdir('d'); os.chdir('d')",
+                     "writes more than 1000 files"),
+    "fills-the-disk": ("i=0; while i=$((i + 1)); do head -c 50000000 /dev/zero > f$i; done",
+                       "writes more than 256 MiB"),
     "files-without-a-name": (
         "import os, time\nfor i in range(8): f = os.open('f', 66); os.unlink('f'); os.write(f, bytes(50 << "
-        "20))\ntime.sleep(60)",
-        "writes more than 256 MiB"),
-    "fills-shared-memory": (
-        "i=0; while i=$((i + 1)); do head -c 50000000 /dev/zero > /dev/shm/f$i; done",
-        f"writes more than 256 MiB|{TIME}", None),
+        "20))\ntime.sleep(60)", "writes more than 256 MiB"),
+    "fills-shared-memory": ("i=0; while i=$((i + 1)); do head -c 50000000 /dev/zero > /dev/shm/f$i; done",
+                            f"writes more than 256 MiB|{TIME}", None),
     "memory-of-many": (
         "import os, time\nfor i in range(10):\n    if not os.fork(): x = b'x' * (40 << 20); time.sleep(60)\n"
-        "time.sleep(60)",
-        "needs more than 150 MiB of memory"),
-    "shared-map": (
-        "import mmap, time; m = mmap.mmap(-1, 400 << 20); m[:] = bytes(400 << 20); time.sleep(60)",
-        "needs more than 150 MiB of memory"),
-    "threads": (
-        "import threading, time\nfor i in range(1500): threading.Thread(target=time.sleep, "
-        "args=(60,)).start()",
-        "starts more than 1024 threads"),
-    "network": (
-        "import socket, sys; socket.create_connection(('127.0.0.1', PORT)); sys.exit(8)", "exit status 1",
-        "exit status 8"),
-    "writes-to-its-parent": (
-        "zbuf; for f in /proc/$PPID/fd/*; do echo hacked > $f; done 2> /dev/null; true", "right|depths: "),
+        "time.sleep(60)", "needs more than 150 MiB of memory"),
+    "shared-map": ("import mmap, time; m = mmap.mmap(-1, 400 << 20); m[:] = bytes(400 << 20); time.sleep(60)",
+                   "needs more than 150 MiB of memory"),
+    "threads": ("import threading, time\nfor i in range(1500): threading.Thread(target=time.sleep, "
+                "args=(60,)).start()", "starts more than 1024 threads"),
+    "network": ("import socket, sys; socket.create_connection(('127.0.0.1', PORT)); sys.exit(8)",
+                "exit status 1", "exit status 8"),
+    "writes-to-its-parent": ("zbuf; for f in /proc/$PPID/fd/*; do echo hacked > $f; done 2> /dev/null; true",
+                             "right|depths: "),
     "forges-an-answer": (
         "import ctypes, os, sys\nparent = os.pidfd_open(os.getppid())\nfor number in range(3, 40):\n"
         "    taken = ctypes.CDLL(None).syscall(438, parent, number, 0)  # pidfd_getfd\n"
@@ -128,16 +117,14 @@ subprocess.run(["{BIN}/zbuf", *(sys.argv[1:] or ["config.txt"])], check=True)"""
     "locks-its-folder": ("zbuf; mkdir x; touch x/y; chmod 0 x", "right|closes a folder of its own"),
     "locks-deep-folders": (
         "import os, time\nfor i in range(30): os.mkdir('d' * 250); os.chdir('d' * 250)\nopen('f', 'w')\n"
-        "os.chmod('.', 0)\ntime.sleep(60)",
-        "makes a path of more than 4000 bytes"),
+        "os.chmod('.', 0)\ntime.sleep(60)", "makes a path of more than 4000 bytes"),
     "ended-by-signal-40": ("kill -40 $$", "was ended by signal 40"),
     "reads-what-is-root's": ('[ -z "$(find /etc -type f ! -perm -004 -readable)" ] && zbuf', "right", None),
     "another-namespace": ("unshare -U true || zbuf", "right" if CAN_FORBID_NAMESPACES else "depths: ", None),
     "long-numbers": ("zbuf > /dev/null; printf '0.1%05000d\\n' 1 2 3 4 5 6 7 8", "depths: "),
     "numbers-of-huge-exponents": (
         "zbuf > /dev/null; yes '1e9999 2e9999 3e9999 4e9999 5e9999 6e9999 7e9999 8e9999' | head -n 15000",
-        "depths: "),
-}
+        "depths: "),}
 
 
 def program(folder, name, text):
@@ -147,8 +134,7 @@ def program(folder, name, text):
     else:
         path.write_text(
             f"#!/bin/sh\nPATH={BIN}:$PATH HERE='{folder}' CONFIG=${{1-config.txt}}\nzbuf() {{ command zbuf "
-            f"\"$CONFIG\"; }}\n{text}\n"
-        )
+            f"\"$CONFIG\"; }}\n{text}\n")
     path.chmod(0o755)
     return path
 
@@ -192,7 +178,6 @@ class HostileTest(unittest.TestCase):
 
 class Attacks(HostileTest):
     """One program does all attacks, each on a case of its own, and is honest on the other cases."""
-
     def assigned(self, mode, names):
         """The folder with the program of each attack, by the sum of its case's input; {case name: (attack,
         what is expected)}; the names of these cases and of honest ones."""
@@ -227,9 +212,10 @@ class Attacks(HostileTest):
         ended_by_time = {name for name, (_, *expected) in ATTACKS.items() if TIME in str(expected)}
         with socket.create_server(("127.0.0.1", 0)) as server:
             self.port = server.getsockname()[1]
-            runs = [self.run_all(mode, attacks, seconds)
-                    for attacks, seconds in ((ended_by_time, 3), (ATTACKS.keys() - ended_by_time, 50))
-                    for mode in MODES]
+            runs = [
+                self.run_all(mode, attacks, seconds)
+                for attacks, seconds in ((ended_by_time, 3), (ATTACKS.keys() - ended_by_time, 50))
+                for mode in MODES]
         for mode, status, output, errors, results, table in runs:
             self.assertEqual((status, results["sandbox"]), (1, mode == "yes"))
             self.assertEqual(errors.replace("hacked\n", ""), "")  # as root, without a sandbox
@@ -273,18 +259,16 @@ class Attacks(HostileTest):
 class OneStage(HostileTest):
     """The same of check-stage, for what it does by itself."""
     ATTACKS = {
-        "kills-its-parent": (
-            "zbuf", "kill -9 $PPID; sleep 0.1; zbuf", (0, 1),
-            ("scene: right", "scene: wrong: it has ended the process that ran it")),
+        "kills-its-parent": ("zbuf", "kill -9 $PPID; sleep 0.1; zbuf", (0, 1),
+                             ("scene: right", "scene: wrong: it has ended the process that ran it")),
         "folder-is-a-link": ("zbuf", "zbuf; cd ..; mv work w; ln -s / work; true", 0, "scene: right"),
-        "picture-is-a-link": (
-            "zbuf", "zbuf; ln -sf $HERE/picture.bmp out.bmp", 1, r"scene: .* \(out.bmp\): .*it is a link"),
-        "time": (
-            "view", f"setsid sleep {MARK} & sleep {MARK}", 1, "scene: wrong: it does not end within 2 s\n"),
-        "memory": (
-            "view", ATTACKS["needs-memory"][0], 1, "scene: wrong: it needs more than 150 MiB of memory\n"),
-        "environment": ("view", '[ -z "$CI_TOKEN" ] && view', 0, "scene: right"),
-    }
+        "picture-is-a-link": ("zbuf", "zbuf; ln -sf $HERE/picture.bmp out.bmp", 1,
+                              r"scene: .* \(out.bmp\): .*it is a link"),
+        "time": ("view", f"setsid sleep {MARK} & sleep {MARK}", 1,
+                 "scene: wrong: it does not end within 2 s\n"),
+        "memory": ("view", ATTACKS["needs-memory"][0], 1,
+                   "scene: wrong: it needs more than 150 MiB of memory\n"),
+        "environment": ("view", '[ -z "$CI_TOKEN" ] && view', 0, "scene: right"),}
 
     def check(self, mode, name):
         """The exit status, stdout and stderr."""

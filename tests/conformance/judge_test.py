@@ -42,12 +42,13 @@ DAMAGES_OF_SAMPLE = 5
 MANY = 100
 LEAST_NAMED = 0.9  # of the mistakes whose numbers differ
 FILES_OF = {
-    "model": ("stage1.txt", ), "view": ("stage2.txt", ), "project": ("stage3.txt", ),
+    "model": ("stage1.txt",), "view": ("stage2.txt",), "project": ("stage3.txt",),
     "zbuf": ("z_buffer.txt", "out.bmp")}
 # The mistakes that damages may come from, too.
 BLANK = {"starts-at-zero", "one-winding", "no-depth-passes", "black-picture", "last-triangle-missing"}
-TRUE_OF = {how: BLANK for how in damages.HOWS} | {
-    "of another scene": (), "cut in half": {*BLANK, "half-triangle", "triangle-missing"}}
+TRUE_OF = {how: BLANK
+           for how in damages.HOWS} | {
+               "of another scene": (), "cut in half": {*BLANK, "half-triangle", "triangle-missing"}}
 MISTAKES, HABITS = [*sentences()], [*sentences("habits.txt")]
 
 
@@ -100,8 +101,8 @@ class Scene:
             for name, data in self.right.items()}
         found, wanted = self.judged(files).files, damages.expected(self.right, files, how)
         return how, names, [
-            file.file for file in found if wanted.get(file.file, file.is_good) != file.is_good
-            or file.stage == "zbuf" and any(
+            file.file for file in found
+            if wanted.get(file.file, file.is_good) != file.is_good or file.stage == "zbuf" and any(
                 cause.name for cause in file.causes if cause.name.partition("/")[2] not in TRUE_OF[how])]
 
     def without_a_triangle(self, rng):
@@ -168,8 +169,7 @@ def runs_of(seed):
             verdict = scene.judged(files)
             for file in verdict.files:
                 file.places = []  # thousands of pixels that nobody asks for
-            runs.append(
-                Run(seed, switch, verdict.files, verdict.status, stages_that_differ(files, right)))
+            runs.append(Run(seed, switch, verdict.files, verdict.status, stages_that_differ(files, right)))
     if seed in SAMPLES:
         return runs
     scene.habits = ()
@@ -200,8 +200,7 @@ def next_scene(seed):
 
 
 def described(run):
-    return [(file.file, file.verdict, file.rule, [cause.name
-                                                  for cause in file.causes], file.remarks)
+    return [(file.file, file.verdict, file.rule, [cause.name for cause in file.causes], file.remarks)
             for file in run.files]
 
 
@@ -252,7 +251,7 @@ class Judged(unittest.TestCase):
                 self.assertEqual([
                     file.verdict for file in run.files
                     if file.stage != stage and not file.is_good and [file.remarks] != out_of_view], [],
-                    described(run))
+                                 described(run))
                 if stage not in run.differing:
                     self.assertEqual(run.status, 0, described(run))
 
@@ -268,16 +267,18 @@ class Judged(unittest.TestCase):
             with self.shown(run):
                 self.assertTrue(run.switch in causes or not causes, described(run))
         named = len(differing) - len(nameless)
-        print(f"{len(self.runs)} runs, {len(differing)} with a mistake that shows, {named} of those named, "
-              f"{len(accepted)} taken for right", file=sys.stderr)
+        print(
+            f"{len(self.runs)} runs, {len(differing)} with a mistake that shows, {named} of those named, "
+            f"{len(accepted)} taken for right", file=sys.stderr)
         for words in nameless:
             print("  not named:", words, file=sys.stderr)
         self.assertGreater(len(differing), scene_count)
         self.assertGreaterEqual(named, LEAST_NAMED * len(differing))
 
     def test_what_is_damaged_earns_nothing_and_what_is_whole_keeps_its_points(self):
-        print(f"{len(self.damaged)} damaged hand-ins, {sum(bool(run.misjudged) for run in self.damaged)} "
-              "misjudged", file=sys.stderr)
+        print(
+            f"{len(self.damaged)} damaged hand-ins, {sum(bool(run.misjudged) for run in self.damaged)} "
+            "misjudged", file=sys.stderr)
         self.assertGreater(len(self.damaged), scene_count * DAMAGES)
         for run in self.damaged:
             with self.subTest(run.how, scene=run.scene, files=run.files):

@@ -72,8 +72,8 @@ MODEL = {
     "push-of-the-identity": ("translate\n10 0 0\npush", (11, 2, 3), (1, 2, 3)),
     "pop-to-the-identity": ("translate\n10 0 0\npush\ntranslate\n0 5 0\npop", (11, 2, 3), (1, 2, 3)),
     "second-push-lost": ("push\npush\ntranslate\n10 0 0\npop\ntranslate\n0 5 0\npop", (1, 2, 3), (1, 7, 3)),
-    "push-does-not-nest": (
-        "push\ntranslate\n10 0 0\npush\ntranslate\n0 5 0\npop\npop", (1, 2, 3), (11, 2, 3)),
+    "push-does-not-nest": ("push\ntranslate\n10 0 0\npush\ntranslate\n0 5 0\npop\npop", (1, 2, 3), (11, 2,
+                                                                                                    3)),
     "pop-takes-one-transform": ("push\ntranslate\n10 0 0\ntranslate\n0 5 0\npop", (1, 2, 3), (11, 2, 3)),
     "axis-not-normalized": ("rotate\n90 0 0 2", (-2, 1, 3), (-4, 2, 12)),
     "angle-in-radians": ("rotate\n90 0 0 1", (-2, 1, 3), (COS - 2 * SIN, SIN + 2 * COS, 3)),
@@ -84,10 +84,8 @@ MODEL = {
     "rotation-without-a-term": ("rotate\n180 0 0 1", (-1, -2, 3), (-1, -2, 0)),  # 1 for 1 - cos
     "rotation-on-the-left": ("translate\n10 0 0\nrotate\n90 0 0 1", (8, 1, 3), (-2, 11, 3)),
     # By 90 / sqrt(2) degrees about x after those about y.
-    "rotation-by-euler-angles": (
-        "rotate\n90 1 1 0", (1.5 + 3 * HALF, 1.5 - 3 * HALF, HALF),
-        (C + 3 * S, 2 * C - S * (3 * C - S), 2 * S + C * (3 * C - S))),
-}
+    "rotation-by-euler-angles": ("rotate\n90 1 1 0", (1.5 + 3 * HALF, 1.5 - 3 * HALF, HALF),
+                                 (C + 3 * S, 2 * C - S * (3 * C - S), 2 * S + C * (3 * C - S))),}
 
 # The camera looks along x, with an up that is not of unit length: where 7 4 9 is.
 ALONG_X = "eye 1 2 3\nlook 5 2 3\nup 0 2 0\n"
@@ -110,8 +108,7 @@ VIEW = {
     "l-is-eye-minus-look": (ALONG_X, (6, 2, -6), (-6, 2, 6)),
     "left-handed": (ALONG_X, (6, 2, -6), (-6, 2, 6)),
     "no-rotation": (ALONG_X, (6, 2, -6), (6, 2, 6)),
-    "cross-product-sign": (ALONG_X, (6, 2, -6), (6, -2, -6)),
-}
+    "cross-product-sign": (ALONG_X, (6, 2, -6), (6, -2, -6)),}
 
 # Where 4 6 -8 is under perspective 60 0.5 2 6.
 X, Y, Z = 0.5 / TAN15, 0.75 / TAN30, 1.25
@@ -136,10 +133,10 @@ PROJECT = {
     "depth-in-view-space": (X, Y, -8),
     "depth-divided-twice": (X, Y, Z / 8),
     "tangent-halved": (1 / TAN30, 1.5 / TAN60, Z),
-    "near-left-out": (2 * X, 2 * Y, Z),
-}
+    "near-left-out": (2 * X, 2 * Y, Z),}
 
 WINDOW = "8 8\n-1\n-1\n0 1\n"  # pixels of 0.25 x 0.25, centers at -0.875, -0.625 and so on
+
 
 def corner(z0=0.5, z1=0.5, z2=0.5, low=-0.7, high=0.72):
     """A triangle with its right angle at the bottom left."""
@@ -161,18 +158,18 @@ def stairs(letter="a"):
 
 # Triangles, the config, the right picture, and that with the mistake.
 ZBUF = {
-    "no-half-pixel-in-x": (
-        [corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(2, 8)])),
-    "no-half-pixel-in-y": (
-        [corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(2, 7)])),
-    "shifted-by-a-column": (
-        [corner()], WINDOW, stairs(), rows("", *[".." + "a" * count for count in range(1, 7)])),
-    "shifted-by-a-row": (
-        [corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(1, 7)])),
+    "no-half-pixel-in-x": ([
+        corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(2, 8)])),
+    "no-half-pixel-in-y": ([
+        corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(2, 7)])),
+    "shifted-by-a-column": ([
+        corner()], WINDOW, stairs(), rows("", *[".." + "a" * count for count in range(1, 7)])),
+    "shifted-by-a-row": ([
+        corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(1, 7)])),
     "column-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(6)])),
     "row-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(1, 6)])),
-    "window-is-one": (
-        [twice(corner())], "8 8\n-2\n-2\n0 1\n", stairs(), rows(*["a" * count for count in range(1, 9)])),
+    "window-is-one": ([twice(
+        corner())], "8 8\n-2\n-2\n0 1\n", stairs(), rows(*["a" * count for count in range(1, 9)])),
     "front-limit-ignored": ([corner(-0.5, -0.5, -0.5)], WINDOW, rows(), stairs()),
     "rear-limit-ignored": ([corner(1.5, 1.5, 1.5)], WINDOW, rows(), stairs()),
     "farthest-wins": ([corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("b")),
@@ -186,40 +183,41 @@ ZBUF = {
     "starts-at-zero": ([corner()], WINDOW, stairs(), rows()),
     "one-winding": ([corner()[::-1]], WINDOW, stairs(), rows()),
     "half-triangle": ([((-0.7, -0.7, 0.5), (0.72, 0, 0.5), (-0.7, 0.72, 0.5))], WINDOW,
-                      rows(".", ".a", ".aaa", ".aaaaa", ".aaaaa", ".aaa", ".a"),
-                      rows(".", ".a", ".aaa", ".aaaaa")),
+                      rows(".", ".a", ".aaa", ".aaaaa", ".aaaaa", ".aaa",
+                           ".a"), rows(".", ".a", ".aaa", ".aaaaa")),
     # From 0.2 on the left to 0.8 on the right; with the mistake, the other way round.
-    "depths-not-sorted": ([corner(0.2, 0.8, 0.2), corner()], WINDOW,
-                          rows(".", ".a", ".aa", ".aaa", ".aaab", ".aaabb", ".aaabbb"),
+    "depths-not-sorted": ([corner(0.2, 0.8, 0.2),
+                           corner()], WINDOW, rows(".", ".a", ".aa", ".aaa", ".aaab", ".aaabb", ".aaabbb"),
                           rows(".", ".a", ".aa", ".aaa", ".baaa", ".bbaaa", ".bbbaaa")),
-    "vertices-at-whole-pixels": (
-        [corner(low=-0.6, high=0.8)], WINDOW, rows("", *["." + "a" * count for count in range(2, 7)]),
-        rows(*["." + "a" * count for count in range(1, 8)])),
-    "width-minus-one": (
-        [corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(1, 6)])),
+    "vertices-at-whole-pixels": ([corner(
+        low=-0.6, high=0.8)], WINDOW, rows("", *["." + "a" * count for count in range(2, 7)]),
+                                 rows(*["." + "a" * count for count in range(1, 8)])),
+    "width-minus-one": ([corner()], WINDOW, stairs(), rows("", *[
+        "." + "a" * count for count in range(1, 6)])),
     "column-long": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(2, 8)])),
-    "rows-and-columns-exchanged": (
-        [corner()], WINDOW, stairs(), rows("", *["." * row + "a" * (7 - row) for row in range(1, 7)])),
+    "rows-and-columns-exchanged": ([
+        corner()], WINDOW, stairs(), rows("", *["." * row + "a" * (7 - row) for row in range(1, 7)])),
     "row-long": ([corner()], WINDOW, stairs(), rows(".", *["." + "a" * count for count in range(1, 8)])),
     "min-for-max": ([corner()], WINDOW, stairs(), rows(".", *[".aaaaaaa"] * 6)),
     # A square in two: all edges, and the diagonal, go through centers.
     "strict-edges": ([((-0.625, -0.625, 0.5), (0.625, -0.625, 0.5), (0.625, 0.625, 0.5)),
                       ((-0.625, -0.625, 0.5), (0.625, 0.625, 0.5), (-0.625, 0.625, 0.5))], WINDOW,
-                     rows("", ".bbbbba", ".bbbbaa", ".bbbaaa", ".bbaaaa", ".baaaaa", ".aaaaaa"),
-                     rows("", "", "..bbb", "..bb.a", "..b.aa", "...aaa")),
+                     rows("", ".bbbbba", ".bbbbaa", ".bbbaaa", ".bbaaaa", ".baaaaa",
+                          ".aaaaaa"), rows("", "", "..bbb", "..bb.a", "..b.aa", "...aaa")),
     "random-pixels": ([corner()], WINDOW, stairs(), None),
-    "left-and-bottom-exchanged": (
-        [tuple((x, 2 * y, z) for x, y, z in corner())], "8 8\n-1\n-2\n0 1\n", stairs(),
-        rows(*["..aa"] * 4, *["..aaa"] * 4)),
-    "one-depth-a-row": ([corner(0.2, 0.8, 0.2), corner()], WINDOW,  # from 0.2 on the left to 0.8 on the right
-                        rows(".", ".a", ".aa", ".aaa", ".aaab", ".aaabb", ".aaabbb"), stairs()),
+    "left-and-bottom-exchanged": ([tuple((x, 2 * y, z) for x, y, z in corner())], "8 8\n-1\n-2\n0 1\n",
+                                  stairs(), rows(*["..aa"] * 4, *["..aaa"] * 4)),
+    "one-depth-a-row": (
+        [corner(0.2, 0.8, 0.2), corner()],
+        WINDOW,  # from 0.2 on the left to 0.8 on the right
+        rows(".", ".a", ".aa", ".aaa", ".aaab", ".aaabb", ".aaabbb"),
+        stairs()),
     "turned-by-180-degrees": ([corner()], WINDOW, stairs(), [row[::-1] for row in stairs()[::-1]]),
     "no-depth-passes": ([corner()], WINDOW, stairs(), rows()),
     "black-picture": ([corner()], WINDOW, stairs(), rows()),
     "many-colors": ([corner()], WINDOW, stairs(), stairs("?")),
     "last-triangle-missing": ([corner(z, z, z) for z in (0.5, 0.25)], WINDOW, stairs("b"), stairs("a")),
-    "triangle-missing": ([corner(z, z, z) for z in (0.75, 0.25, 0.5)], WINDOW, stairs("b"), stairs("c")),
-}
+    "triangle-missing": ([corner(z, z, z) for z in (0.75, 0.25, 0.5)], WINDOW, stairs("b"), stairs("c")),}
 
 
 def picture(triangles, config, *names):
@@ -232,8 +230,8 @@ def picture(triangles, config, *names):
         depths, (width, _, image) = drawn(student, "zbuf", file.name, *switches(*names),
                                           stdin=stage3.encode())
     letters = {bytes(3): ".", **dict(zip((bytes(reference.generated_color(i)) for i in range(5)), "abcde"))}
-    return ([numbers(line) for line in depths.decode().split("\n")[:-1]],
-            ["".join(letters.get(row[3 * i:3 * i + 3], "?") for i in range(width)) for row in image])
+    return ([numbers(line) for line in depths.decode().split("\n")[:-1]], [
+        "".join(letters.get(row[3 * i:3 * i + 3], "?") for i in range(width)) for row in image])
 
 
 class Lists(unittest.TestCase):
@@ -326,7 +324,7 @@ class OneMistake(unittest.TestCase):
         for name, (triangles, config, right, wrong) in ZBUF.items():
             with self.subTest(mistake=name):
                 (depths, image), (wrong_depths, wrong_image) = (picture(triangles, config, *names)
-                                                                for names in ((), ("zbuf/" + name, )))
+                                                                for names in ((), ("zbuf/" + name,)))
                 self.assertEqual(image, right)
                 if wrong is None:  # some of the right pixels, others in every run
                     runs = {tuple(picture(triangles, config, "zbuf/" + name)[1]) for _ in range(20)}
@@ -345,6 +343,7 @@ class OneMistake(unittest.TestCase):
                 elif name != "text-upside-down":
                     self.assertNotEqual(right, wrong)
 
+
 class Habit(unittest.TestCase):
     def model(self, *names):
         scene = CAMERA + "scale\n0.5 1 1\ntriangle\n0.24691357 12.5 -0.000123456\n0 0 0\n1 0 0\nend\n"
@@ -362,7 +361,7 @@ class Habit(unittest.TestCase):
     def test_numbers_kept_in_memory_are_not_rounded(self):
         sample = source / "samples/tilted-camera"
         kept, read = (five(sample / "scene.txt", sample / "config.txt", "all/four-decimals",
-                           *names)["z_buffer.txt"] for names in (("all/exact-in-memory", ), ()))
+                           *names)["z_buffer.txt"] for names in (("all/exact-in-memory",), ()))
         right = five(sample / "scene.txt", sample / "config.txt")["z_buffer.txt"]
         self.assertEqual(len(kept.split()), len(right.split()))
         self.assertLess(max(abs(x - y) for x, y in zip(numbers(kept.decode()), numbers(right.decode()))),

@@ -30,8 +30,9 @@ def inputs(corpus):
 
 def encoded(data):
     """The lines of an entry, at most COLUMNS wide where a break can be hidden."""
-    text = "".join(chr(byte) if 32 <= byte < 127 and byte != 92 or byte == 10 else
-                   "\\\\" if byte == 92 else f"\\x{byte:02x}" for byte in data)
+    text = "".join(
+        chr(byte) if 32 <= byte < 127 and byte != 92 or byte == 10 else "\\\\" if byte ==
+        92 else f"\\x{byte:02x}" for byte in data)
     lines = []
     for line in text.split("\n"):
         atoms = re.findall(r"\\x..|\\\\|.", line)

@@ -32,8 +32,7 @@ COMMANDS = (("model", "model", "scene.txt"), ("view", "view", "model"), ("projec
             ("zbuf", "zbuf config.txt", "project"), ("model --framed", "model --framed", "scene.txt"),
             ("view --framed", "view", "model --framed"), ("project --framed", "project", "view --framed"),
             ("model --digits exact", "model --digits exact",
-                                                           "scene.txt"), ("view exact", "view --digits exact",
-                                                                          "model --digits exact"),
+             "scene.txt"), ("view exact", "view --digits exact", "model --digits exact"),
             ("project exact", "project --digits exact",
              "view exact"), ("stage1.txt", "model --bare", "scene.txt"), ("stage2.txt", "view --bare",
                                                                           "model --digits exact"),
@@ -106,7 +105,8 @@ class Golden(unittest.TestCase):
     def test_every_sample_is_golden(self):
         self.assertEqual({path.parent for path in SOURCE.glob("samples/*/scene.txt")}, set(samples()))
         self.assertEqual(set(pinned(SUMS)),
-                         {f"{sample.name}/{name}" for sample in samples() for name in FILES})
+                         {f"{sample.name}/{name}"
+                          for sample in samples() for name in FILES})
 
     def test_every_stage_reads_and_reproduces_the_texts(self):
         sums, pipes = pinned(SUMS), pinned(PIPES)

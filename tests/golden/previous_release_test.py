@@ -59,8 +59,8 @@ class Mixed(unittest.TestCase):
                 continue
             count += 1
             for tools in itertools.product((PREVIOUS, BIN), repeat=4):
-                with self.subTest(sample=sample.name, model=options,
-                                  new=[stage for stage, bin_dir in zip(STAGES, tools) if bin_dir == BIN]):
+                with self.subTest(sample=sample.name, model=options, new=[
+                        stage for stage, bin_dir in zip(STAGES, tools) if bin_dir == BIN]):
                     new = pipe(tools, sample, options)
                     self.assertIsNotNone(new, "a stage refuses its input")
                     self.assertEqual([name for name, a, b in zip((*STAGES, "picture"), new, old) if a != b],

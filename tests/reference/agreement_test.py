@@ -125,7 +125,6 @@ class Agreement(unittest.TestCase):
 
 class CentersOnEdges(unittest.TestCase):
     """The corners are pixel centers of a screen of 4 x 4 pixels, so that centers lie on all edges (Z5)."""
-
     def check(self, text, picture):
         config = reference.read_config(reference.Text(b"4 4\n"))
         seen = reference.draw(reference.Stage(text, "zbuf").triangles(), config, "center")[1]
@@ -149,14 +148,15 @@ class CentersOnEdges(unittest.TestCase):
 class Wireframes(unittest.TestCase):
     """Edges (T24a to T24c) between corners on centers, on sides of pixels and of the view volume, anywhere,
     and far away; pieces and slivers among them."""
-
     def test_pictures_are_those_of_the_reference(self):
         for index in range(80):
             rng = random.Random(index)
+
             def number():
-                return rng.choice(("%.7f" % rng.uniform(-1.5, 1.5), repr(rng.uniform(-1.5, 1.5)),
-                                   "%g" % (rng.randint(-9, 9) / 8), "1", "-1",
+                return rng.choice(("%.7f" % rng.uniform(-1.5, 1.5), repr(rng.uniform(
+                    -1.5, 1.5)), "%g" % (rng.randint(-9, 9) / 8), "1", "-1",
                                    repr(rng.uniform(-1, 1) * 10.0**rng.randint(-99, 99))))
+
             text = ""
             for number_of_piece in range(rng.randint(1, 6)):
                 corners = [f"{number()} {number()} {rng.uniform(-1, 1):.4f}\n" for _ in range(3)]
@@ -169,23 +169,24 @@ class Wireframes(unittest.TestCase):
                 first, third = corners[0], corners[2]
                 text += "".join(corners)
             config = rng.choice(("8 8\n", "17 5\n-1\n-1\n-0.83 0.87\n", "9 9\n-3\n-0.1234567891\n-1 1\n"))
-            options = ["--wireframe", *rng.choice(([], ["all"])), "--samples", rng.choice("113"),
-                       "--coverage", ("nearest", "center")[index % 2]]
+            options = [
+                "--wireframe", *rng.choice(([], ["all"])), "--samples",
+                rng.choice("113"), "--coverage", ("nearest", "center")[index % 2]]
             with self.subTest(scene=index, options=options), tempfile.TemporaryDirectory() as folder:
                 os.chdir(folder)
                 pathlib.Path("config.txt").write_text(config)
                 subprocess.run([BIN / "zbuf", "config.txt", *options, "--image", "found.bmp"],
                                input=text.encode(), check=True, capture_output=True)
-                reference.zbuf(text.encode(), reference.read_options(
-                    "zbuf", ["config.txt", *options, "--image", "expected.bmp"]))
-                self.assertEqual(*(pathlib.Path(name).read_bytes()
-                                   for name in ("found.bmp", "expected.bmp")), text)
+                reference.zbuf(
+                    text.encode(),
+                    reference.read_options("zbuf", ["config.txt", *options, "--image", "expected.bmp"]))
+                self.assertEqual(*(pathlib.Path(name).read_bytes() for name in ("found.bmp", "expected.bmp")),
+                                 text)
                 os.chdir("/")
 
 
 class WideLimits(unittest.TestCase):
     """Limits between which depths have more digits than doubles (T23, F5)."""
-
     def test_depths_are_the_exact_ones_rounded(self):
         more = [], ["--samples", "2"], ["--algorithm", "scanline"], ["--seen", "seen.txt", "--z-buffer", "-"]
         for index in range(120):

@@ -52,8 +52,9 @@ CENTERED = triangle("-.625 -.625 0", ".625 -.625 0", ".125 .875 0")  # all corne
 def colored(lines):
     """The scene, each triangle in a color of its own."""
     numbers = iter(range(len(lines)))
-    return "\n".join("color %d %d %d\n%s" % (*color_of(next(numbers)), line)
-                     if line.startswith("triangle") else line for line in [*lines, "end\n"])
+    return "\n".join(
+        "color %d %d %d\n%s" % (*color_of(next(numbers)), line) if line.startswith("triangle") else line
+        for line in [*lines, "end\n"])
 
 
 def color_of(number):
@@ -104,9 +105,9 @@ class CertainPictures(unittest.TestCase):
     def drawn(self, *digits, background="000000"):
         """The colors of a run of the pipe, and the pixels that it calls uncertain."""
         text, digits = pathlib.Path("scene.txt").read_bytes(), ["--digits", *digits]
-        for words in (["model", "--bounds", *digits], ["view", *digits], ["project", *digits],
-                      ["zbuf", "config.txt", "--coverage", "center", "--image", "run.ppm", "--certify", "-",
-                       "--background", background]):
+        for words in (["model", "--bounds", *digits], ["view", *digits], ["project", *digits], [
+                "zbuf", "config.txt", "--coverage", "center", "--image", "run.ppm", "--certify", "-",
+                "--background", background]):
             text = certain_test.run(*words, stdin=text)
         return self.colors("run.ppm"), {tuple(map(int, line.split())) for line in text.splitlines()[2:]}
 
@@ -134,8 +135,8 @@ class CertainPictures(unittest.TestCase):
 
     def test_no_pixel_is_wrong_at_the_extremes(self):
         """Those of docs/accuracy.md; at the last of them, no more than 12 digits are taken."""
-        for case in (Case("distance", 1e13), Case("depth", 1e12), Case("size", 1e-12),
-                     Case("angle", 179.999), Case("angle", 1e-9)):
+        for case in (Case("distance", 1e13), Case("depth", 1e12), Case("size", 1e-12), Case(
+                "angle", 179.999), Case("angle", 1e-9)):
             text = scene_text(case)
             marks = true_owners(true_vertices(text), SIZE)
             found, listed, _ = self.certain(colored(text.splitlines()[:-1]), f"{SIZE} {SIZE}\n")
@@ -150,16 +151,17 @@ class CertainPictures(unittest.TestCase):
         pathlib.Path("tools").mkdir()
         for tool in ("model", "view", "project"):
             os.symlink(BIN / tool, f"tools/{tool}")
-        text = colored([*CAMERA, CENTERED, *(
-            triangle(f"{x} {edge} -1", f"{x + 0.5} {edge} -1", f"{x} -1 -1") for x, edge in (
-                (-0.5, "-.87500001"), (0, "-.8750000000001")))])
+        text = colored([
+            *CAMERA, CENTERED, *(triangle(f"{x} {edge} -1", f"{x + 0.5} {edge} -1", f"{x} -1 -1")
+                                 for x, edge in ((-0.5, "-.87500001"), (0, "-.8750000000001")))])
         for second in ('exec "$@"', '"$@"; while [ $1 != --certify ]; do shift; done; all_uncertain > $2'):
             pathlib.Path("tools/zbuf").write_text(NUMBERED % (BIN, second))
             pathlib.Path("tools/zbuf").chmod(0o755)
             pathlib.Path("number").write_text("0")
             found, listed, _ = self.certain(text, CONFIG, folder="tools")
-            by_run = [self.drawn(digits, background=f"00000{number}")
-                      for number, digits in enumerate((DIGITS, "exact"), 1)]
+            by_run = [
+                self.drawn(digits, background=f"00000{number}")
+                for number, digits in enumerate((DIGITS, "exact"), 1)]
             left = by_run[0][1]
             self.assertEqual(found, [[by_run[(row, column) in left][0][row][column] for column in range(8)]
                                      for row in range(8)])
@@ -174,28 +176,31 @@ class CertainPictures(unittest.TestCase):
         self.assertEqual([found[6][column][1] > 0 for column in range(1, 7)], [False] * 6)
         self.assertEqual((found[4][2][1], found[3][5][1], listed), (255, 0, set()))
         colors = ["200 50 0", "20 70 0", "10 250 0"]  # at the corners
-        square = "\n".join(triangle(*(f"{p} 0 {color}" for p, color in zip(points, colors)))
-                           for points in (("-2 2", "-2 -2", "2 2"), ("-2 -2", "2 2", "2 -2")))
-        found, listed, _ = self.certain("\n".join(
-            ["0 0 5", "0 0 0", "0 1 0", "ortho -3 3 -3 3 1 9", "attributes color", square, "end\n"]), "3 3\n")
+        square = "\n".join(
+            triangle(*(f"{p} 0 {color}" for p, color in zip(points, colors)))
+            for points in (("-2 2", "-2 -2", "2 2"), ("-2 -2", "2 2", "2 -2")))
+        found, listed, _ = self.certain(
+            "\n".join(["0 0 5", "0 0 0", "0 1 0", "ortho -3 3 -3 3 1 9", "attributes color", square,
+                       "end\n"]), "3 3\n")
         drawn, _ = self.drawn("exact")
-        self.assertEqual((found[0][:2], found[1][0], listed), (
-            [(200, 50, 0), (105, 150, 0)], (110, 60, 0), set()))
+        self.assertEqual((found[0][:2], found[1][0], listed), ([(200, 50, 0),
+                                                                (105, 150, 0)], (110, 60, 0), set()))
         self.assertEqual(drawn[0][:2], [(0, 0, 0)] * 2)
         self.assertEqual({found[2][0], *found[2], *(row[2] for row in found)}, {(0, 0, 0)})
 
     def test_no_triangle_is_lost(self):
         """On the middle of a grid whose double is not 0, behind a BOM, and with a comment that is not UTF-8;
         where doubles overflow, and where they are all error."""
-        for text, size in (("\ufeff" + colored([*CAMERA, triangle("0 1 0", "0 -1 0", "1 0 0")]), 7),
-                           (colored([*CAMERA, "rotate 30 0 0 1", "scale 5e-324 5e-324 1",
-                                     triangle("1e308 1e308 0", "1e308 -1e308 0", "-1e308 0 0")]), 8)):
+        for text, size in (("\ufeff" + colored([*CAMERA, triangle("0 1 0", "0 -1 0", "1 0 0")]), 7), (colored(
+            [
+                *CAMERA, "rotate 30 0 0 1", "scale 5e-324 5e-324 1",
+                triangle("1e308 1e308 0", "1e308 -1e308 0", "-1e308 0 0")]), 8)):
             pathlib.Path("config.txt").write_bytes(b"%d %d # \xe9\n" % (size, size))
             pathlib.Path("scene.txt").write_text(text)
             done = self.picture("scene.txt", "config.txt", "--certain", "-o", "out.ppm")
             true = exact_picture.Exact(text.encode(), "auto").picture(b"%d %d\n" % (size, size))
-            self.assertEqual(
-                done.stdout, f"{size**2} of {size**2} pixels are what exact arithmetic shows\n", done.stderr)
+            self.assertEqual(done.stdout, f"{size**2} of {size**2} pixels are what exact arithmetic shows\n",
+                             done.stderr)
             owners = sum(true, [])
             self.assertNotIn(exact_picture.TIE, owners)
             self.assertEqual(sum(self.colors("out.ppm"), []), list(map(color_of, owners)))
@@ -218,8 +223,9 @@ class CertainPictures(unittest.TestCase):
         for changed in ("scene.txt", "config.txt"):
             pathlib.Path("changed").write_text(changed)
             done = self.picture("scene.txt", "config.txt", "--certain", "-o", "out.ppm", folder="tools")
-            self.assertEqual((done.returncode, done.stdout, done.stderr), (
-                1, "", "picture: scene.txt or its config has changed while it was drawn: draw it again\n"))
+            self.assertEqual(
+                (done.returncode, done.stdout, done.stderr),
+                (1, "", "picture: scene.txt or its config has changed while it was drawn: draw it again\n"))
             self.assertFalse(os.path.exists("out.ppm"))
 
     def test_what_stays_undecided_is_listed(self):
@@ -229,9 +235,10 @@ class CertainPictures(unittest.TestCase):
         pathlib.Path("scene.txt").write_text(colored(turned))
         pathlib.Path("config.txt").write_text("9 9\n")
         done = self.picture("scene.txt", "config.txt", "--certain", "-o", "out.ppm")
-        self.assertEqual((done.stdout, done.stderr), (
-            "77 of 81 pixels are what exact arithmetic shows\nundecided at 4,096 bits, and drawn by the "
-            "rules for ties (column,row): 4,0 4,1 4,2 4,3\n", ""))
+        self.assertEqual(
+            (done.stdout, done.stderr),
+            ("77 of 81 pixels are what exact arithmetic shows\nundecided at 4,096 bits, and drawn by the "
+             "rules for ties (column,row): 4,0 4,1 4,2 4,3\n", ""))
         found, listed, _ = self.certain(colored([*turned, turned[-1]]), "8 8\n")
         self.assertEqual((listed, set(sum(found, []))), (set(), {color_of(None), color_of(0)}))
 
@@ -239,44 +246,51 @@ class CertainPictures(unittest.TestCase):
         """More than zbuf lists: everywhere are two triangles."""
         found, listed, _ = self.certain(colored([*CAMERA, *[triangle("-9 -9 0", "9 -9 0", "0 9 0")] * 2]),
                                         "400 300\n-1\n-1\n-1 1\n")
-        self.assertEqual((listed, set(sum(found, []))), (
-            {(0, column) for column in range(MOST_LISTED)}, {color_of(0)}))
+        self.assertEqual((listed, set(sum(found, []))), ({(0, column)
+                                                          for column in range(MOST_LISTED)}, {color_of(0)}))
 
     def test_where_more_digits_are_refused_fewer_have_the_say(self):
         pathlib.Path("scene.txt").write_text(scene_text(Case("angle", 1e-9)))
         done = self.picture("scene.txt", "--size", f"{SIZE}x{SIZE}", "--certain", "-o", "out.ppm")
         self.assertEqual(done.stdout, "9,216 of 9,216 pixels are what exact arithmetic shows\n")
-        self.assertRegex(done.stderr, "picture: note: no more digits than 12: view: <stdin>:97:1: expected a "
-                         "vertex within bounds, found numbers that cancel beyond 31 digits, or overflow\n$")
+        self.assertRegex(
+            done.stderr, "picture: note: no more digits than 12: view: <stdin>:97:1: expected a "
+            "vertex within bounds, found numbers that cancel beyond 31 digits, or overflow\n$")
 
     def test_all_formats_have_the_same_pixels(self):
-        text = colored([*CAMERA, "background 9 8 7", CENTERED,
-                        triangle("-1 -1 0", ".125 -1 0", "0.12500000001 1 -1")])
-        pictures = [self.certain(text, CONFIG.replace("8 8", "9 8"), name)[0]
-                    for name in ("out.ppm", "out.bmp", "out.png", "png:out.file")]
+        text = colored([
+            *CAMERA, "background 9 8 7", CENTERED,
+            triangle("-1 -1 0", ".125 -1 0", "0.12500000001 1 -1")])
+        pictures = [
+            self.certain(text, CONFIG.replace("8 8", "9 8"), name)[0]
+            for name in ("out.ppm", "out.bmp", "out.png", "png:out.file")]
         self.assertEqual(pictures[1:], pictures[:1] * 3)
-        self.assertEqual(self.picture("scene.txt", "config.txt", "--certain", "-o", "clear.png",
-                                      "--background", "00000000").returncode, 0)
+        self.assertEqual(
+            self.picture("scene.txt", "config.txt", "--certain", "-o", "clear.png", "--background",
+                         "00000000").returncode, 0)
         for behind in (b"\t\b\a", b"abc"):  # the first is the scene's background
             _, _, rows = picture_of(pathlib.Path("clear.png").read_bytes(), "clear.png", behind)
-            self.assertEqual(self.colors_of(rows), [[color if color != (9, 8, 7) else tuple(behind)
-                                                     for color in row] for row in pictures[0]])
-        done = subprocess.run(f"{PICTURE} - <(cat config.txt) --certain < scene.txt > piped.png",
-                              shell=True, executable="bash", capture_output=True, text=True,
+            self.assertEqual(
+                self.colors_of(rows),
+                [[color if color != (9, 8, 7) else tuple(behind) for color in row] for row in pictures[0]])
+        done = subprocess.run(f"{PICTURE} - <(cat config.txt) --certain < scene.txt > piped.png", shell=True,
+                              executable="bash", capture_output=True, text=True,
                               env={**os.environ, "BIN": str(BIN)})
         self.assertEqual((done.stdout, done.stderr.count("exact arithmetic")), ("", 1))
         self.assertEqual(self.colors("piped.png"), pictures[0])
 
     def test_what_has_no_certain_pixels_is_refused_with_the_reason(self):
         pathlib.Path("scene.txt").write_text(colored([*CAMERA, CENTERED, "sphere 0 0 0 1"]))
-        for words, status, reason in (
-                (["-o", "a.png"], 1, "picture: model: scene.txt:"),
-                (["-o", "a.png", "--samples", "3"], 2, "--samples 3 does not go with --certain: a mean of"),
-                (["-o", "a.png", "--trace"], 2, "--trace does not go with --certain: zbuf tells which"),
-                (["-o", "a.png", "--stages", "."], 2, "--stages does not go with --certain: the stages"),
-                (["-o", "a.gif"], 2, "-o a.gif does not go with --certain: it takes a .png, .bmp"),
-                (["-o", "no/a.png"], 1, "picture: cannot open no/a.png: No such file or directory"),
-                (["-o", "a.png", "--size", "9x9"], 2, "expected no --size with CONFIG, found 9x9")):
+        for words, status, reason in ((["-o", "a.png"], 1, "picture: model: scene.txt:"), ([
+                "-o", "a.png", "--samples", "3"], 2, "--samples 3 does not go with --certain: a mean of"), ([
+                    "-o", "a.png", "--trace"
+                ], 2, "--trace does not go with --certain: zbuf tells which"), ([
+                    "-o", "a.png", "--stages", "."], 2, "--stages does not go with --certain: the stages"), ([
+                        "-o", "a.gif"], 2, "-o a.gif does not go with --certain: it takes a .png, .bmp"), ([
+                            "-o",
+                            "no/a.png"], 1, "picture: cannot open no/a.png: No such file or directory"), ([
+                                "-o", "a.png", "--size",
+                                "9x9"], 2, "expected no --size with CONFIG, found 9x9")):
             config = ["config.txt"] * ("--size" in words)
             done = self.picture("scene.txt", *config, "--certain", *words)
             self.assertEqual((done.returncode, done.stdout), (status, ""), words)
@@ -295,8 +309,9 @@ class Balls(unittest.TestCase):
         def known(x):
             """A ball around x, or x."""
             ball, off = Ball(x).rounded(), rng.randint(1, 5)
-            return rng.choice((Ball(x), Ball.around(ball.middle + rng.randint(-off, off), ball.radius + off,
-                                                    ball.exponent)))
+            return rng.choice(
+                (Ball(x), Ball.around(ball.middle + rng.randint(-off, off), ball.radius + off,
+                                      ball.exponent)))
 
         for _ in range(5000):
             x, y = (Fraction(rng.randint(-99, 99), rng.randint(1, 99)) * Fraction(2)**rng.randint(-40, 40)

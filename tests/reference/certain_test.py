@@ -44,10 +44,11 @@ def objects(rng):
 
 def layers(rng):
     """Parallel triangles, close to each other and seen at a steep angle."""
-    gap = 10 ** rng.uniform(-5, -1)
+    gap = 10**rng.uniform(-5, -1)
     x, y = rng.uniform(-3, 3), rng.uniform(-3, 3)
-    return sum((triangle(*("%.9f %.9f %.9f" % (a, b, a * x + b * y + i * gap) for a, b in (
-        (-2, -2), (2, rng.uniform(-2, -1)), (rng.uniform(-1, 1), 2)))) for i in range(rng.randint(2, 3))), [])
+    return sum((triangle(*("%.9f %.9f %.9f" % (a, b, a * x + b * y + i * gap)
+                           for a, b in ((-2, -2), (2, rng.uniform(-2, -1)), (rng.uniform(-1, 1), 2))))
+                for i in range(rng.randint(2, 3))), [])
 
 
 def two_planes(ratio):
@@ -55,6 +56,7 @@ def two_planes(ratio):
     that it also wins where both depths are equal."""
     lines = ["0 0 3", "0 0 0", "0 1 0", f"45 1 {10 / ratio:.17g} 10"]
     for cells, lift in ((2, 0), (9, 1e-5 / math.hypot(0.6, 0.3, 1))):
+
         def corner(i, k):
             x, y = 2 * k / cells - 1, 2 * i / cells - 1
             return "%.9g %.9g %.9g" % (x - 0.6 * lift, y - 0.3 * lift, 0.6 * x + 0.3 * y + lift)
@@ -70,15 +72,15 @@ def ground(rng):
     y = rng.uniform(-0.4, -0.001)
     floor = triangle("%.7f %.7f 30" % (rng.uniform(-9, -1), y), "%.7f %.7f 7" % (rng.uniform(1, 9), y - 0.01),
                      point(rng, 1) + " %.7f %.7f" % (y, rng.uniform(-300, -3)))
-    return floor + objects(rng)[:4] + triangle(
-        *(point(rng, 1, 1) + " 3.%d" % rng.randint(7, 9999) for _ in "abc"))
+    return floor + objects(rng)[:4] + triangle(*(point(rng, 1, 1) + " 3.%d" % rng.randint(7, 9999)
+                                                 for _ in "abc"))
 
 
 def snapped(rng):
     """Vertices on pixel centers, edges that are shared or seen edge-on, the same triangle twice."""
     corners = ["%d %d %d" % tuple(rng.randint(-2, 2) for _ in range(3)) for _ in range(4)]
-    return triangle(*corners[:3]) + triangle(*corners[1:]) + triangle(corners[0], corners[0], corners[2]) + (
-        triangle(*corners[:3]) if rng.random() < 0.2 else [])
+    return triangle(*corners[:3]) + triangle(*corners[1:]) + triangle(
+        corners[0], corners[0], corners[2]) + (triangle(*corners[:3]) if rng.random() < 0.2 else [])
 
 
 def scene(rng):
@@ -87,18 +89,20 @@ def scene(rng):
     kind = rng.choice((objects, objects, layers, layers, ground, snapped))
     eye = [rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(3, 4)] if kind is not snapped else [0, 0, 4]
     near = rng.choice(("1", "0.5", "0.01", "0.0001", "3"))
-    projection = rng.choice((
-        "60 1.3333 %s 100", "35 1 %s 10", "100 1.2 %s 1e6 ratio", "frustum -.1 .3 .2 -.1 %s 50",
-        "frustum -1 1 -1 1 %s 1e4", "ortho -2 2.5 -2 2 %s 9", "ortho 2 -2.5 -2 2 -%s 9")) % near
-    lines = ["%r %r %r" % tuple(p + q for p, q in zip(middle, eye)), "%r %r %r" % tuple(middle),
-             "%.3f 1 0" % rng.choice((0, rng.uniform(-1, 1))), projection]
+    projection = rng.choice(
+        ("60 1.3333 %s 100", "35 1 %s 10", "100 1.2 %s 1e6 ratio", "frustum -.1 .3 .2 -.1 %s 50",
+         "frustum -1 1 -1 1 %s 1e4", "ortho -2 2.5 -2 2 %s 9", "ortho 2 -2.5 -2 2 -%s 9")) % near
+    lines = [
+        "%r %r %r" % tuple(p + q for p, q in zip(middle, eye)),
+        "%r %r %r" % tuple(middle),
+        "%.3f 1 0" % rng.choice((0, rng.uniform(-1, 1))), projection]
     if far_away:
         lines.append("translate %r %r %r" % tuple(middle))
     if rng.random() < 0.7:
         lines.append("rotate %.3f %s" % (rng.uniform(-90, 90), point(rng, 1, 1, 1)))
     if rng.random() < 0.3:  # there and back
-        lines += ["scale %s" % " ".join([factor] * 3) for factor in rng.choice(
-            (("1e-3", "1e3"), ("1e3", "1e-3")))]
+        lines += [
+            "scale %s" % " ".join([factor] * 3) for factor in rng.choice((("1e-3", "1e3"), ("1e3", "1e-3")))]
     return lines + kind(rng)
 
 
@@ -108,12 +112,12 @@ def opposed(rng, decimals):
     unit = Fraction(1, 10**decimals)
     a, b = rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2)
     away = [-1 if a > 0 else 1, -1 if b > 0 else 1, 1]  # from the plane, the farthest
-    eye, projection = rng.choice((
-        ("0 0 5", "60 1 0.5 100"), ("0 0 5", "ortho -2 2 -2 2 0.5 20"), ("0 0 .2", "ortho -2 2 -2 2 -9 9"),
-        ("0 0 5", "frustum -.3 .3 -.3 .3 .25 40"), ("0 0 5", "frustum -.1 .9 -1 1 .5 1e4")))
+    eye, projection = rng.choice(
+        (("0 0 5", "60 1 0.5 100"), ("0 0 5", "ortho -2 2 -2 2 0.5 20"), ("0 0 .2", "ortho -2 2 -2 2 -9 9"),
+         ("0 0 5", "frustum -.3 .3 -.3 .3 .25 40"), ("0 0 5", "frustum -.1 .9 -1 1 .5 1e4")))
     lines = [eye, "0 0 0", "0 1 0", projection]
-    corners = [[round((x + rng.uniform(-0.4, 0.4)) / unit) for x in corner] for corner in (
-        (-1.5, -1), (1.5, -1.2), (0, 1.5))]
+    corners = [[round((x + rng.uniform(-0.4, 0.4)) / unit) for x in corner]
+               for corner in ((-1.5, -1), (1.5, -1.2), (0, 1.5))]
     gap = rng.choice((0, 1, 1, 2, 3))
     for sign in rng.sample((1, -1), 2):
         points = [(x, y, round(a * x + b * y) + (gap if sign < 0 else 0)) for x, y in corners]
@@ -134,7 +138,6 @@ def bounds_of(text):
 
 class Run:
     """A scene on its way to zbuf, a random one or that in `given` with its config, and its exact picture."""
-
     def __init__(self, seed, folder, given=None):
         rng = random.Random(seed)
         few = rng.choice(("1", "2", "2", "3", "3", "4", "7", "exact"))
@@ -160,26 +163,30 @@ class Run:
                     "t.npy", "--image", "out.ppm", stdin=self.ndc, cwd=self.folder).decode().splitlines()
         uncertain = {tuple(map(int, pixel.split())) for pixel in lines[2:]}
         width, height = map(int, self.config.split(b"\n")[0].split())
-        assert lines[:2] == ["certain %d" % (width * height - len(uncertain)),
-                             "uncertain %d" % len(uncertain)]
-        seen = iter(struct.unpack("<%dq" % (width * height), (
-            self.folder / "t.npy").read_bytes()[-8 * width * height:]))
+        assert lines[:2] == [
+            "certain %d" % (width * height - len(uncertain)),
+            "uncertain %d" % len(uncertain)]
+        seen = iter(
+            struct.unpack("<%dq" % (width * height),
+                          (self.folder / "t.npy").read_bytes()[-8 * width * height:]))
         return [(row, column) for row in range(height) for column in range(width)
-                if next(seen) != (-1 if self.true[row][column] is None else self.true[row][column])
-                and (row, column) not in uncertain], len(uncertain)
+                if next(seen) != (-1 if self.true[row][column] is None else self.true[row][column]) and (
+                    row, column) not in uncertain], len(uncertain)
 
     def parts(self):
         """Yields a stage, whether it wrote all digits, and errors as parts of their bounds."""
         world, view = Stage(self.world, "view"), Stage(self.view, "project")
         triangles, volume = list(view.triangles()), reference.volume_of(view.header["projection"])
         whole = [found for found in Stage(self.ndc, "zbuf").triangles() if not found.whole]
-        divided = [[reference.times(1 / clip.w, clip[:3]) for clip in (
-            reference.to_clip_space(p, volume, None) for p in points_of(triangles[found.number]))]
+        divided = [[
+            reference.times(1 / clip.w, clip[:3]) for clip in (reference.to_clip_space(p, volume, None)
+                                                               for p in points_of(triangles[found.number]))]
                    for found in whole]
-        for stage, text, digits, found, true in (
-                ("model", self.world, 0, world.triangles(), map(points_of, self.exact.world.list)),
-                ("view", self.view, 1, triangles, map(points_of, self.exact.view.list)),
-                ("project", self.ndc, 2, whole, divided)):
+        for stage, text, digits, found, true in (("model", self.world, 0, world.triangles(),
+                                                  map(points_of, self.exact.world.list)),
+                                                 ("view", self.view, 1, triangles,
+                                                  map(points_of, self.exact.view.list)), ("project", self.ndc,
+                                                                                          2, whole, divided)):
             absolute, relative = bounds_of(text)[-2:]
             for p, q in ((p, q) for one, other in zip(found, true) for p, q in zip(points_of(one), other)):
                 error = max(abs(x - y) for x, y in zip(p, q))
@@ -198,8 +205,9 @@ class Certain(unittest.TestCase):
         cls.runs = [Run(seed, pathlib.Path(cls.folder.name)) for seed in range(FIRST, FIRST + SCENES)]
 
     def test_no_certain_pixel_is_wrong_in_samples_and_layers(self):
-        scenes = {path.parent.name: path.read_bytes() for path in (SOURCE / "samples").glob("*/scene.txt")
-                  if path.stat().st_size < 5000}
+        scenes = {
+            path.parent.name: path.read_bytes()
+            for path in (SOURCE / "samples").glob("*/scene.txt") if path.stat().st_size < 5000}
         self.assertGreater(len(scenes), 7)
         scenes |= {n: two_planes(10**n) for n in (4, 6)}
         uncertain = {}

@@ -37,7 +37,6 @@ reference.Writer, reference.Stage = Unrounded, lambda text, *_: text
 
 class Exact:
     """A scene (bytes), in world space, view space and NDC."""
-
     def __init__(self, scene, clip):
         self.world = reference.model(scene, {})
         self.view = reference.view(self.world, {})
@@ -79,9 +78,9 @@ def fragments(corners, config, small):
         for column in reference.inside(Fraction(min(xs), grid), Fraction(max(xs), grid), config.width):
             edges = [(b, c), (c, a), (a, b)] if area > 0 else [(c, b), (a, c), (b, a)]  # clockwise as seen
             weights = [side_of_edge(column * grid, row * grid, *edge) for edge in edges]
-            is_sure = all(weight > grid * grid * small or
-                          not small and weight == 0 and reference.is_left_or_top(*edge)
-                          for weight, edge in zip(weights, edges))
+            is_sure = all(
+                weight > grid * grid * small or not small and weight == 0 and reference.is_left_or_top(*edge)
+                for weight, edge in zip(weights, edges))
             if is_sure or small and min(weights) > -grid * grid * small:
                 z = dot(weights, [corner[2] for corner in corners]) / abs(area)
                 yield row, column, z, is_sure
@@ -95,6 +94,6 @@ def nearest(pixel):
     (z, number, is_sure, small, corners), *others = sorted(
         (min(found)[0], number, len(found) > 1 or found[0][1], *found[0][2:])
         for number, found in pixel.items())
-    is_told = all(other[0] > z + small + other[3] or small == other[3] == 0 or other[4] == corners
-                  for other in others)
+    is_told = all(
+        other[0] > z + small + other[3] or small == other[3] == 0 or other[4] == corners for other in others)
     return number if is_sure and is_told else TIE

@@ -17,9 +17,7 @@ def expect_same_text(case, got, want, precise, read, is_noted=False):
     vertices = [
         line.split(b"#")[0].split() for line in read.split(b"\n") if line.strip()[:1] in b"+-.0123456789"]
     numbers = [
-        abs(float(word))
-        for words in vertices
-        for word in words
+        abs(float(word)) for words in vertices for word in words
         if re.fullmatch(rb"[-+]?[0-9.]+(e[-+]?[0-9]+)?", word)]
     smallest = 2.0**-60 * max(numbers, default=1)
     # the first column that F3 is about
@@ -30,7 +28,7 @@ def expect_same_text(case, got, want, precise, read, is_noted=False):
         words = zip(got_line.split(" "), want_line.split(" "), precise_line.split(" "))
         for column, (a, b, x) in enumerate(words if got_line != want_line else ()):
             if a != b:
-                unit = Fraction(1, 10 ** len(a.partition(".")[2]))
+                unit = Fraction(1, 10**len(a.partition(".")[2]))
                 is_tie = abs(abs(Fraction(a) - Fraction(x)) - unit / 2) < unit / 2**20
                 is_close = column >= color_or_normal and abs(Fraction(a) - Fraction(x)) < CLOSE + unit / 2
                 is_lost = is_noted and abs(Fraction(a) - Fraction(b)) <= max(

@@ -8,7 +8,7 @@ def number(rng, limit):
     """A number as text: often round, sometimes tiny or large, sometimes written in an unusual way."""
     kind = rng.random()
     if kind < 0.05:
-        return "%g" % (rng.uniform(-1, 1) * 10 ** rng.randint(-6, 4))
+        return "%g" % (rng.uniform(-1, 1) * 10**rng.randint(-6, 4))
     if kind < 0.1:
         return rng.choice(("+1.5", ".5", "2.", "-0", "1e0", "25E-1", "0.1", "-.25"))
     return "%.*f" % (rng.choice((0, 0, 1, 2, 6, 9)), rng.uniform(-limit, limit))
@@ -23,9 +23,9 @@ def positive(rng, count, limit):
 
 
 def camera(rng):
-    eye, look, up = rng.choice(((numbers(rng, 3), numbers(rng, 3), numbers(rng, 3)),
-                                ("0 0 %d" % rng.randint(2, 9), "0 0 0", "0 1 0"),
-                                ("0 %d 0" % rng.randint(2, 9), "0 0 0", "0 0 -1")))
+    eye, look, up = rng.choice(((numbers(rng, 3), numbers(rng, 3), numbers(
+        rng, 3)), ("0 0 %d" % rng.randint(2, 9), "0 0 0", "0 1 0"), ("0 %d 0" % rng.randint(2, 9), "0 0 0",
+                                                                     "0 0 -1")))
     return [eye, look, up, projection(rng)]
 
 
@@ -112,7 +112,7 @@ def scene(rng, count=None):
     lines += more
     depth, materials = 0, sum(line.startswith("material") for line in lines)
     for _ in range(count or rng.randint(3, 24)):
-        command = rng.choice(("triangle", ) * 5 +
+        command = rng.choice(("triangle",) * 5 +
                              ("transform", "transform", "push", "pop", "color", "again", "use"))
         if command == "triangle":
             corners = [vertex(rng, columns) for _ in range(3)]
@@ -169,8 +169,8 @@ def options(rng):
     """For the four stages."""
     digits = rng.choice((["--digits", "exact"], [], [], ["--digits", str(rng.randint(2, 12))]))
     of_model = digits + rng.choice(([], ["--framed"]))
-    clip = rng.choice(
-        (["auto"], ["auto"], ["near"], ["frustum"], ["reject"], ["frustum", "--clip-inset", "0.1"], ["none"]))
+    clip = rng.choice((["auto"], ["auto"], ["near"], ["frustum"], ["reject"], [
+        "frustum", "--clip-inset", "0.1"], ["none"]))
     of_project = digits + ["--clip", *clip] + rng.choice(([], [], ["--cull", "back"], ["--cull", "front"]))
     of_project += rng.choice(([], [], ["--aspect", "ratio"]))
     of_zbuf = [

@@ -6,6 +6,7 @@ usage: reference.py model|view|project|zbuf [OPTION...] < INPUT > OUTPUT, with t
 A comment behind each function names the paragraphs that it carries out. Numbers are fractions; sines and roots, which no fraction
 holds, have 800 decimals. The program needs only the standard library, and shares no code with libpipeline.
 """
+# yapf: disable: a rule of the specification is a line.
 import decimal, math, pathlib, re, struct, sys  # noqa: E401
 from collections import namedtuple
 from decimal import Decimal

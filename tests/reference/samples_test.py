@@ -81,8 +81,9 @@ class Samples(unittest.TestCase):
         self.assertTrue((source / "samples/torus/scene.txt").read_bytes() == scene, "differs")
 
     def test_the_worked_examples_reach_stage_3_as_the_assignment_gives_them(self):
-        given = {"one-triangle": "0.50 0.00 0.50  -0.50 0.00 0.50  0.00 0.50 0.50",
-                 "two-triangles": "1.5 0 0.5  -0.5 0 0.5  0 1.5 0.5  0.5 0 0.25  -1.0 0 0.25  0 0.5 0.25"}
+        given = {
+            "one-triangle": "0.50 0.00 0.50  -0.50 0.00 0.50  0.00 0.50 0.50",
+            "two-triangles": "1.5 0 0.5  -0.5 0 0.5  0 1.5 0.5  0.5 0 0.25  -1.0 0 0.25  0 0.5 0.25"}
         for name, numbers in given.items():
             with self.subTest(sample=name):
                 stage3 = (source / "samples" / name / "stage3.txt").read_text()

@@ -18,8 +18,8 @@ from conform_parts.pages import files_of, read_fields, read_page  # noqa: E402
 
 NAME = r"[A-Z]\d+[a-z]?"
 CASES = {
-    f"{path.parent.name}/{name}": (fields := read_fields(text, path.parent.name),
-                                  files_of(path.parent.name, fields, sections))
+    f"{path.parent.name}/{name}": (fields := read_fields(
+        text, path.parent.name), files_of(path.parent.name, fields, sections))
     for path in (SOURCE / "tests/conformance/cases").glob("*/*.cases")
     for name, text, sections in read_page(path.read_text("ascii"))}
 TERMINALS = {"LF": "\n", "SP": " ", "HTAB": "\t", "DIGIT": "[0-9]"}
@@ -32,8 +32,8 @@ def page_text(page):
 def paragraphs():
     """(name, does it demand nothing, page, text) of all paragraphs, in their order."""
     found = rf"^\*\*({NAME})\*\*( \*\(note\)\*)?(.*?)(?=^\*\*|^#|\Z)"
-    return [(name, bool(note) or name[0] == "F", page, text)
-            for page in PAGES for name, note, text in re.findall(found, page_text(page), re.M | re.S)]
+    return [(name, bool(note) or name[0] == "F", page, text) for page in PAGES
+            for name, note, text in re.findall(found, page_text(page), re.M | re.S)]
 
 
 def expression(tokens, rules):
@@ -60,8 +60,9 @@ def expression(tokens, rules):
 def grammar():
     """The regular expressions of the grammar's rules, by name."""
     text = re.sub(";.*", "", re.search("```abnf\n(.*?)```", page_text("scene"), re.S)[1])
-    rules = {name: re.findall(r'"[^"]*"|[A-Za-z][\w-]*|\d*\*\d*|\d+|[()\[\]/]', rule)
-             for name, rule in re.findall(r"^(\w+) += (.*(?:\n +.*)*)", text, re.M)}
+    rules = {
+        name: re.findall(r'"[^"]*"|[A-Za-z][\w-]*|\d*\*\d*|\d+|[()\[\]/]', rule)
+        for name, rule in re.findall(r"^(\w+) += (.*(?:\n +.*)*)", text, re.M)}
     return {name: re.compile(expression(rule[:], rules)) for name, rule in rules.items()}
 
 
@@ -74,7 +75,6 @@ def without_comments(data):
 
 
 ORDER = tuple(name for name, *_ in paragraphs())
-
 
 FUNCTIONS = [(name, line, labels) for name, line, _, labels in paragraph.carried_out(REFERENCE, ORDER)
              if name != "__init__"]
@@ -173,8 +173,9 @@ class Specification(unittest.TestCase):
         imported = {
             name.name
             for node in ast.walk(ast.parse(REFERENCE)) if isinstance(node, ast.Import) for name in node.names}
-        imported |= {node.module for node in ast.walk(ast.parse(REFERENCE))
-                     if isinstance(node, ast.ImportFrom)}
+        imported |= {
+            node.module
+            for node in ast.walk(ast.parse(REFERENCE)) if isinstance(node, ast.ImportFrom)}
         self.assertLessEqual(imported, set(sys.stdlib_module_names))
 
 

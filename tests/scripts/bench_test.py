@@ -63,10 +63,8 @@ class BenchTest(unittest.TestCase):
         number = lambda: "%.7f" % rng.uniform(-1, 1)
         with tempfile.TemporaryDirectory() as folder:
             text, config = pathlib.Path(folder, "ndc.txt"), pathlib.Path(folder, "config.txt")
-            text.write_text("".join("\n".join(" ".join(number()
-                                                       for _ in range(3))
-                                              for _ in range(3)) + "\n\n"
-                                    for _ in range(4)))
+            text.write_text("".join(
+                "\n".join(" ".join(number() for _ in range(3)) for _ in range(3)) + "\n\n" for _ in range(4)))
             config.write_text("60 40\n")
             depths = subprocess.run(
                 [BIN_DIR / "zbuf", config, text, "--coverage", "center", "--image", "/dev/null"],

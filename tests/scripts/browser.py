@@ -26,7 +26,6 @@ class CannotStart(unittest.SkipTest):
 
 class Browser:
     """A browser with a window of a given size, closed at the end of the `with` block."""
-
     def __init__(self, width=1400, height=1000):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         port = free_port()
@@ -111,8 +110,7 @@ class Browser:
         self.run("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
         left, top = self.run(
             "const box = document.querySelector(arguments[0]).getBoundingClientRect(); return [box.left, "
-            "box.top]",
-            selector)
+            "box.top]", selector)
         actions = [{"type": "pointerMove", "duration": 0, "x": round(left + x), "y": round(top + y)}]
         if is_click:
             actions += [{"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]
@@ -140,14 +138,13 @@ class Browser:
 
     def prefer(self, scheme):
         """Sets the reader's color scheme, light or dark."""
-        self.devtools("Emulation.setEmulatedMedia",
-                      features=[{"name": "prefers-color-scheme", "value": scheme}])
+        self.devtools("Emulation.setEmulatedMedia", features=[{
+            "name": "prefers-color-scheme", "value": scheme}])
 
     def accessibility(self):
         """(role, name) of what a screen reader finds, in order."""
         nodes = self.devtools("Accessibility.getFullAXTree")["nodes"]
-        return [(node["role"]["value"], node.get("name", {}).get("value", ""))
-                for node in nodes
+        return [(node["role"]["value"], node.get("name", {}).get("value", "")) for node in nodes
                 if not node["ignored"]]
 
     def screenshot(self):
@@ -156,6 +153,5 @@ class Browser:
     def complaints(self):
         """The errors that the page logged."""
         return [
-            entry["message"]
-            for entry in self.call("POST", "/se/log", {"type": "browser"})
+            entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"})
             if entry["level"] == "SEVERE"]

@@ -81,8 +81,9 @@ class Program(ToolTest):
         self.assertIn("wrong: its exit status is 1", check("model", "--comments", *words).stdout)
 
     def test_watch_runs_again_when_the_program_has_changed(self):
-        words = [SOURCE / "scripts/check-stage", "--read", BIN, "view", "--scene", "scene", "--watch", "--",
-                 script("seq 1000 >&2; cat")]
+        words = [
+            SOURCE / "scripts/check-stage", "--read", BIN, "view", "--scene", "scene", "--watch", "--",
+            script("seq 1000 >&2; cat")]
         with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env={**os.environ, "BIN": str(BIN)}) as process:
             told = [process.stdout.readline()]
@@ -114,8 +115,7 @@ class Program(ToolTest):
         self.assertRegex(
             told,
             r"^scene: wrong: its numbers are right, but project refuses it: line 1, column 1: .* must drop "
-            r"the lines eye, look and up\n$"
-        )
+            r"the lines eye, look and up\n$")
         self.assertIn(
             "zbuf refuses it: line 1, column 1: expected the output of project, found 'perspective'",
             self.told("project", 'tee text | sed 2,999d; "$BIN/project" text'))
@@ -125,8 +125,7 @@ class Program(ToolTest):
         self.assertRegex(
             self.told("view", bare),
             r"^scene: wrong: its numbers are right, but project refuses it: .* \(--bare, if your stages go "
-            r"without header lines\)\n$"
-        )
+            r"without header lines\)\n$")
         self.assertEqual(self.told("view", bare, "--bare", status=0), "scene: right\n")
 
     def test_prints_between_the_vertices_are_wrong_and_counted(self):
@@ -136,8 +135,7 @@ class Program(ToolTest):
         self.assertRegex(
             told,
             r"\n  6 lines are neither a vertex nor a header line, 3 for each triangle: first line 1, 'vertex "
-            r"-?[0-9.]+'\n$"
-        )
+            r"-?[0-9.]+'\n$")
         scene = os.path.abspath("scene")
         self.assertIn(
             "scene: wrong: its numbers are right, but project refuses it: ",
@@ -147,10 +145,8 @@ class Program(ToolTest):
         program = script("""exec "$BIN/project" --aspect ratio""")
         done = check("project", "--", program)
         self.assertRegex(
-            done.stdout,
-            "\n2-camera: wrong\n(?:  .*\n)*  if your course takes the aspect as width "
-            "/ height, as OpenGL does, this is right: "
-        )
+            done.stdout, "\n2-camera: wrong\n(?:  .*\n)*  if your course takes the aspect as width "
+            "/ height, as OpenGL does, this is right: ")
         pathlib.Path("scene").write_text(SCENE.replace("50 1.3 1 50", "50 1.3 1 50 ratio"))
         done = check("project", "--scene", "scene", "--", program)
         self.assertEqual((done.stdout, done.returncode), ("scene: right\n", 0))
@@ -158,8 +154,9 @@ class Program(ToolTest):
     def test_a_program_that_fails_is_told_of_a_parallel_projection(self):
         pathlib.Path("scene").write_text(SCENE.replace("50 1.3 1 50", "ortho -2 2 -2 2 1 50"))
         told = self.told("project", "echo no such camera >&2; exit 1")
-        self.assertEqual(told, "scene: wrong: its exit status is 1\n  its stderr:\n    no such camera\n"
-                               "  the projection of this scene is no perspective but ortho -2 2 -2 2 1 50\n")
+        self.assertEqual(
+            told, "scene: wrong: its exit status is 1\n  its stderr:\n    no such camera\n"
+            "  the projection of this scene is no perspective but ortho -2 2 -2 2 1 50\n")
 
     def test_an_aspect_that_is_ignored_is_found(self):
         ignoring = """sed 's/^\\(perspective [^ ]*\\) [^ ]*/\\1 1/' | "$BIN/project\""""
@@ -172,8 +169,7 @@ class Program(ToolTest):
         self.assertEqual(
             self.told("project", ignoring, status=0),
             "scene: right\n  not tried: the aspect, which is 1 in this scene, so that a program that ignores "
-            "it is right, too\n"
-        )
+            "it is right, too\n")
 
     def test_the_first_wrong_number_and_the_cause(self):
         told = self.told("view", 'exec "$BIN/view" --eye 0 0 0 --look -2.7 -4.2 -6.9')
@@ -191,26 +187,30 @@ class Program(ToolTest):
     def test_a_scene_without_a_cause_leads_to_one_that_shows_the_matrix(self):
         mix = """awk '/^[-0-9]/ { print 1.3 * $1 + 0.2 * $2, 0.9 * $2 - 0.1, 1.1 * $3; next } 1'"""
         told = check("view", "--", script(f'"$BIN/view" | {mix}')).stdout
-        self.assertRegex(told, r"^1-one-triangle: wrong\n(?:  .*\n)*  cause: none of those known\n"
-                               r"2-camera: wrong\n")
+        self.assertRegex(
+            told, r"^1-one-triangle: wrong\n(?:  .*\n)*  cause: none of those known\n"
+            r"2-camera: wrong\n")
         rows = told.split("| right\n")[1].splitlines()
         self.assertEqual([row.count("*") for row in rows[:4]], [4, 4, 4, 0])
 
     def test_a_cause_is_named_as_far_as_the_next_scene_confirms_it(self):
         """All these write the same for the first scene, whose camera looks along z from 0 0 4."""
-        for factor, cause in ("0", "The points are those of the stage before, unchanged"), (
-                "eye", "none of those known"):
-            done = check("view", "--", script(
-                "exec awk '/^eye/ { eye = $2 } /^[elu]/ { next } "
-                f"NF == 3 {{ $2 += {factor} * $1 * $2 }} 1'"))
+        for factor, cause in ("0",
+                              "The points are those of the stage before, unchanged"), ("eye",
+                                                                                       "none of those known"):
+            done = check(
+                "view", "--",
+                script("exec awk '/^eye/ { eye = $2 } /^[elu]/ { next } "
+                       f"NF == 3 {{ $2 += {factor} * $1 * $2 }} 1'"))
             self.assertIn(
                 "1-one-triangle: wrong\n  first difference: line 2, z of vertex 1 of triangle 0: 0 in place "
                 f"of -4, off by 4\n  cause: {cause}\n", done.stdout)
 
     def test_a_zbuf_gets_its_config_and_writes_its_picture(self):
         told = self.told("zbuf", 'exec "$BIN/zbuf" --coverage center "$1"', status=0)
-        self.assertRegex(told, r"^scene: right by another rule: the center rule\n  that counts as right: .*\n"
-                               r"  first difference: row \d+, column \d+: .* \(counted from 0\)\n$")
+        self.assertRegex(
+            told, r"^scene: right by another rule: the center rule\n  that counts as right: .*\n"
+            r"  first difference: row \d+, column \d+: .* \(counted from 0\)\n$")
         self.assertEqual(self.told("zbuf", '"$BIN/zbuf" "$1" --image output.bmp > zBuffer.txt', status=0),
                          "scene: right\n")
         self.assertIn("(out.bmp)", self.told("zbuf", 'exec "$BIN/zbuf" "$1" --image none.bmp'))

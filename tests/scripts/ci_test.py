@@ -16,7 +16,7 @@ SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
 PRESETS = ("release", "asan", "fuzz", "tsan", "clang")
 STUBS = ("scripts/install-packages", "scripts/build-release", "scripts/build-playground", "scripts/check",
          "scripts/measure/bench", "scripts/maintain/fuzz", "scripts/maintain/tidy",
-         "scripts/maintain/compare-builds", "bin/cmake", "bin/git", "bin/clang-format")
+         "scripts/maintain/compare-builds", "bin/cmake", "bin/git", "bin/clang-format", "bin/yapf3")
 LIB = [str(path.relative_to(SOURCE)) for path in (SOURCE / "scripts/lib").glob("**/*.py")]
 # The folder of a preset's tests, in this tree.
 CTEST = f"""#!/bin/sh
@@ -78,8 +78,7 @@ class Tree(unittest.TestCase):
     def run_there(self, *words, **variables):
         environment = {
             name: value
-            for name, value in os.environ.items()
-            if not name.startswith(("CTEST_", "LIMIT"))}
+            for name, value in os.environ.items() if not name.startswith(("CTEST_", "LIMIT"))}
         environment |= {"PATH": f"{self.tree}/bin:{os.environ['PATH']}", **variables}
         return subprocess.run(words, cwd=self.tree, env=environment, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
@@ -222,8 +221,7 @@ class Ci(Tree):
         self.put(
             "scripts/check",
             "#!/bin/sh\necho failed: A.B\necho 'skipped: C.D: no moon'\necho 3 passed, 1 failed, 1 skipped\n"
-            "exit 1\n"
-        )
+            "exit 1\n")
         self.set_tests("asan", ("Overflows.Here", "false"))
         self.set_tests("fuzz", ("Ends.Early", "false"),
                        ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
@@ -250,7 +248,8 @@ class Ci(Tree):
         self.put("bin/cmake", "#!/bin/sh\ncase $* in *asan*) echo no compiler; exit 1 ;; esac\n")
         done = self.ci()
         self.assert_ends(done, 1, "failed: gcc, release: all tests", "failed: gcc, release: instructions",
-                         "failed: gcc, ASan and UBSan: modules", done.stdout.splitlines()[-1])
+                         "failed: gcc, ASan and UBSan: modules",
+                         done.stdout.splitlines()[-1])
         self.assertIn("no compiler\n", done.stdout)
 
 

@@ -55,6 +55,7 @@ def bmp_header(width, height, bits=24, offset=54, header_size=40, compression=0)
 def png_file(width, height, pixels, colors=2):
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
     header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, colors, 0, 0, 0))
     return b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
 
@@ -161,8 +162,9 @@ class Nothing(InputTest):
 class OtherTexts(InputTest):
     def test_a_scene_is_called_one(self):
         write("stage", TRIANGLE)
-        scenes = (SCENE, SCENE.replace("\n", "\r\n"), "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n",
-                  "0 0 5\n0 0 0\n0 1 0\n60 1 1 100 ratio\nend\n",
+        scenes = (SCENE, SCENE.replace(
+            "\n",
+            "\r\n"), "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n", "0 0 5\n0 0 0\n0 1 0\n60 1 1 100 ratio\nend\n",
                   "0 0 5\n0 0 0\n0 1 0\northo -1 1 -1 1 1 9\ntriangle 0 0 0\n1 0 0\n0 1 0\nend\n",
                   SCENE.replace(" ", "\t"), SCENE.replace("end", "rotate 1 0 0 1\nend"))
         for scene in scenes:
@@ -177,11 +179,11 @@ class OtherTexts(InputTest):
         utf_16 = [(TRIANGLE.encode(encoding), ": this is UTF-16: save it as UTF-8")
                   for encoding in ("utf-16", "utf-16-le", "utf-16-be")]
         write("b", TRIANGLE)
-        for text, message in (
-                *utf_16, (TRIANGLE + "error model: something was wrong\n", ":5: model: something was wrong"),
-                ("triangle x\n" + TRIANGLE, ":1: expected a triangle's number, found 'x'"),
-                (b"1 2 gr\xfcn\n", ":1: expected numbers, found '1 2 gr\\xfcn'"),
-                (bytes(range(256)), ": this is neither a text nor a BMP, PPM or PNG")):
+        for text, message in (*utf_16, (TRIANGLE + "error model: something was wrong\n",
+                                        ":5: model: something was wrong"),
+                              ("triangle x\n" + TRIANGLE, ":1: expected a triangle's number, found 'x'"),
+                              (b"1 2 gr\xfcn\n", ":1: expected numbers, found '1 2 gr\\xfcn'"), (bytes(
+                                  range(256)), ": this is neither a text nor a BMP, PPM or PNG")):
             with self.subTest(message):
                 write("a", text)
                 self.assert_not_compared(compare("a", "b"), f"a{message}")
@@ -374,7 +376,6 @@ class Endings(InputTest):
 
 class FiveFiles(InputTest):
     """A student's file that cannot be read gets a verdict, and so do the others."""
-
     def setUp(self):
         super().setUp()
         write("-scene", SCENE)
@@ -384,8 +385,7 @@ class FiveFiles(InputTest):
     def judged(self, status=1):
         done = compare("--hand-in", "--", "-theirs", "-scene", "-config")
         self.assertEqual((done.stderr.decode(), done.returncode), ("", status), done.stdout.decode())
-        rows = [[cell.strip()
-                 for cell in line.split("|")[2:-1]]
+        rows = [[cell.strip() for cell in line.split("|")[2:-1]]
                 for line in done.stdout.decode().splitlines()[2:7]]
         return {row[0]: (row[1], row[-1]) for row in rows}
 
@@ -456,8 +456,9 @@ class Spheres(InputTest):
         self.assertEqual(status, 1)
         self.assertIn("| line 8, z of point 3 of sphere 0: -5 in A, -5.5 in B, off by 0.5 |", table)
         self.assertIn("| 1 and 0 spheres", self.told(text, TRIANGLE + OTHER)[1])
-        self.assertEqual(self.told(self.SPHERE, self.SPHERE.replace("0 0 -3\n", ""))[::2],
-                         (2, "compare: b: expected four vertices a sphere, found 3 of the last one\n"))
+        self.assertEqual(
+            self.told(self.SPHERE, self.SPHERE.replace("0 0 -3\n", ""))[::2],
+            (2, "compare: b: expected four vertices a sphere, found 3 of the last one\n"))
 
 
 if __name__ == "__main__":

@@ -19,15 +19,12 @@ SCENE = (SAMPLE / "scene.txt").read_text()
 WIDE = student.SCENE
 TRIANGLE = "0.1000000 0.2000000 0.3000000\n1.0000000 0.0000000 0.5000000\n0.0000000 1.0000000 0.7000000\n\n"
 
-
 compare = functools.partial(run_script, "compare")
 
 
 def cells(table, name):
     """The second cell of the rows that begin with `name`."""
-    rows = [[cell.strip()
-             for cell in line.strip("|").split(" | ")]
-            for line in table.splitlines()
+    rows = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table.splitlines()
             if line.startswith("|")]
     return [row[1] for row in rows if row[0] == name]
 
@@ -102,9 +99,9 @@ class TwoFiles(ToolTest):
     def test_factors_show_in_the_numbers(self):
         right = student.texts(SCENE)
         for mistake, stage, words in (("view/l-not-negated", 1,
-                                       "x, y and z of A are 1, 1 and -1 times those of B"),
-                                      ("view/eye-added", 1, ""), ("project/no-divide", 2, ""),
-                                      ("project/last-element-is-one", 2, "")):
+                                       "x, y and z of A are 1, 1 and -1 times those of B"), ("view/eye-added",
+                                                                                             1, ""),
+                                      ("project/no-divide", 2, ""), ("project/last-element-is-one", 2, "")):
             with self.subTest(mistake):
                 table = self.told(student.texts(SCENE, mistake)[stage], right[stage])
                 self.assertEqual((" ".join(cells(table, "hint")), cells(table, "cause")), (words, []))
@@ -211,8 +208,7 @@ class Five(ToolTest):
             data = run(*words, "--digits", "exact", stdin=data).stdout
             lines = [line for line in data.decode().split("\n") if not line[:1].isalpha()]
             cut = [
-                " ".join(f"{math.trunc(float(word) * 1e7) / 1e7:.7f}"
-                         for word in line.split())
+                " ".join(f"{math.trunc(float(word) * 1e7) / 1e7:.7f}" for word in line.split())
                 for line in lines]
             pathlib.Path(f"theirs/stage{number}.txt").write_text("\n".join(cut))
         self.draw()

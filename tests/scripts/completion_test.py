@@ -88,9 +88,9 @@ class Words(unittest.TestCase):
 
 class OtherShells(unittest.TestCase):
     CASES = {
-        "pipeline pro": {"project"}, "pipeline help sc": {"scene"}, "pipeline zbuf --samples ": set(),
-        "pipeline project --clip ": {"auto", "near", "frustum", "reject", "none"},
-        "pipeline zbuf --depth-i": {"--depth-image"}}
+        "pipeline pro": {"project"}, "pipeline help sc": {"scene"},
+        "pipeline zbuf --samples ": set(), "pipeline project --clip ": {
+            "auto", "near", "frustum", "reject", "none"}, "pipeline zbuf --depth-i": {"--depth-image"}}
 
     @unittest.skipUnless(shutil.which("fish"), "fish is missing")
     def test_fish_completes_the_same(self):
@@ -115,7 +115,6 @@ words=(${(s: :)1}); [[ $1 != *' ' ]] || words+=(''); CURRENT=$#words PREFIX=$wor
 
 class Keys(ToolTest):
     """The Tab key in a terminal."""
-
     def setUp(self):
         super().setUp()
         try:
@@ -130,8 +129,7 @@ class Keys(ToolTest):
         pathlib.Path("some scene.txt").touch()
         self.typed(
             f"bind 'set enable-bracketed-paste off'; pipeline() {{ printf '<%s>' \"$@\"; echo; }}; source "
-            f"'{COMPLETION}'; echo rea''dy\n",
-            "ready")
+            f"'{COMPLETION}'; echo rea''dy\n", "ready")
 
     def tearDown(self):
         self.bash.kill()

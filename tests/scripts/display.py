@@ -9,14 +9,12 @@ MISSING = [
     name
     for name, is_there in (("python3-tk",
                             importlib.util.find_spec("tkinter") and importlib.util.find_spec("_tkinter")),
-                           ("xvfb", shutil.which("Xvfb")))
-    if not is_there]
+                           ("xvfb", shutil.which("Xvfb"))) if not is_there]
 
 
 class Display:
     """Sets DISPLAY within the `with` block. A process should have only one: Tk keeps its connection for the
     next window, and Xlib ends the whole process when the server of any connection is gone."""
-
     def __init__(self, *options):
         self.options = options
 
@@ -25,8 +23,8 @@ class Display:
         # Whatever ends this process ends the server, which would otherwise hold the test's output open.
         self.server = subprocess.Popen([
             "setpriv", "--pdeathsig", "TERM", "Xvfb", "-displayfd",
-            str(writer), "-screen", "0", "1280x1024x24", "-nolisten", "tcp", *self.options],
-            pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            str(writer), "-screen", "0", "1280x1024x24", "-nolisten", "tcp", *self.options], pass_fds=[
+                writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as number:
             os.environ["DISPLAY"] = ":" + number.readline().strip()

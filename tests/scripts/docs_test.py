@@ -96,8 +96,8 @@ class Commands(unittest.TestCase):
         bubblewrap = pathlib.Path(without.name, "bwrap")
         bubblewrap.write_text("#!/bin/sh\nexit 1\n")
         bubblewrap.chmod(0o755)
-        environment = {**os.environ, "LC_ALL": "C.UTF-8",
-                       "PATH": f"{without.name}:{BIN_DIR}:{os.environ['PATH']}"}
+        environment = {
+            **os.environ, "LC_ALL": "C.UTF-8", "PATH": f"{without.name}:{BIN_DIR}:{os.environ['PATH']}"}
         environment.pop("BIN", None)
         for page in (page for page in PAGES if "\n```console" in page.read_text()):
             with tempfile.TemporaryDirectory() as folder:
@@ -157,12 +157,10 @@ class Pages(unittest.TestCase):
 
 class KeptTrue(unittest.TestCase):
     """The list of docs/README.md."""
-
     def assert_keepers(self, item, words):
         """The words name at least one test or script, and all of them are there."""
-        sources = "\n".join(path.read_text()
-                            for path in (SOURCE / "tests").rglob("*")
-                            if path.suffix in (".cpp", ".txt"))
+        sources = "\n".join(
+            path.read_text() for path in (SOURCE / "tests").rglob("*") if path.suffix in (".cpp", ".txt"))
         tests, scripts = re.findall(r"`(\w+)\.([A-Z]\w+)`", words), re.findall(r"`(scripts/[\w/-]+)`", words)
         self.assertTrue(tests or scripts, f"{item}: nothing keeps it true")
         for suite, name in tests:
@@ -221,8 +219,8 @@ class WhatThePagesName(unittest.TestCase):
             names = re.findall(rf"(tools_|script_)test\(([\w.]+) {keeper[:-3]}\b", cmake)
             full = ["Tools." * (kind == "tools_") + name for kind, name in names]
             return [
-                next((run for run, pattern in labels if re.fullmatch(pattern, name)),
-                     "check") for name in full]
+                next((run for run, pattern in labels if re.fullmatch(pattern, name)), "check")
+                for name in full]
 
         rows = re.findall(r"^\| .* \| (`.*) \| (.*) \|$", (SOURCE / "docs/guarantees.md").read_text(),
                           re.MULTILINE)
@@ -234,8 +232,12 @@ class WhatThePagesName(unittest.TestCase):
 
     def test_every_command_of_pipeline_is_there(self):
         for page in PAGES:
-            for word in sorted(set(re.findall(r"(?:^|[^\w/-])pipeline ([a-z][a-z-]+)", "\n".join(
-                    re.findall(r"`[^`\n]*`|^    .*|^\$ .*", page.read_text(), re.MULTILINE)), re.MULTILINE))):
+            for word in sorted(
+                    set(
+                        re.findall(
+                            r"(?:^|[^\w/-])pipeline ([a-z][a-z-]+)", "\n".join(
+                                re.findall(r"`[^`\n]*`|^    .*|^\$ .*", page.read_text(), re.MULTILINE)),
+                            re.MULTILINE))):
                 with self.subTest(page=name_of(page), command=word):
                     known = word in ("help", "env") or (BIN_DIR.parent / "libexec/pipeline" / word).exists()
                     self.assertTrue(known, f"pipeline {word}")

@@ -62,8 +62,7 @@ class Samples(ToolTest):
         self.assertGreaterEqual(len(SAMPLES), 11)
         choice = random.Random(19)
         for sample in SAMPLES:
-            world, view, ndc = (triangles_of(sample_file(BIN, sample, f"stage{n}.txt"))
-                                for n in (1, 2, 3))
+            world, view, ndc = (triangles_of(sample_file(BIN, sample, f"stage{n}.txt")) for n in (1, 2, 3))
             for number in {0, len(world) - 1, choice.randrange(len(world))}:
                 with self.subTest(sample=sample.name, triangle=number):
                     done = explain(sample / "scene.txt", sample / "config.txt", "--triangle", number)
@@ -87,8 +86,7 @@ class Samples(ToolTest):
                     probed = run("zbuf", "--coverage", coverage, "--probe", pixel, sample / "config.txt",
                                  stdin=stage3).stderr.decode()
                     kept = [
-                        line.split()[3].rstrip(",")
-                        for line in probed.splitlines()
+                        line.split()[3].rstrip(",") for line in probed.splitlines()
                         if line.endswith(": kept")]
                     done = explain(sample / "scene.txt", sample / "config.txt", "--triangle",
                                    kept[-1] if kept else 0, "--pixel", pixel, "--coverage", coverage)
@@ -102,7 +100,6 @@ class Samples(ToolTest):
 
 class Words(ToolTest):
     """What a report says of a triangle whose case is known."""
-
     def report(self, commands, *words, config="8 8\n", camera=CAMERA):
         pathlib.Path("scene.txt").write_text(camera + commands + "end\n")
         pathlib.Path("config.txt").write_text(config)
@@ -125,17 +122,19 @@ class Words(ToolTest):
 
     def test_the_window_has_pixel_centers_at_whole_numbers(self):
         report = self.on_centers("2,5")
-        self.assertIn("  0  -0.6250000  -0.6250000  0.0000000  ->  1.0000  6.0000\n"
-                      "  1   0.3750000  -0.6250000  0.0000000  ->  5.0000  6.0000\n"
-                      "  2  -0.6250000   0.3750000  0.0000000  ->  1.0000  2.0000\n"
-                      "  area 8.00 pixels, counterclockwise: this is its front\n", report)
+        self.assertIn(
+            "  0  -0.6250000  -0.6250000  0.0000000  ->  1.0000  6.0000\n"
+            "  1   0.3750000  -0.6250000  0.0000000  ->  5.0000  6.0000\n"
+            "  2  -0.6250000   0.3750000  0.0000000  ->  1.0000  2.0000\n"
+            "  area 8.00 pixels, counterclockwise: this is its front\n", report)
 
     def test_distances_are_those_of_the_center_in_pixels(self):
-        self.assertIn("  edge 0-1   1.0000 pixels inside a bottom edge\n"
-                      "  edge 1-2   1.4142 pixels inside a right edge\n"
-                      "  edge 2-0   1.0000 pixels inside a left edge\n"
-                      "  covered: the center is inside\n"
-                      "  depth = 0.5000 z0 + 0.2500 z1 + 0.2500 z2 = 0.0000000000\n", self.on_centers("2,5"))
+        self.assertIn(
+            "  edge 0-1   1.0000 pixels inside a bottom edge\n"
+            "  edge 1-2   1.4142 pixels inside a right edge\n"
+            "  edge 2-0   1.0000 pixels inside a left edge\n"
+            "  covered: the center is inside\n"
+            "  depth = 0.5000 z0 + 0.2500 z1 + 0.2500 z2 = 0.0000000000\n", self.on_centers("2,5"))
 
     def test_a_center_on_a_right_edge_is_not_owned(self):
         report = self.on_centers("3,4")
@@ -169,8 +168,7 @@ class Words(ToolTest):
         self.assertIn("  edge 1-2   exactly on a right edge\n", report)
         self.assertIn(
             "  row 4 crosses it from column 1.0000 to 3.0000: pixels 1 to 3 are nearest\n  covered: 3 is one "
-            "of these\n",
-            report)
+            "of these\n", report)
         self.assertIn("  not covered: 4 is right of these\n", self.on_centers("4,4", "nearest"))
         self.assertIn("  not covered: the line through the centers of row 1 does not cross the triangle\n",
                       self.on_centers("4,1", "nearest"))
@@ -190,12 +188,13 @@ class Words(ToolTest):
         walls = "".join(
             f"triangle\n-9 -9 {z}\n9 -9 {z}\n0 9 {z}\n" for z in ("-0.5", "-0.25", "-0.75", "-0.25"))
         report = self.report(walls, "--triangle", 2, "--pixel", "4,4", camera=self.FLAT)
-        self.assertIn("  at this pixel, in the order they are drawn:\n"
-                      "       triangle 0   depth 0.5    kept, the first one\n"
-                      "       triangle 1   depth 0.25   kept, nearer than triangle 0\n"
-                      "  ->   triangle 2   depth 0.75   lost, behind triangle 1\n"
-                      "       triangle 3   depth 0.25   lost, equal and later than triangle 1\n"
-                      "  the pixel shows triangle 1: 0.25 is nearer than 0.75\n", report)
+        self.assertIn(
+            "  at this pixel, in the order they are drawn:\n"
+            "       triangle 0   depth 0.5    kept, the first one\n"
+            "       triangle 1   depth 0.25   kept, nearer than triangle 0\n"
+            "  ->   triangle 2   depth 0.75   lost, behind triangle 1\n"
+            "       triangle 3   depth 0.25   lost, equal and later than triangle 1\n"
+            "  the pixel shows triangle 1: 0.25 is nearer than 0.75\n", report)
         report = self.report(walls, "--triangle", 3, "--pixel", "4,4", camera=self.FLAT)
         self.assertIn("  the pixel shows triangle 1: it is as near and came earlier\n", report)
 
@@ -205,8 +204,7 @@ class Words(ToolTest):
         self.assertEqual(report.count("\n"), MAX_LINES)
         self.assertIn(
             "  ->   triangle 100   depth -0.1    kept, nearer than triangle 99\n       triangle 179   depth "
-            "-0.89   kept, nearer than triangle 178\n",
-            report)
+            "-0.89   kept, nearer than triangle 178\n", report)
         self.assertRegex(
             report, r"in the order they are drawn \(1\d of 180\):\n       triangle 0 .*\n       triangle 1 ")
         self.assertRegex(
@@ -219,8 +217,7 @@ class Words(ToolTest):
         self.assertIn("  wholly beyond the rear limit 1: no pixel shows it\n", report)
         self.assertIn(
             "lost, beyond the rear limit\n  none of them is between the limits: the pixel shows the "
-            "background\n",
-            report)
+            "background\n", report)
 
     def test_why_a_pixel_is_uncertain(self):
         """In each of three stages, the last of 7 decimals is off by up to half a unit in x, y and z, and a
@@ -229,8 +226,8 @@ class Words(ToolTest):
         self.assertIn(line % "edge 1-2 is as near", self.on_centers("3,4"))
         self.assertNotIn("uncertain", self.on_centers("2,5") + self.on_centers("3,4", "nearest"))
         walls = [f"triangle\n-9 -9 {z}\n9 -9 {z}\n0 9 {z}\n" for z in ("-.25", "-.25000004", "1")]
-        for text, number, why in ((walls[0] + walls[1], 0, "triangle 1 is as near"),
-                                  (walls[2], 0, "the front limit is as near"),
+        for text, number, why in ((walls[0] + walls[1], 0,
+                                   "triangle 1 is as near"), (walls[2], 0, "the front limit is as near"),
                                   (walls[0] + "triangle\n-1 -1 -.5\n-.5 -1 -.5\n-1 -.5 -.5\n" + walls[0], 1,
                                    "other triangles are why")):
             report = self.report(text, "--triangle", number, "--pixel", "4,4", "--coverage", "center",
@@ -241,18 +238,18 @@ class Words(ToolTest):
         report = self.report("translate\n1 2 3\npush\nscale\n9 9 9\npop\nrotate 90 0 0 1\n" + self.ON_CENTERS,
                              "--triangle", 0)
         self.assertIn("triangle 0 of 1, numbered from 0: scene.txt, line 12\n", report)
-        self.assertIn("  line 5  translate 1 2 3                   M = | 0  -1  0  1 |\n"
-                      "  line 11  rotate 90 0 0 1                      | 1   0  0  2 |\n"
-                      "                                                | 0   0  1  3 |\n"
-                      "                                                | 0   0  0  1 |\n"
-                      "  0  -0.625  -0.625  0  ->  1.6250000  1.3750000  3.0000000\n", report)
+        self.assertIn(
+            "  line 5  translate 1 2 3                   M = | 0  -1  0  1 |\n"
+            "  line 11  rotate 90 0 0 1                      | 1   0  0  2 |\n"
+            "                                                | 0   0  1  3 |\n"
+            "                                                | 0   0  0  1 |\n"
+            "  0  -0.625  -0.625  0  ->  1.6250000  1.3750000  3.0000000\n", report)
 
     def test_of_many_transforms_the_last_are_shown(self):
         report = self.report("rotate 1 0 0 1\n" * 90 + self.ON_CENTERS, "--triangle", 0)
         self.assertIn(
             "  (87 transforms before these)              M = | 0  -1  0  0 |\n  line 92  rotate 1 0 0 1      "
-            "                 | 1   0  0  0 |\n",
-            report)
+            "                 | 1   0  0  0 |\n", report)
 
     def test_a_triangle_that_is_cut(self):
         # From z = 0 to behind the eye at z = 5: where z is 4, 1 before the eye, is four ninths of the way to
@@ -276,8 +273,7 @@ class Words(ToolTest):
                                  "--pixel", "4,4", "--clip", "frustum", "--coverage", rule, camera=self.FLAT)
             self.assertIn(
                 "  (5 more)\n  cut: what is left are the triangles a-b-c, a-c-d, a-d-e, a-e-f, a-f-g, "
-                "a-g-h, a-h-i\n",
-                report)
+                "a-g-h, a-h-i\n", report)
             self.assertIn("  the pixel shows triangle 0\n", report)
 
     def test_what_is_dropped_says_why(self):
@@ -286,8 +282,7 @@ class Words(ToolTest):
         culled = self.report("triangle\n0 0 0\n1 0 0\n0 1 0\n", "--triangle", 0, "--cull", "front")
         self.assertIn(
             "its corners run counterclockwise as the eye sees them: it shows its front, which --cull "
-            "front drops\n",
-            culled)
+            "front drops\n", culled)
         outside = self.report("triangle\n90 0 0\n91 0 0\n90 1 0\n", "--triangle", 0)
         self.assertIn("  wholly right of the picture: no pixel shows it\n", outside)
         outside = self.report("triangle\n90 0 0\n91 0 0\n90 1 0\n", "--triangle", 0, "--clip", "reject")
@@ -314,8 +309,9 @@ class Words(ToolTest):
                                    places=14)
 
     def test_without_a_pixel_one_is_suggested(self):
-        self.assertTrue(self.report(self.ON_CENTERS, "--triangle", 0, camera=self.FLAT).endswith(
-            "\n\nwith --pixel 2,5, in its middle, the report goes on at that pixel\n"))
+        self.assertTrue(
+            self.report(self.ON_CENTERS, "--triangle", 0, camera=self.FLAT).endswith(
+                "\n\nwith --pixel 2,5, in its middle, the report goes on at that pixel\n"))
 
 
 class Messages(ToolTest):
@@ -331,8 +327,7 @@ class Messages(ToolTest):
         pathlib.Path("config.txt").write_text("8 0\n")
         self.assert_fails_with(
             "explain: zbuf: config.txt:1:3: expected the height in pixels, a whole number from 1 to 65535, "
-            "found '0'\n"
-        )
+            "found '0'\n")
 
     def assert_fails_with(self, message):
         done = explain("scene.txt", "config.txt", "--triangle", 0)
@@ -342,8 +337,7 @@ class Messages(ToolTest):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 0\n1 0 0\n0 1 0\nsphere 0 0 0 1\nend\n")
         self.assert_fails_with(
             "explain: model: scene.txt:9:1: expected triangles alone, found a sphere: trace draws it, and "
-            "model --facets N makes triangles of it\n"
-        )
+            "model --facets N makes triangles of it\n")
 
     def test_a_missing_file_is_named(self):
         done = explain("none.txt", "config.txt", "--triangle", 0)
@@ -384,7 +378,6 @@ class Messages(ToolTest):
 class RandomTriangles(ToolTest):
     """Exact arithmetic rounds to what the tools print, whatever the camera, the transforms and the
     options."""
-
     def test_stages_agree_with_the_tools(self):
         choice = random.Random(5)
 
@@ -398,7 +391,7 @@ class RandomTriangles(ToolTest):
                 choice.choice((f"rotate {choice.choice((90, 45, 30, 17.3))} 1 {point(2)[:2]} 0.5\n",
                                f"translate {point(3)}\n", f"scale {point(2)}\n"))
                 for _ in range(choice.randrange(5)))
-            text = f"{point(5)}\n{point(1)}\n0 1 0.25\n{kind}\n{commands}" +"".join(
+            text = f"{point(5)}\n{point(1)}\n0 1 0.25\n{kind}\n{commands}" + "".join(
                 f"triangle {point(6)}\n{point(6)}\n{point(6)}\n" for _ in range(4)) + "end\n"
             pathlib.Path("scene.txt").write_text(text)
             settings = Settings(choice.choice(("7", "12", "exact")), choice.choice((None, "ratio")),
@@ -459,9 +452,7 @@ class RandomPairs(ToolTest):
     def drawn(self, config, triangles):
         """{rule: {(triangle, column, row): depth}} of all fragments that zbuf finds."""
         pathlib.Path("config.txt").write_text(config)
-        text = "".join("".join(" ".join(f"{float(x):.7f}"
-                                        for x in p) + "\n"
-                               for p in points) + "\n"
+        text = "".join("".join(" ".join(f"{float(x):.7f}" for x in p) + "\n" for p in points) + "\n"
                        for points in triangles)
         found = {}
         for rule in ("nearest", "center"):
@@ -505,10 +496,10 @@ class RandomPairs(ToolTest):
 
 class TheStack(ToolTest):
     # The table of the assignment, "Managing Push and Pop": the state after each of its lines, top first.
-    TABLE = {"push": ("I", "I"), "T1": ("T1", "I"), "push ": ("T1", "T1", "I"), "R1": ("T1 R1", "T1", "I"),
-             "pop": ("T1", "I"), "S1": ("T1 S1", "I"), "push  ": ("T1 S1", "T1 S1", "I"),
-             "R2": ("T1 S1 R2", "T1 S1", "I"), "pop ": ("T1 S1", "I"), "S2": ("T1 S1 S2", "I"),
-             "pop  ": ("I", )}
+    TABLE = {
+        "push": ("I", "I"), "T1": ("T1", "I"), "push ": ("T1", "T1", "I"), "R1": ("T1 R1", "T1", "I"),
+        "pop": ("T1", "I"), "S1": ("T1 S1", "I"), "push  ": ("T1 S1", "T1 S1", "I"),
+        "R2": ("T1 S1 R2", "T1 S1", "I"), "pop ": ("T1 S1", "I"), "S2": ("T1 S1 S2", "I"), "pop  ": ("I",)}
     ARGUMENTS = {"T": "translate 1 2 3", "R": "rotate 90 0 0 1", "S": "scale 2 2 2"}
 
     def test_is_the_table_of_the_assignment(self):
@@ -525,8 +516,9 @@ class TheStack(ToolTest):
             report = explain(*words, "--stack", stdin=text)
             self.assertEqual([line for line in report.stdout.splitlines()[1:] if len(line) > 79], [])
             if text:
-                self.assertRegex(report.stdout, r" triangles 0 to 1 +a point p becomes R1 T1 R2 T2 \.\.\. "
-                                 r"[^|]*\(60 factors\)")
+                self.assertRegex(
+                    report.stdout, r" triangles 0 to 1 +a point p becomes R1 T1 R2 T2 \.\.\. "
+                    r"[^|]*\(60 factors\)")
 
     def test_refuses_what_it_cannot_use(self):
         for words, found in ((["config.txt"], "'config.txt'"), (["--pixel", "1,1"], "--pixel")):
@@ -549,7 +541,8 @@ class TheScanLine(ToolTest):
         return explain("-", "ten.txt", "--scan-line", row, "--coverage", "center", stdin=self.SCENE)
 
     def test_has_the_tables_of_a_row(self):
-        self.assertEqual(self.report(5).stdout, """<stdin>
+        self.assertEqual(
+            self.report(5).stdout, """<stdin>
 scan line 5 of 0 to 9, y = -0.1 in NDC, coverage center
 
 EDGE TABLE, row 5: edges begin here of none
@@ -578,8 +571,9 @@ ACTIVE EDGES: left ones turn their polygon's flag to in, right ones to out
             self.assertEqual([line for line in lines[1:] if len(line) > 79], [])
 
     def test_is_of_a_row_of_the_picture_and_no_pixel(self):
-        self.assertEqual(self.report(10).stderr, "explain: --scan-line: expected a number from 0 to 9, "
-                         "found 10 (try explain --help)\n")
+        self.assertEqual(
+            self.report(10).stderr, "explain: --scan-line: expected a number from 0 to 9, "
+            "found 10 (try explain --help)\n")
         done = explain("-", "ten.txt", "--scan-line", "1", "--pixel", "1,1", stdin=self.SCENE)
         self.assertEqual((done.returncode, done.stderr),
                          (2, "explain: --pixel: expected --triangle with it, found --scan-line "

@@ -68,8 +68,9 @@ class Numbers(unittest.TestCase):
     def test_no_pixel_that_is_called_certain_is_wrong(self):
         """Bounds need extended precision, and what they do not hold for is refused."""
         refused = [row for row in COMMITTED if row["uncertain_pixels"] == "refused"]
-        self.assertEqual([(row["axis"], row["value"], row["setting"]) for row in refused
-                          if "double" not in row["setting"]], [("angle", "1e-09", "--digits exact")])
+        self.assertEqual([
+            (row["axis"], row["value"], row["setting"]) for row in refused if "double" not in row["setting"]],
+                         [("angle", "1e-09", "--digits exact")])
         self.assertEqual(len(refused), 1 + sum("double" in row["setting"] for row in COMMITTED))
         self.assertEqual({row["wrong_though_certain"] for row in COMMITTED if row not in refused}, {"0"})
 
@@ -89,14 +90,10 @@ class Truth(unittest.TestCase):
     def test_owners_are_those_of_the_specification(self):
         """Of triangles with few digits, which the reference reads as they are."""
         triangles = [
-            [[Fraction(x, 8)
-              for x in point]
-             for point in triangle]
+            [[Fraction(x, 8) for x in point] for point in triangle]
             for triangle in (((-7, -7, 3), (7, -7, 3), (0, 7, -5)), ((-7, 5, 2), (7, 5, -4), (0, -6, 2)),
                              ((-3, -3, -1), (1, 5, 0), (5, 1, 0)), ((0, 0, 0), (1, 1, 1), (2, 2, 2)))]
-        text = "\n\n".join("\n".join(" ".join(str(float(x))
-                                              for x in point)
-                                     for point in triangle)
+        text = "\n\n".join("\n".join(" ".join(str(float(x)) for x in point) for point in triangle)
                            for triangle in triangles) + "\n"
         config = reference.Config(16, 16, *map(Fraction, (-1, -1, -1, 1)), ("-1", "-1"))
         _, seen = reference.draw(reference.Stage(text.encode(), "zbuf").triangles(), config, "center")
@@ -144,12 +141,11 @@ class Mistakes(unittest.TestCase):
     def test_notes_are_shortened_to_what_they_are_about(self):
         for note, words in (
             ("view: note: <stdin>:4:1: the digits of this vertex and of 2 more are not certain: numbers "
-             "cancel here beyond 31 digits",
-             "view: uncertain digits"),
+             "cancel here beyond 31 digits", "view: uncertain digits"),
             ("project: note: in 2 % of what is drawn, 7 digits are too few to tell where the edges are; try "
              "--digits 12 for every stage",
              "project: moved edges"), ("zbuf: note: the picture is empty: no triangle came",
-                                    "zbuf: empty picture"), ("zbuf: note: a new one", "zbuf: a new one")):
+                                       "zbuf: empty picture"), ("zbuf: note: a new one", "zbuf: a new one")):
             self.assertEqual(shortened(note), words)
 
 

@@ -23,10 +23,9 @@ from ssh_server import SshServer
 from toolbox import BIN, SOURCE, ToolTest, pipe, run, run_script
 
 FARM = SOURCE / "scripts/farm"
-SETTINGS = ([], ["--coverage", "center", "--samples", "2"],
-            ["--wireframe", "--clip", "frustum", "--depth", "f32"])
+SETTINGS = ([], ["--coverage", "center", "--samples", "2"], [
+    "--wireframe", "--clip", "frustum", "--depth", "f32"])
 OF_PROJECT = ("--clip", "--cull", "--aspect")
-
 
 SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12)) * 2  # fewer with sanitizers, see CMakeLists.txt
 PATIENCE = 240  # seconds, far more than anything here takes
@@ -66,8 +65,8 @@ def begun(farm, count, hosts=()):
         found = {}
         for path in pathlib.Path().glob("began-*"):
             process, *folder = path.read_text().split(maxsplit=1) or ["0"]
-            if os.path.exists(f"/proc/{process}") and (
-                    not hosts or set(pathlib.Path(*folder).parts) & set(hosts)):
+            if os.path.exists(f"/proc/{process}") and (not hosts
+                                                       or set(pathlib.Path(*folder).parts) & set(hosts)):
                 found[f"seen-0-{path.stem[6:]}.txt"] = int(process)
         if len(found) >= count:
             return found
@@ -165,8 +164,7 @@ class Local(FarmTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn(
             "farm: no picture: 1 of 5 parts are missing, the first is seen-0-3.txt (of parts/3.txt); "
-            "farm.ppm.farm/jobs.log tells where they ran, ",
-            done.stderr)
+            "farm.ppm.farm/jobs.log tells where they ran, ", done.stderr)
         self.assertIn("seen-0-3.txt: zbuf: ", done.stderr)
         self.assertFalse(pathlib.Path("farm.ppm").exists() or pathlib.Path("farm.txt").exists())
         before = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("farm.ppm.farm").glob("seen*")}
@@ -240,8 +238,8 @@ class OtherMachines(FarmTest):
         not answer."""
         listener = socket.create_server(("127.0.0.1", 0), backlog=100)
         self.addCleanup(listener.close)
-        server = SshServer(self, ["w1", "w2", "w3", "w4"], full="w3",
-                           silent={"w4": listener.getsockname()[1]})
+        server = SshServer(self, ["w1", "w2", "w3", "w4"], full="w3", silent={
+            "w4": listener.getsockname()[1]})
         hosts = ["--", *server.words, "--sshlogin", "1/w1,1/w2,1/w3,1/w4"]
         self.expect(SETTINGS[1], True)
         self.use_slow_tools(HOLD.format(pathlib.Path.cwd()), "model")
@@ -370,8 +368,9 @@ class JoinImages(FarmTest):
                                 "text"], "text: expected a BMP, PPM, PGM or PNG"), ([
                                     "gone"], "cannot read gone: No such file or directory"), ([
                                         "d.png", "cut.png"], "cut.png: "),
-                               (["wide.png"], "wide.png: expected at most 65535 columns, found 2147483647"),
-                               (["bomb.png"], "bomb.png: expected 64 bytes of pixels, found more")):
+                               (["wide.png"
+                                 ], "wide.png: expected at most 65535 columns, found 2147483647"), ([
+                                     "bomb.png"], "bomb.png: expected 64 bytes of pixels, found more")):
             done = run_script("join-images", *words, "-o", "out.ppm")
             self.assertEqual((done.returncode, done.stdout), (1, ""))
             self.assertEqual(done.stderr[:len(message) + 13], f"join-images: {message}")

@@ -35,8 +35,8 @@ end
 CONFIG = "50 40\n"
 KEYS = [(0, (3, 1, 6), (0, 0, 0), (0, 1, 0), 40), (1, (5, 2, 3), (0, 0.5, 0), (0, 1, 0.2), 30),
         (3, (4, 4, 1), (0, 0, 0), (0, 0, 1), 60)]
-PATH = "# time eye look up fovY\n" +"".join(f"{t} {' '.join(map(str, (*eye, *look, *up)))} {fov}\n"
-                                            for t, eye, look, up, fov in KEYS)
+PATH = "# time eye look up fovY\n" + "".join(f"{t} {' '.join(map(str, (*eye, *look, *up)))} {fov}\n"
+                                             for t, eye, look, up, fov in KEYS)
 
 
 def setUpModule():  # noqa: N802
@@ -219,8 +219,8 @@ class Interruptions(FilmTest):
         self.make("--turn", "1", "--fps", "2", "-o", "out")
         listed = pathlib.Path("out/frames.txt")
         for make, reason in ((lambda: listed.write_bytes(b""), "expected no 00000.png in "),
-                             (lambda: listed.write_bytes(b"\xff"), "expected no 00000.png in "),
-                             (lambda: os.mkfifo(listed), "cannot read ")):
+                             (lambda: listed.write_bytes(b"\xff"),
+                              "expected no 00000.png in "), (lambda: os.mkfifo(listed), "cannot read ")):
             listed.unlink()
             make()
             done = film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out")

@@ -54,7 +54,6 @@ def setUpModule():
 
 class WindowTest(ToolTest):
     """Tests in a window. Whether a frame is slow is up to the test, not to the machine."""
-
     def setUp(self):
         super().setUp()
         import fly_parts.window
@@ -178,6 +177,7 @@ class Flying(WindowTest):
             columns = [p % 60 for p in range(2400) if any(pixels[3 * p:3 * p + 3])]
             rows = [p // 60 for p in range(2400) if any(pixels[3 * p:3 * p + 3])]
             return sum(columns) / len(columns), sum(rows) / len(rows)
+
         x, y = middle(self.shown())
         self.press("Right", "Right")
         self.assertLess(middle(self.shown())[0], x - 2)
@@ -236,9 +236,7 @@ class Flying(WindowTest):
         printed = pipe(["model"], ["view", "--eye", *eye, "--look", *look, "--up", *up], ["project"],
                        stdin=SCENE).decode().split("\n")
         reach = [
-            max(abs(float(line.split()[axis]))
-                for line in printed
-                if line and not line[0].isalpha())
+            max(abs(float(line.split()[axis])) for line in printed if line and not line[0].isalpha())
             for axis in (0, 1)]
         self.assertTrue(0.5 < max(reach) <= 1, reach)
 
@@ -298,8 +296,9 @@ class Flying(WindowTest):
         self.press("z", "z")
         self.shown()
         covered = [[any(row[i:i + 3]) for i in range(0, len(row), 3)] for row in read_picture("shown.ppm")[2]]
-        self.assertEqual(covered, [[abs(x - 30) * 3 / 61 <= 0.9 and abs(y - 20) * 2 / 41 <= 0.9
-                                    for x in range(61)] for y in range(41)])
+        self.assertEqual(covered,
+                         [[abs(x - 30) * 3 / 61 <= 0.9 and abs(y - 20) * 2 / 41 <= 0.9 for x in range(61)]
+                          for y in range(41)])
 
     def test_the_wireframe_is_zbufs(self):
         self.press("f")
@@ -320,9 +319,8 @@ class Flying(WindowTest):
 
     def test_a_frame_runs_the_stages_behind_what_changed(self):
         for keys, stages in ((["w"], ["view", "project", "zbuf"]), (["Left"], ["view", "project", "zbuf"]), ([
-                "i"], ["view", "project", "zbuf"]), (["c"], ["project",
-                                                             "zbuf"]), (["b"], ["project", "zbuf"]), (["2"], [
-                                                                 "zbuf"]), (["2"], []), (["p"], [])):
+                "i"], ["view", "project", "zbuf"]), (["c"], ["project", "zbuf"]), (["b"], [
+                    "project", "zbuf"]), (["2"], ["zbuf"]), (["2"], []), (["p"], [])):
             self.press(*keys)
             self.assertEqual(self.ran(), stages, keys)
 
@@ -372,8 +370,8 @@ class Flying(WindowTest):
 
     def test_what_a_tool_refuses_is_said_and_taken_back(self):
         from lib.running.pipe_tools import Tools
-        pathlib.Path("dark.txt").write_text("\n".join(line for line in SCENE.split("\n")
-                                                      if not line.startswith("light")))
+        pathlib.Path("dark.txt").write_text("\n".join(
+            line for line in SCENE.split("\n") if not line.startswith("light")))
         self.open(Tools(BIN), "dark.txt", CONFIG)
         first = self.shown()
         self.press("4")
@@ -457,8 +455,7 @@ class TransparentBackground(ToolTest):
         for alpha in ("", " 128"):
             pathlib.Path("scene.txt").write_text(
                 f"0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nbackground 200 100.5 50{alpha}\ntriangle\n-1 -1 0\n1 -1 "
-                f"0\n0 1 0\nend\n"
-            )
+                f"0\n0 1 0\nend\n")
             frames = FramePipe(Tools(BIN), "scene.txt")
             images.append(frames.frame([["0", "0", "5"], ["0", "0", "0"], ["0", "1", "0"]], [], "20 20\n",
                                        []))

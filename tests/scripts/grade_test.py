@@ -118,8 +118,9 @@ class Results(ClassTest):
             pathlib.Path("graded/mistakes.md").read_text(),
             done.stdout.partition("\nWritten")[0])
         results = self.results(2)
-        self.assertEqual((results["score"], [(test["name"], test["score"], test["max_score"])
-                                             for test in results["tests"]]), (0.8, [("square", 0.8, 1.0)]))
+        self.assertEqual((results["score"], [
+            (test["name"], test["score"], test["max_score"]) for test in results["tests"]]),
+                         (0.8, [("square", 0.8, 1.0)]))
         self.assertIn(DIVIDE, results["tests"][0]["output"])
         self.assertIn(DIVIDE_FIX, results["tests"][0]["output"])
         self.assertEqual(self.page(1).count("data:image/png;base64,"), 2)
@@ -177,8 +178,9 @@ class Results(ClassTest):
         def file(*causes):
             return FileVerdict("view", "stage2.txt", "wrong", causes=[Cause("", text) for text in causes])
 
-        tests = [graders.GradedTest("t", 0, 1, Verdict([file(*causes)]), "", [], [])
-                 for causes in (("One.", "Other."), ("Other.",), ("A third.",))]
+        tests = [
+            graders.GradedTest("t", 0, 1, Verdict([file(*causes)]), "", [], [])
+            for causes in (("One.", "Other."), ("Other.",), ("A third.",))]
         self.assertEqual([words for _, words in findings(graders.Graded(tests))],
                          ["Other", "Other", "A third"])
 
@@ -203,9 +205,10 @@ class Results(ClassTest):
             pathlib.Path(path).write_text("mine")
         self.grade("--anonymous")
         files = [path for path in pathlib.Path("graded").rglob("*") if path.is_file()]
-        self.assertEqual({str(path.relative_to("graded")) for path in files},
-                         {".pipeline-grade", "1-ada/comment.txt", "1-mine", "mine.csv", "grades.csv",
-                          "mistakes.md", "numbers.csv", "1/page.html", "1/results.json"})
+        self.assertEqual({str(path.relative_to("graded"))
+                          for path in files}, {
+                              ".pipeline-grade", "1-ada/comment.txt", "1-mine", "mine.csv", "grades.csv",
+                              "mistakes.md", "numbers.csv", "1/page.html", "1/results.json"})
 
     def test_links_in_out_are_not_followed(self):
         self.add("ada")
@@ -268,8 +271,8 @@ class Results(ClassTest):
         for name in ("scene.txt", "weight.txt"):
             pathlib.Path(f"tests/square/{name}").unlink(missing_ok=True)
             os.mkfifo(f"tests/square/{name}")
-            self.assertEqual(self.grade(status=2).stderr,
-                             f"grade: cannot read tests/square/{name}: Not a regular file\n")
+            self.assertEqual(
+                self.grade(status=2).stderr, f"grade: cannot read tests/square/{name}: Not a regular file\n")
             os.unlink(f"tests/square/{name}")
             pathlib.Path("tests/square/scene.txt").write_text("mine")
 
@@ -282,28 +285,30 @@ class Results(ClassTest):
         settings.write_text("# of the course\nhints stage\npoints stage3.txt 3\npoints out.bmp 4.5\n"
                             "weight b 2\n")
         self.grade()
-        self.assertEqual({row["hand-in"]: (row["b"], row["max_score"]) for row in self.rows()},
-                         {"anna": ("15.0", "22.5"), "ben": ("9.0", "22.5")})
+        self.assertEqual({row["hand-in"]: (row["b"], row["max_score"])
+                          for row in self.rows()}, {"anna": ("15.0", "22.5"), "ben": ("9.0", "22.5")})
         self.assertNotIn(DIVIDE, self.page(2))
         settings.write_text("required stage3.txt\n")
         self.grade()
         self.assertEqual(self.scores(), {"anna": 1.0, "ben": 0.0})
-        for text, message in (
-            ("points stage3.txt x\n", ":1: expected a number of 0 to 1,000,000, found 'x'"),
-            ("\npoints my.txt 1\n", ":2: expected stage1.txt, stage2.txt, stage3.txt, z_buffer.txt, out.bmp, "
-             "found 'my.txt'"),
-            ("another-rule 2\n", ":1: expected a number of 0 to 1, found '2'"),
-            ("build make\n", ": expected a line 'program STAGE' for 'build', found none"),
-            ("program view\n", ": expected a line 'run COMMAND' for the program, found none"),
-            ("weight c 1\n", ":1: expected b, square, found 'c'")):
+        for text, message in (("points stage3.txt x\n", ":1: expected a number of 0 to 1,000,000, found 'x'"),
+                              ("\npoints my.txt 1\n",
+                               ":2: expected stage1.txt, stage2.txt, stage3.txt, z_buffer.txt, out.bmp, "
+                               "found 'my.txt'"), ("another-rule 2\n",
+                                                   ":1: expected a number of 0 to 1, found '2'"),
+                              ("build make\n", ": expected a line 'program STAGE' for 'build', found none"),
+                              ("program view\n",
+                               ": expected a line 'run COMMAND' for the program, found none"),
+                              ("weight c 1\n", ":1: expected b, square, found 'c'")):
             settings.write_text(text)
             self.assertEqual(self.grade(status=2).stderr, f"grade: tests/assignment.txt{message}\n")
 
     def test_another_rule_may_be_worth_less(self):
         self.add("anna")
         words = ["--z-buffer", "hand-ins/anna/z_buffer.txt", "-o", "hand-ins/anna/out.bmp"]
-        subprocess.run([BIN / "zbuf", "tests/square/config.txt", "hand-ins/anna/stage3.txt", "--coverage",
-                        "center", *words], check=True)
+        subprocess.run([
+            BIN / "zbuf", "tests/square/config.txt", "hand-ins/anna/stage3.txt", "--coverage", "center",
+            *words], check=True)
         for share, score, words in (("1", 1.0, "counts as right"), ("0.5", 0.8, "earns 50 % of the points")):
             pathlib.Path("tests/assignment.txt").write_text(f"another-rule {share}\n")
             self.grade()
@@ -331,8 +336,9 @@ class Results(ClassTest):
             for name in "anna", "ben":
                 self.add(name, test)
                 place = f"hand-ins/{name}/{test}"
-                subprocess.run([BIN / "zbuf", f"tests/{test}/config.txt", f"{place}/stage3.txt", "--z-buffer",
-                                f"{place}/z_buffer.txt", "-o", f"{place}/out.bmp"], check=True)
+                subprocess.run([
+                    BIN / "zbuf", f"tests/{test}/config.txt", f"{place}/stage3.txt", "--z-buffer",
+                    f"{place}/z_buffer.txt", "-o", f"{place}/out.bmp"], check=True)
         cut("hand-ins/anna/square", 0, 40)
         cut("hand-ins/ben/square", 0, 40)
         for row in 4, 6:
@@ -357,16 +363,18 @@ class Results(ClassTest):
                               ("anna,square,x,", "a number of 0 to 1,000,000, found 'x'"),
                               ("anna,square", "4 columns, found 2")):
             lines.write_text(f"hand-in,test,points,comment\n{line}\n")
-            self.assertEqual(self.grade("--overrides", "lines.csv", status=2).stderr,
-                             f"grade: lines.csv:2: expected {message}\n")
+            self.assertEqual(
+                self.grade("--overrides", "lines.csv", status=2).stderr,
+                f"grade: lines.csv:2: expected {message}\n")
 
     def test_an_archive_that_is_not_read_has_a_row(self):
         self.add("anna")
         for name, start in (("b.rar", b"Rar!"), ("c.7z", b"7z\xbc\xaf\x27\x1c"), ("d.tar.xz", b"\xfd7zXZ\0")):
             pathlib.Path("hand-ins", name).write_bytes(start + bytes(50))
         self.grade(status=1)
-        self.assertEqual([(row["hand-in"], row["score"]) for row in self.rows()],
-                         [("anna", "1.0"), ("b", "0"), ("c", "0"), ("d", "0")])
+        self.assertEqual([(row["hand-in"], row["score"]) for row in self.rows()], [("anna", "1.0"),
+                                                                                   ("b", "0"), ("c", "0"),
+                                                                                   ("d", "0")])
         self.assertIn("a 7-Zip archive is not read: expected a folder, .zip, .tar or .tar.gz",
                       self.rows()[2]["remarks"])
 
@@ -387,10 +395,11 @@ class Results(ClassTest):
             os.rename(f"hand-ins/nothing/{name}", f"hand-ins/nothing/{name}.txt")
         self.grade()
         self.assertEqual(self.scores(), {"anna": 2.0, "moodle": 2.0, "flat": 2.0, "nothing": 0.0})
-        self.assertIn("square: nothing found; looked for stage1.txt, stage2.txt, stage3.txt, z_buffer.txt, "
-                      "out.bmp in a folder square, or with its name before or behind theirs, as "
-                      "square-stage1.txt",
-                      {row["hand-in"]: row["remarks"] for row in self.rows()}["nothing"])
+        self.assertIn(
+            "square: nothing found; looked for stage1.txt, stage2.txt, stage3.txt, z_buffer.txt, "
+            "out.bmp in a folder square, or with its name before or behind theirs, as "
+            "square-stage1.txt", {row["hand-in"]: row["remarks"]
+                                  for row in self.rows()}["nothing"])
 
     def test_wrong_files_that_are_equal_are_noted(self):
         for name in ("anna", "ben"):
@@ -405,8 +414,9 @@ class Results(ClassTest):
     def test_without_tests_there_are_six_scenes(self):
         os.mkdir("hand-ins/anna")
         for scene in (SOURCE / "tests/conformance/assignment").glob("*/scene.txt"):
-            subprocess.run([SOURCE / "scripts/stages", scene, scene.parent / "config.txt",
-                            f"hand-ins/anna/{scene.parent.name}"], check=True, stderr=subprocess.DEVNULL,
+            subprocess.run([
+                SOURCE / "scripts/stages", scene, scene.parent / "config.txt",
+                f"hand-ins/anna/{scene.parent.name}"], check=True, stderr=subprocess.DEVNULL,
                            env={**os.environ, "BIN": str(BIN)})
         self.grade(folders=("hand-ins",))
         self.assertEqual(self.scores(), {"anna": 6.0})
@@ -484,7 +494,6 @@ class Results(ClassTest):
 
 class Hostile(ClassTest):
     """Each of them beside one that is right, and gets its full points."""
-
     def setUp(self):
         super().setUp()
         self.add("zoe")
@@ -498,8 +507,9 @@ class Hostile(ClassTest):
 
     def test_names(self):
         long = "n" * 250
-        formulas = ["=HYPERLINK(1)", "@SUM(1)", "+1", "-rf", " =1+1",
-                    "\uff1d1+1", " \uff0b1", "\uff0d1", "\uff20SUM(1)", "\ufe661"]
+        formulas = [
+            "=HYPERLINK(1)", "@SUM(1)", "+1", "-rf", " =1+1", "\uff1d1+1", " \uff0b1", "\uff0d1",
+            "\uff20SUM(1)", "\ufe661"]
         names = [
             *formulas, "a\nb", "\x1b[31mred\x07", b"\xff\xfe", "<script>alert(1)</script>".replace("/", "|"),
             "\u202etxt", long, "a,b\"c", "%s%n"]
@@ -638,8 +648,8 @@ class Hostile(ClassTest):
                 self.addCleanup(os.close, reader)
                 with open("told", "w") as told:
                     grade = subprocess.Popen([SOURCE / "scripts/grade", "hand-ins", "tests"], stderr=told,
-                                             stdout=subprocess.DEVNULL, pass_fds=[writer
-                                                                                  ], preexec_fn=heed_signals,
+                                             stdout=subprocess.DEVNULL, pass_fds=[
+                                                 writer], preexec_fn=heed_signals,
                                              env={**os.environ, "BIN": "tools", "TMPDIR": temporary})
                 os.close(writer)
                 with open("held", "rb") as tool:  # once a judge's tool has opened it
@@ -690,8 +700,10 @@ class Hostile(ClassTest):
             encrypted[data.index(mark) + offset] |= 1
         pathlib.Path("hand-ins/encrypted.zip").write_bytes(encrypted)
         rows = self.judge()
-        self.assertEqual({name: float(row["score"]) for name, row in rows.items()},
-                         {"zoe": 1.0, "checksum": 0.6, "encrypted": 0.6, **{str(i): 0.0 for i in range(6)}})
+        self.assertEqual({name: float(row["score"])
+                          for name, row in rows.items()},
+                         {"zoe": 1.0, "checksum": 0.6, "encrypted": 0.6, **{str(i): 0.0
+                                                                            for i in range(6)}})
 
     def test_many_files_and_deep_folders(self):
         with tarfile.open("hand-ins/many.tar", "w") as archive:

@@ -34,7 +34,6 @@ SHORT = """const {inspector} = document.body, panels = inspector?.panels,
   choose = pixel => inspector.select(inspector.atPixel(pixel));"""
 RAYS = ("ray-primary", "ray-shadow", "ray-mirrored", "ray-refracted")
 
-
 inspect = functools.partial(run_script, "inspect")
 
 
@@ -66,11 +65,11 @@ class Messages(ToolTest):
                          (1, "inspect: cannot read none.txt: No such file or directory\n"))
 
     def test_options_without_a_meaning_are_refused(self):
-        for words, reason in (
-                ("--trace --theirs .",
-                 "--theirs means nothing with --trace: a hand-in is compared with project and zbuf"),
-                ("--no-shadows", "--no-shadows is for trace: it needs --trace"),
-                ("--samples 3", "--samples is for trace: it needs --trace")):
+        for words, reason in ((
+                "--trace --theirs .",
+                "--theirs means nothing with --trace: a hand-in is compared with project and zbuf"),
+                              ("--no-shadows", "--no-shadows is for trace: it needs --trace"),
+                              ("--samples 3", "--samples is for trace: it needs --trace")):
             done = inspect("scene.txt", "config.txt", *words.split())
             self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
                              (2, f"inspect: {reason} (try inspect --help)"))
@@ -143,15 +142,17 @@ class InABrowser(ToolTest):
 
     def hot_lines(self, tool):
         """Numbers and texts of the marked lines."""
-        return self.js("return [...document.querySelectorAll('#text-' + arguments[0] + ' .hot')].map(row => "
-                       "[Number(row.dataset.number), row.lastChild.textContent])", tool)
+        return self.js(
+            "return [...document.querySelectorAll('#text-' + arguments[0] + ' .hot')].map(row => "
+            "[Number(row.dataset.number), row.lastChild.textContent])", tool)
 
     def click_triangle(self, tool, points):
         """Clicks where the wireframe shows the center of a triangle."""
         middle = [sum(axis) / 3 for axis in zip(*points)]
-        at = self.js("const wire = panels[['model', 'view', 'project'].indexOf(arguments[0])].wire;const p "
-                     "= wire.view.place(...arguments[1]); return [p[0] / wire.scale, p[1] / "
-                     "wire.scale]", tool, middle)
+        at = self.js(
+            "const wire = panels[['model', 'view', 'project'].indexOf(arguments[0])].wire;const p "
+            "= wire.view.place(...arguments[1]); return [p[0] / wire.scale, p[1] / "
+            "wire.scale]", tool, middle)
         self.browser.click(f"#wire-{tool}", *at)
 
     def competitors(self):
@@ -159,9 +160,12 @@ class InABrowser(ToolTest):
         return self.js("return cells('#competitors tbody tr')")
 
     def marked_pixels(self):
-        return set(map(tuple, self.js("const {columns, fragments, name} = inspector.pixels; return "
-                                      "[...fragments.pixelsOf(name)].map(p => [p % columns, "
-                                      "Math.floor(p / columns)])")))
+        return set(
+            map(
+                tuple,
+                self.js("const {columns, fragments, name} = inspector.pixels; return "
+                        "[...fragments.pixelsOf(name)].map(p => [p % columns, "
+                        "Math.floor(p / columns)])")))
 
     def outlined(self):
         """The box of the marks over the image, in pixels of the picture: left, top, right, bottom."""
@@ -229,10 +233,11 @@ class InABrowser(ToolTest):
 
     def image(self):
         """The bytes of its pixels."""
-        return base64.b64decode(self.js(
-            "const c = one('#image'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let "
-            "s = ''; for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); "
-            "return btoa(s)"))
+        script = (
+            "const c = one('#image'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; "
+            "let s = ''; for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += "
+            "String.fromCharCode(d[i]); return btoa(s)")
+        return base64.b64decode(self.js(script))
 
     def test_the_picture_is_zbufs(self):
         self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
@@ -250,6 +255,7 @@ class InABrowser(ToolTest):
         def is_told():
             told.extend(self.browser.complaints())
             return all(any(rule in line for line in told) for rule in ("script-src", "img-src"))
+
         self.browser.wait_for(is_told)
 
     def test_an_address_may_name_a_pixel(self):
@@ -309,8 +315,7 @@ class InABrowser(ToolTest):
                     "actions": [{
                         "type": "key",
                         "id": "keys",
-                        "actions": [{"type": "keyDown", "value": TAB}, {"type": "keyUp", "value": TAB}],
-                    }]})
+                        "actions": [{"type": "keyDown", "value": TAB}, {"type": "keyUp", "value": TAB}],}]})
             reached.append(self.js("return document.activeElement.id"))
         self.assertLessEqual(
             {
@@ -330,14 +335,12 @@ class InABrowser(ToolTest):
                                                                     "view space, wireframe after view"),
                            ("application", "normalized device coordinates, wireframe after project"),
                            ("application", "image, 40 columns and 40 rows of pixels"),
-                           ("application",
-                            "depth, 40 columns and 40 rows of pixels"), ("button",
-                                                                         "fit world space into its view"),
-                           ("button", "Keys"), ("tab", "Texts"), ("tab", "Arithmetic"), ("tab", "Counts"),
-                           ("group", "text after project"), ("list", "what became of the triangles"),
-                           ("region", "Fragments of a pixel"), ("region", "texts and explanations"),
-                           ("columnheader", "triangle"), ("heading",
-                                                          "scene.txt: 3 triangles, 40 × 40 pixels")):
+                           ("application", "depth, 40 columns and 40 rows of pixels"),
+                           ("button", "fit world space into its view"), ("button", "Keys"), ("tab", "Texts"),
+                           ("tab", "Arithmetic"), ("tab", "Counts"), ("group", "text after project"),
+                           ("list", "what became of the triangles"), ("region", "Fragments of a pixel"),
+                           ("region", "texts and explanations"), ("columnheader", "triangle"),
+                           ("heading", "scene.txt: 3 triangles, 40 × 40 pixels")):
             self.assertTrue(any(role == r and n.startswith(name) for r, n in found),
                             f"no {role} named {name}")
         self.assertIn("status", [role for role, _ in found])
@@ -353,8 +356,9 @@ class InABrowser(ToolTest):
             self.browser.resize(width, 900)
             with self.subTest(width=width):
                 for tab in ("texts", "explanation", "statistics"):
-                    self.js("document.getElementById('tab-' + arguments[0]).click(); choose(37 * 100 + "
-                            "37)", tab)
+                    self.js(
+                        "document.getElementById('tab-' + arguments[0]).click(); choose(37 * 100 + "
+                        "37)", tab)
                     self.assertLessEqual(
                         self.js("return document.documentElement.scrollWidth - "
                                 "document.documentElement.clientWidth"), 0)
@@ -383,14 +387,16 @@ class InABrowser(ToolTest):
         for scheme in ("light", "dark"):
             self.browser.prefer(scheme)
             colors = {
-                name: self.js("const style = getComputedStyle(document.documentElement); "
-                              "return style.getPropertyValue(arguments[0]).trim()", "--" + name)
+                name: self.js(
+                    "const style = getComputedStyle(document.documentElement); "
+                    "return style.getPropertyValue(arguments[0]).trim()", "--" + name)
                 for name in ("hot", "halo", "pixel", "card", "ink", "soft", "guide", "shown", "unshown",
                              *RAYS)}
 
             def contrast(a, b):
                 low, high = sorted(luminance(colors[name]) for name in (a, b))
                 return (high + 0.05) / (low + 0.05)
+
             # One of two tones that differ by a factor of 4.5 differs from any color by more than 2.
             for a, b, least in (("hot", "halo", 4.5), ("pixel", "halo", 4.5), ("ink", "card", 7),
                                 ("soft", "card", 4.5), ("guide", "card", 3), ("shown", "card",
@@ -411,14 +417,13 @@ class InABrowser(ToolTest):
             self.load_own_scene("--coverage", coverage)
             self.js("one('#tab-explanation').click()")
             shown = [
-                self.js("return [...inspector.fragments.pixelsOf(arguments[0])]", name)
-                for name in range(3)]
+                self.js("return [...inspector.fragments.pixelsOf(arguments[0])]", name) for name in range(3)]
             pixels = [p for found in shown for p in (found[0], found[len(found) // 2])] + [0]
             for i, p in enumerate(pixels):
                 for name in {i // 2 % 3, (i + 1) % 3}:
                     row, column = divmod(p, 40)
                     told = run_script("explain", "scene.txt", "config.txt", "--triangle", name, "--pixel",
-                                  f"{column},{row}", "--coverage", coverage).stdout
+                                      f"{column},{row}", "--coverage", coverage).stdout
                     told = re.sub(r"^  uncertain: .*\n", "", told, flags=re.M)  # of a text with bounds
                     self.js("select(arguments[0], arguments[1])", name, p)
                     shown = self.js("return texts('#explanation pre')")
@@ -455,8 +460,8 @@ class InABrowser(ToolTest):
         self.assertEqual(
             self.js("return all('figcaption .good, figcaption .bad').map(e => [e.className, "
                     "e.textContent])"), [["good", "stage1.txt: right"], ["bad", "stage2.txt: wrong"],
-                *(["good", f"{name}: right, given their stage2.txt"]
-                  for name in ("stage3.txt", "out.bmp", "z_buffer.txt"))])
+                                         *(["good", f"{name}: right, given their stage2.txt"]
+                                           for name in ("stage3.txt", "out.bmp", "z_buffer.txt"))])
 
     def test_theirs_lists_and_marks_what_differs(self):
         def change():
@@ -464,6 +469,7 @@ class InABrowser(ToolTest):
             for at, line in ((1, "9 8 7"), (6, lines[6] + "4")):  # another point, and a digit more
                 lines[at] = line
             pathlib.Path("theirs/stage1.txt").write_text("\n".join(lines))
+
         told = self.load_a_hand_in(change)
         self.assertIn("1 of 66 vertices differ from ours:", told)
         ours = (SAMPLE / "stage1.txt").read_text().split("\n")[1]
@@ -479,8 +485,7 @@ class InABrowser(ToolTest):
             "const {wire} = panels[arguments[0]], {mark} = wire; select(0, -1);"
             "const d = mark.getContext('2d').getImageData(0, 0, mark.width, mark.height).data;"
             "let count = 0; for (let i = 0; i < d.length; i += 4) count += d[i] === arguments[1][0] && d[i + "
-            "1] === arguments[1][1] && d[i + 2] === arguments[1][2] && d[i + 3] === 255; return count"
-        )
+            "1] === arguments[1][1] && d[i + 2] === arguments[1][2] && d[i + 3] === 255; return count")
         self.assertGreater(self.js(marks, 0, color), 20)
         self.assertEqual(self.js(marks, 1, color), 0)
         # In the wireframe there is a dot where their vertex is, in a color that only theirs have.
@@ -495,6 +500,7 @@ class InABrowser(ToolTest):
             pathlib.Path("theirs/stage2.txt").unlink()
             pathlib.Path("theirs/stage3.txt").write_text("<b>no numbers</b>\n")
             pathlib.Path("theirs/out.bmp").write_text("BM")
+
         told = self.load_a_hand_in(change)
         self.assertIn("not handed in", told)
         self.assertIn("unreadable", told)
@@ -502,9 +508,7 @@ class InABrowser(ToolTest):
 
     def test_their_image_can_be_seen(self):
         self.load_a_hand_in(self.write_right_negated)
-        theirs, ours = ([bytes(row[i:i + 3])
-                         for row in read_picture(path)[2]
-                         for i in range(0, len(row), 3)]
+        theirs, ours = ([bytes(row[i:i + 3]) for row in read_picture(path)[2] for i in range(0, len(row), 3)]
                         for path in ("theirs/out.bmp", SAMPLE / "out.bmp"))
         title = "return one('#image').closest('figure').querySelector('figcaption').firstChild.textContent"
         self.assertEqual(self.js(title), "our image")
@@ -524,8 +528,8 @@ class InABrowser(ToolTest):
         # Two are right of the window, which project finds, too, and one is in sight.
         scene = ("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n-1 0 0\n1 0 0\n0 1 0\ntranslate\n100 0 0\n" +
                  "triangle\n-1 0 0\n1 0 0\n0 1 0\n" * 2 + "end\n")
-        for text, shown, outside in (scene, 1, 2), (
-                SCENE.replace("triangle", "translate\n0 0 30\ntriangle", 1), 0, 3):
+        for text, shown, outside in (scene, 1, 2), (SCENE.replace("triangle", "translate\n0 0 30\ntriangle",
+                                                                  1), 0, 3):
             self.load_text(text)
             self.assertEqual("the picture is empty" in self.js("return text('#notes')"), not shown)
             self.assertEqual(self.js("return texts('#legend li')"),
@@ -548,8 +552,8 @@ class InABrowser(ToolTest):
             key: word
             for key, word in told["zbuf"].items()
             if word != "0" and key != "triangles" and key[:2] not in ("x_", "y_", "z_")}
-        self.assertEqual(rows["zbuf"][5],
-                         ", ".join(f"{word} {key.replace('_', ' ')}" for key, word in zbuf.items()))
+        self.assertEqual(rows["zbuf"][5], ", ".join(
+            f"{word} {key.replace('_', ' ')}" for key, word in zbuf.items()))
         self.assertIn("seen", rows["zbuf"][5])
         for tool, row in rows.items():
             for axis, cell in zip("xyz", row[6:]):
@@ -574,8 +578,7 @@ class InABrowser(ToolTest):
             "beside": SCENE.replace("triangle", "translate\n4 3 0\ntriangle", 1),
             "empty": SCENE[:SCENE.index("triangle")] + "end\n",
             "behind": SCENE.replace("triangle", "translate\n0 0 30\ntriangle", 1),
-            "ortho": SCENE.replace("60 1 1 100", "ortho -1 1 -1 1 -5 5"),
-        }
+            "ortho": SCENE.replace("60 1 1 100", "ortho -1 1 -1 1 -5 5"),}
         for name, scene in scenes.items():
             self.load_text(scene)
             for tool in ("model", "view", "project"):
@@ -627,8 +630,9 @@ class InABrowser(ToolTest):
         drawn = self.js("return panels.map(({wire}) => wire.rays)")
         self.assertEqual([[ray["kind"] for ray in rays] for rays in drawn],
                          [["primary", "mirrored"]] * 2 + [[]])
-        for rays, places in zip(drawn, ([(5, 0, 0), (0, 0, 0), (0, 0, 0), (8, 0, 0)],
-                                        [(0, 0, 0), (0, 0, -5), (0, 0, -5), (0, 0, 3)])):
+        for rays, places in zip(drawn, ([(5, 0, 0), (0, 0, 0), (0, 0, 0), (8, 0, 0)], [(0, 0, 0), (0, 0, -5),
+                                                                                       (0, 0, -5),
+                                                                                       (0, 0, 3)])):
             for found, expected in zip([place for ray in rays for place in (ray["from"], ray["to"])], places,
                                        strict=True):
                 for x, y in zip(found, expected, strict=True):
@@ -661,8 +665,8 @@ class InABrowser(ToolTest):
                         "1).data[3]; };return [ray.from, ray.towards, ray.to, [0.1, 0.5, 0.9, "
                         "1.1].map(tone)]")
         for x, y in zip(found[0] + found[1],
-                        [*origin, *(at + step / math.hypot(*way)
-                                    for at, step in zip(origin, way))], strict=True):
+                        [*origin, *(at + step / math.hypot(*way) for at, step in zip(origin, way))],
+                        strict=True):
             self.assertAlmostEqual(x, y, 9)
         self.assertIsNone(found[2])
         self.assertEqual(sorted(found[3], reverse=True), found[3])
@@ -700,8 +704,9 @@ class InABrowser(ToolTest):
         model = pipe(["model"], stdin=scene).decode().split("\n")
         first = model.index("sphere") + 2
         self.assertEqual(self.hot_lines("model"), [[n, model[n - 1]] for n in range(first, first + 4)])
-        self.assertEqual(self.js("return [0, 3, 4].map(k => panels[0].stage.nameOfLine(arguments[0] + k))",
-                                 first), [0, 0, -1])
+        self.assertEqual(
+            self.js("return [0, 3, 4].map(k => panels[0].stage.nameOfLine(arguments[0] + k))", first),
+            [0, 0, -1])
         self.assertRegex(self.js("return text('[role=status]')"),
                          r"^row 20, column 20: sphere 0, depth [\d.]+: shown in \d+ pixels$")
         self.assertEqual(self.ray_rows()[0][1], "sphere 0 front")
@@ -755,8 +760,8 @@ class InABrowser(ToolTest):
         self.assertGreaterEqual(inspection.MAX_DRAWN_TRIANGLES, 100000)
         pathlib.Path("scene.txt").write_text(SCENE)
         pathlib.Path("config.txt").write_text("40 40\n")
-        subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], check=True,
-                       env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+        subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], check=True, env={
+            "BIN": str(BIN), "PATH": "/usr/bin:/bin"})
         self.browser.open(pathlib.Path("page.html").resolve())
         self.browser.wait_for(lambda: self.js("return document.body.dataset.ready") == "yes")
         self.assertIn("Of 3 triangles one in 3 is drawn", self.js("return text('#notes')"))

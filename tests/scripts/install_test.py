@@ -74,8 +74,7 @@ def install(prefix, **settings):
 
 def commands():
     return [
-        path.name
-        for path in sorted((PREFIX / "libexec/pipeline").iterdir())
+        path.name for path in sorted((PREFIX / "libexec/pipeline").iterdir())
         if path.is_file() and os.access(path, os.X_OK)]
 
 
@@ -133,15 +132,16 @@ class Installed(unittest.TestCase):
         self.give()
         done = self.run_line(
             f"touch {shlex.quote(str(PREFIX))}/x; ls {shlex.quote(str(SOURCE))}; id -u; touch here && "
-            f"echo written"
-        )
+            f"echo written")
         self.assertEqual(done.stdout, f"{NOBODY if self.is_root else os.geteuid()}\nwritten\n")
         self.assertIn("Permission denied", done.stderr)
 
     def test_no_link_of_a_document_is_dead(self):
         documents = PREFIX / "share/doc/pipeline"
-        links = {path.parent / link for path in documents.rglob("*.md")
-                 for link in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", path.read_text())}
+        links = {
+            path.parent / link
+            for path in documents.rglob("*.md")
+            for link in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", path.read_text())}
         self.assertGreater(len(links), 30)
         self.assertEqual([str(link) for link in links if not link.exists()], [])
 
@@ -223,7 +223,6 @@ class Installed(unittest.TestCase):
 
 class ShortNames(unittest.TestCase):
     """The script that -DPIPELINE_SHORT_NAMES=ON configures, run as cmake --install runs it."""
-
     def test_links_lead_to_commands_and_pages(self):
         with tempfile.TemporaryDirectory() as folder:
             destination, prefix = pathlib.Path(folder, "dest dir"), pathlib.Path("/the prefix")
@@ -245,14 +244,13 @@ class ShortNames(unittest.TestCase):
             sample = SOURCE / "samples/worked-example"
             line = (f"stages {sample}/scene.txt {sample}/config.txt five && compare --hand-in five "
                     f"{sample}/scene.txt {sample}/config.txt")
-            done = subprocess.run(["bash", "-c", line], cwd=folder,
-                                  env={"PATH": f"{placed}/bin:/usr/bin:/bin"}, capture_output=True, text=True)
+            done = subprocess.run(["bash", "-c", line], cwd=folder, env={
+                "PATH": f"{placed}/bin:/usr/bin:/bin"}, capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 class Library(unittest.TestCase):
     """A project of someone else's."""
-
     def setUp(self):
         self.build = tempfile.TemporaryDirectory(prefix="pipeline build ")
         self.addCleanup(self.build.cleanup)
@@ -282,8 +280,7 @@ class Library(unittest.TestCase):
     def test_cmake_refuses_another_version(self):
         pathlib.Path(self.build.name, "CMakeLists.txt").write_text(
             "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES NONE)\nfind_package(pipeline 99)\n"
-            "message(STATUS found=${pipeline_FOUND})\n"
-        )
+            "message(STATUS found=${pipeline_FOUND})\n")
         text = self.call("cmake", "-S", self.build.name, "-B", self.build.name + "/b",
                          f"-DCMAKE_PREFIX_PATH={PREFIX}")
         self.assertIn("found=0", text.decode())
@@ -325,9 +322,10 @@ class Licenses(unittest.TestCase):
         for name, text in {
                 "build/CMakeCache.txt": "CMAKE_HOME_DIRECTORY:INTERNAL=/src\n", "part/lib/part.a": "",
                 "build/tool.linked": f"tool: \\\n  /src/own.o \\\n  {folder}/part/lib/part.a\n",
-                "npm/node_modules/@a/b/LICENSE": "of b", "npm/package-lock.json": json.dumps({"packages": {
-                    "": {}, "node_modules/@a/b": {"version": "2"}, "node_modules/c": {"version": "3"},
-                    "node_modules/d": {"version": "4", "dev": True}}})}.items():
+                "npm/node_modules/@a/b/LICENSE": "of b", "npm/package-lock.json": json.dumps({
+                    "packages": {
+                        "": {}, "node_modules/@a/b": {"version": "2"}, "node_modules/c": {"version": "3"},
+                        "node_modules/d": {"version": "4", "dev": True}}})}.items():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text)
         words = ["--npm", folder / "npm", folder / "build", "libc6"]
@@ -346,7 +344,6 @@ class Licenses(unittest.TestCase):
     shutil.which("dpkg-deb") and shutil.which("dpkg-shlibdeps"), "this is no Debian system with dpkg-dev")
 class Packages(unittest.TestCase):
     """The packages of cpack."""
-
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="pipeline-packages-")
@@ -368,8 +365,7 @@ class Packages(unittest.TestCase):
     def test_it_has_what_was_installed_and_what_debian_asks_for(self):
         installed = {
             str("usr" / path.relative_to(PREFIX))
-            for path in PREFIX.rglob("*")
-            if not path.is_dir() or path.is_symlink()}
+            for path in PREFIX.rglob("*") if not path.is_dir() or path.is_symlink()}
         packed = {re.sub(r"(/man/.*)\.gz$", r"\1", str(path)) for path in self.files()}
         documents = "usr/share/doc/pipeline/"
         self.assertEqual(

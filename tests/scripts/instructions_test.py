@@ -97,8 +97,7 @@ class Instructions(unittest.TestCase):
         status, lines = self.hold(VIEW)
         self.assertEqual((status, lines[-2:]), (1, [
             "failed: one view: no count is committed, 1,000,000 instructions counted; commit it with "
-            "--accept",
-            "0 passed, 1 failed"]))
+            "--accept", "0 passed, 1 failed"]))
 
     def test_a_tool_that_fails_fails_its_row_alone(self):
         self.commit("one view,scalar,GCC 12.2.0,1000000", "one zbuf,scalar,GCC 12.2.0,1000000")
@@ -149,8 +148,9 @@ class Instructions(unittest.TestCase):
             for name, value in environment.items()
             if name not in ("PWD", "OLDPWD", "SHLVL", "_")}  # the shell's own
         self.assertEqual(given, {"PATH": "/usr/bin:/bin", "LC_ALL": "C", "PIPELINE_KERNEL": "scalar"})
-        self.assertEqual(pathlib.Path(f"{self.valgrind}.words").read_text(),
-                         "--tool=callgrind --callgrind-out-file=/dev/null bin/view one-world.txt\n")
+        self.assertEqual(
+            pathlib.Path(f"{self.valgrind}.words").read_text(),
+            "--tool=callgrind --callgrind-out-file=/dev/null bin/view one-world.txt\n")
 
     def bench(self, *options, **environment):
         return subprocess.run([
@@ -164,10 +164,11 @@ class Instructions(unittest.TestCase):
 
         def bench(*options):  # on empty texts: to write the scenes takes its time
             words = ["bench", "--instructions", "--bin", str(self.tools), "--output", str(self.folder)]
-            with (mock.patch.dict(instructions.TEXTS, dict.fromkeys(instructions.TEXTS, str)),
-                  mock.patch.object(sys, "argv", [*words, *options]), self.assertRaises(SystemExit) as ended,
-                  contextlib.redirect_stdout(io.StringIO()) as printed):
-                command.main()
+            texts = mock.patch.dict(instructions.TEXTS, dict.fromkeys(instructions.TEXTS, str))
+            with texts, mock.patch.object(sys, "argv", [*words, *options]):
+                with contextlib.redirect_stdout(
+                        io.StringIO()) as printed, self.assertRaises(SystemExit) as ended:
+                    command.main()
             return ended.exception.code, printed.getvalue()
 
         self.assertEqual(bench("--accept")[0], 0)

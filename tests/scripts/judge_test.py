@@ -42,8 +42,8 @@ def with_rough_pi(scene, pi):
 
 def line_of_triangle(number, scene=SCENE):
     """The line of a scene with its command `triangle`, the first one being number 0."""
-    return [i for i, line in enumerate(scene.split("\n"), 1)
-            if line.split("#")[0].strip() == "triangle"][number]
+    return [
+        i for i, line in enumerate(scene.split("\n"), 1) if line.split("#")[0].strip() == "triangle"][number]
 
 
 def first_difference(one, other):
@@ -65,7 +65,6 @@ def print_again(name, form):
 class Pixels:
     """The depths (None where no triangle is) and the colors that our zbuf writes, to be changed and written
     again."""
-
     def __init__(self, folder="."):
         _, _, rows = read_picture(os.path.join(folder, "out.bmp"))
         self.colors = [[tuple(row[i:i + 3]) for i in range(0, len(row), 3)] for row in rows]
@@ -77,18 +76,15 @@ class Pixels:
 
     def write(self, depths="z_buffer.txt", picture="out.bmp", empty=None):
         def line(row):
-            return "".join(f"{empty if z is None else z:.6f}\t" for z in row
-                           if z is not None or empty is not None)
+            return "".join(
+                f"{empty if z is None else z:.6f}\t" for z in row if z is not None or empty is not None)
 
         pathlib.Path(depths).write_text("".join(line(row) + "\n" for row in self.depths))
         pathlib.Path(picture).write_bytes(reference.bmp(self.colors))
 
     def ends(self):
         """The right ends of the picture: (row, column)."""
-        return [(r, max(c
-                        for c, z in enumerate(row)
-                        if z is not None))
-                for r, row in enumerate(self.depths)
+        return [(r, max(c for c, z in enumerate(row) if z is not None)) for r, row in enumerate(self.depths)
                 if any(z is not None for z in row)]
 
     def clear(self, row, column):
@@ -122,8 +118,7 @@ class HandIn(ToolTest):
         self.stages()
         lines = pathlib.Path(NAMES[number - 2]).read_text().split("\n")
         images = (image(m, tuple(map(float, line.split())), is_divided) if line else () for line in lines)
-        pathlib.Path(NAMES[number - 1]).write_text("\n".join(
-            " ".join(f"{x:.7f}" for x in p) for p in images))
+        pathlib.Path(NAMES[number - 1]).write_text("\n".join(" ".join(f"{x:.7f}" for x in p) for p in images))
 
     def verdict(self, config=True):
         return judge(find_files("."), self.scene.encode(), self.config.encode() if config else None)
@@ -175,9 +170,7 @@ class Right(HandIn):
     def test_other_colors_are_free(self):
         self.hand_in()
         pixels = Pixels()
-        pixels.colors = [[tuple(255 - x
-                                for x in color) if any(color) else color
-                          for color in row]
+        pixels.colors = [[tuple(255 - x for x in color) if any(color) else color for color in row]
                          for row in pixels.colors]
         pixels.write()
         verdict = self.assert_verdicts(["right"] * 5, 0)
@@ -318,8 +311,9 @@ class Wrong(HandIn):
         """Half a pixel too far to the right, and by no rule in three pixels of the borders."""
         self.stages()
         pathlib.Path("config.txt").write_text(self.config)
-        subprocess.run([student.STUDENT, "zbuf", "config.txt", "--folder", ".", "--mistake",
-                        "zbuf/no-half-pixel-in-x"], input=pathlib.Path("stage3.txt").read_bytes(), check=True)
+        subprocess.run(
+            [student.STUDENT, "zbuf", "config.txt", "--folder", ".", "--mistake", "zbuf/no-half-pixel-in-x"],
+            input=pathlib.Path("stage3.txt").read_bytes(), check=True)
         pixels, mistaken = Pixels(), Pixels().colors
         cleared = pixels.ends()[0:30:10]
         for place in cleared:
@@ -332,9 +326,9 @@ class Wrong(HandIn):
         explained = sum((r, c) not in cleared for r, row in enumerate(pixels.colors)
                         for c, color in enumerate(row) if color != right[r][c])
         self.assertEqual(([cause.name for cause in file.causes], file.differing, file.remarks),
-                         (["zbuf/no-half-pixel-in-x"], 3,
-                          [f"the cause explains {explained} pixels and leaves 3, the first in row "
-                           "{}, column {}".format(*cleared[0])]))
+                         (["zbuf/no-half-pixel-in-x"], 3, [
+                             f"the cause explains {explained} pixels and leaves 3, the first in row "
+                             "{}, column {}".format(*cleared[0])]))
         row, column = first_difference(Pixels().colors, mistaken)
         self.assertTrue(file.first.startswith(f"row {row}, column {column}: a pixel that "), file.first)
 
@@ -371,8 +365,9 @@ class Wrong(HandIn):
         pathlib.Path("out.bmp").write_bytes(reference.bmp([[(0, 0, 0)] * 90] * 80))
         verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
         for file in verdict.files[3:]:
-            self.assertEqual(([cause.name for cause in file.causes], file.remarks), ([
-                "zbuf/starts-at-zero", "zbuf/no-depth-passes", "zbuf/black-picture"], ["nothing is drawn"]))
+            self.assertEqual(
+                ([cause.name for cause in file.causes], file.remarks),
+                (["zbuf/starts-at-zero", "zbuf/no-depth-passes", "zbuf/black-picture"], ["nothing is drawn"]))
         tool("zbuf", "config.txt", "stage3.txt", "--z-buffer", "z_buffer.txt", "--image", "none.bmp")
         file = self.assert_verdicts(["right"] * 4 + ["wrong"], 1).files[4]
         self.assertEqual(([cause.name for cause in file.causes], file.remarks),
@@ -412,8 +407,8 @@ class Wrong(HandIn):
         points = [line.split() for line in pathlib.Path("stage2.txt").read_text().split("\n")]
         lines = [line.split() for line in pathlib.Path("stage3.txt").read_text().split("\n")]
         flat = pathlib.Path("flat.txt")
-        flat.write_text("".join(f"{line[0]} {line[1]} {-float(p[2]) / 50}\n" if p else "\n"
-                                for line, p in zip(lines, points)))
+        flat.write_text("".join(
+            f"{line[0]} {line[1]} {-float(p[2]) / 50}\n" if p else "\n" for line, p in zip(lines, points)))
         self.draw(stage3="flat.txt")
         for file in self.verdict().files[3:]:
             self.assertEqual([cause.name for cause in file.causes], [])
@@ -452,16 +447,17 @@ class Wrong(HandIn):
     def test_two_mistakes_at_once(self):
         for one, other in (("view/eye-added", "view/l-not-negated"), ("view/up-is-0-1-0", "view/r-not-unit"),
                            ("project/fovx-equals-fovy", "project/missing-two"),
-                           ("model/axis-not-normalized", "model/angle-in-radians"),
-                           ("zbuf/shifted-by-a-row", "zbuf/flat-depth"),
-                           ("zbuf/shifted-by-a-column", "zbuf/width-minus-one"),
-                           ("zbuf/last-wins", "zbuf/text-upside-down")):
+                           ("model/axis-not-normalized", "model/angle-in-radians"), ("zbuf/shifted-by-a-row",
+                                                                                     "zbuf/flat-depth"),
+                           ("zbuf/shifted-by-a-column", "zbuf/width-minus-one"), ("zbuf/last-wins",
+                                                                                  "zbuf/text-upside-down")):
             with self.subTest(one, other=other):
                 stage = one.split("/")[0]
                 pathlib.Path("scene.txt").write_text(self.scene)
                 pathlib.Path("config.txt").write_text(self.config)
-                subprocess.run([student.STUDENT, "all", "scene.txt", "config.txt", "--folder", ".",
-                                "--mistake", one, "--mistake", other], check=True)
+                subprocess.run([
+                    student.STUDENT, "all", "scene.txt", "config.txt", "--folder", ".", "--mistake", one,
+                    "--mistake", other], check=True)
                 files = self.verdict().of(stage)
                 file = files[-1]  # of zbuf the picture, which is wrong, too
                 self.assertEqual([cause.name for cause in file.causes], [f"{one} and {other}"])
@@ -487,8 +483,9 @@ class Wrong(HandIn):
         """-r without its length, up as the scene has it, and l: three mistakes at once."""
         view = Reference(self.scene.encode(), None, Tools()).scene
         l, rows = [b - a for a, b in zip(view.eye, view.look)], []
-        r = [view.up[1] * l[2] - view.up[2] * l[1], view.up[2] * l[0] - view.up[0] * l[2],
-             view.up[0] * l[1] - view.up[1] * l[0]]
+        r = [
+            view.up[1] * l[2] - view.up[2] * l[1], view.up[2] * l[0] - view.up[0] * l[2],
+            view.up[0] * l[1] - view.up[1] * l[0]]
         for row in (r, view.up, l):
             rows.append((*(x / (math.hypot(*l) if row is not view.up else 1) for x in row), 3.0))
         self.through((*rows, (0, 0, 0, 1)), 2, False)
@@ -529,9 +526,8 @@ class Wrong(HandIn):
         pixels.depths, pixels.colors = pixels.depths[::-1], pixels.colors[::-1]
         pixels.write()
         count, rows = self.in_many_colors(), "The rows are in reverse order"
-        self.assertEqual(
-            [file.cause for file in self.verdict().files[3:]],
-            [rows, f"{rows}; and: A triangle has many colors ({count:,} for 5 triangles)"])
+        self.assertEqual([file.cause for file in self.verdict().files[3:]],
+                         [rows, f"{rows}; and: A triangle has many colors ({count:,} for 5 triangles)"])
 
     def test_a_frame_around_the_picture_is_not_many_colors(self):
         self.hand_in()
@@ -565,8 +561,9 @@ class Wrong(HandIn):
     def test_model_names_the_line_of_the_scene(self):
         self.hand_in(mistake="model/rotation-transposed")
         verdict = self.verdict()
-        self.assertRegex(sentence(verdict), "either: .*; or: .*the first wrong triangle is number 0, in line "
-                                            "8 of the scene, after rotate in line 6")
+        self.assertRegex(
+            sentence(verdict), "either: .*; or: .*the first wrong triangle is number 0, in line "
+            "8 of the scene, after rotate in line 6")
         self.assertEqual({cause.name
                           for cause in verdict.files[0].causes},
                          {"model/rotation-transposed", "model/angle-negated"})
@@ -620,8 +617,9 @@ class Wrong(HandIn):
                 file = self.verdict(config=False).files[kind]
                 self.assertEqual((file.verdict, file.causes, file.differing), ("wrong", [], 6))
                 self.assertEqual(file.remarks[-1], "only triangles 1 and 3 of 5 are wrong")
-                self.assertRegex(file.first, r"^line 6, x of vertex 2 of triangle 1: 0\.1234567 in place of "
-                                             r"\S+, off by \S+$")
+                self.assertRegex(
+                    file.first, r"^line 6, x of vertex 2 of triangle 1: 0\.1234567 in place of "
+                    r"\S+, off by \S+$")
                 pathlib.Path(name).write_text(kept)
 
     def test_a_mistake_of_the_picture_alone(self):
@@ -670,15 +668,17 @@ class Wrong(HandIn):
             def at(number, words="", kind=kind):
                 return f", {words}line {line_of_triangle(number)} of the scene" if kind == 0 else ""
 
-            for order, cause in (
-                    ((1, 2, 3, 4), "Triangle 0 is missing" + at(0)),
-                    ((0, 1, 2, 3), "Triangle 4 is missing, the last one" + at(4)),
-                    ((0, 3, 4), "Triangles 1 and 2 are missing" + at(1, "the first one in ")),
-                    ((0, 1), "Triangles 2, 3 and 4 are missing, the last 3" + at(2, "the first one in ")),
-                    ((0, 1, 1, 2, 3, 4), "Triangle 1 is written twice, again in line 9"),
-                    ((0, 1, 2, 3, 4, 0), "Triangle 0 is written twice, again in line 21"),
-                    ((0, 1, 2, 3, 4) * 2, "Every triangle is written twice, the first one again in line 21"),
-                    ((0, 2, 1), "")):
+            for order, cause in (((1, 2, 3, 4), "Triangle 0 is missing" + at(0)),
+                                 ((0, 1, 2, 3), "Triangle 4 is missing, the last one" + at(4)),
+                                 ((0, 3, 4), "Triangles 1 and 2 are missing" + at(1, "the first one in ")),
+                                 ((0, 1), "Triangles 2, 3 and 4 are missing, the last 3" +
+                                  at(2, "the first one in ")),
+                                 ((0, 1, 1, 2, 3, 4), "Triangle 1 is written twice, again in line 9"),
+                                 ((0, 1, 2, 3, 4, 0), "Triangle 0 is written twice, again in line 21"),
+                                 ((0, 1, 2, 3, 4) * 2,
+                                  "Every triangle is written twice, the first one again in line 21"), ((0, 2,
+                                                                                                        1),
+                                                                                                       "")):
                 with self.subTest(NAMES[kind], order=order):
                     pathlib.Path(NAMES[kind]).write_text("".join(triangles[i] + "\n\n" for i in order))
                     file = self.verdict(config=False).files[kind]
@@ -699,8 +699,7 @@ class Wrong(HandIn):
         self.assertEqual(
             self.verdict(config=False).files[0].cause,
             f"Triangle 5 is missing, the last one, line {line_of_triangle(5, self.scene)} of the scene (or "
-            f"the one that is the same)"
-        )
+            f"the one that is the same)")
 
     def test_one_vertex_that_is_treated_otherwise(self):
         right, wrong = (student.texts(SCENE, name)[0].split("\n")
@@ -710,8 +709,9 @@ class Wrong(HandIn):
         for vertices, words in (({0}, one), ({0, 1}, two)):
             pathlib.Path(NAMES[0]).write_text("\n".join(
                 b if i % 4 in vertices else a for i, (a, b) in enumerate(zip(right, wrong))))
-            self.assertEqual(self.verdict(config=False).files[0].cause,
-                             words + mistakes.sentence("model/multiplied-on-the-left")[:-1])
+            self.assertEqual(
+                self.verdict(config=False).files[0].cause,
+                words + mistakes.sentence("model/multiplied-on-the-left")[:-1])
 
     def test_another_order_is_named(self):
         self.stages()
@@ -747,8 +747,7 @@ class Wrong(HandIn):
              "5 vertex lines have more than three numbers, of which the first three count: first line 3, '"),
             (kept.replace("\n\n", "\n1 2 3\n\n"), "unreadable",
              "5 of 5 triangles (between blank lines) have another number of vertices than three: first the "
-             "one in line 1, 4"
-             ), (kept.replace("\n\n", "\n"), "right", "")):
+             "one in line 1, 4"), (kept.replace("\n\n", "\n"), "right", "")):
             with self.subTest(words):
                 pathlib.Path("stage2.txt").write_text(text)
                 file = self.verdict(config=False).files[1]
@@ -759,7 +758,6 @@ class Wrong(HandIn):
 
 class FollowOn(HandIn):
     """A stage is judged by what it has read, however wrong that is."""
-
     def drop_all(self, mistake):
         """Stages 1 and 2 with a mistake, and a project that drops what lies behind the eye."""
         self.stages(mistake)
@@ -891,8 +889,9 @@ class Hostile(HandIn):
                     verdict = self.given(kind, content)
                     self.assertIn(verdict.status, (1, 2))
                     self.assertLess(max(len(" ".join(file.remarks)) for file in verdict.files), 300)
-        self.assertEqual(self.given("picture", png).files[4].remarks,  # by its header: nothing is unpacked
-                         ["picture: expected 90 x 80 pixels, found 5790 x 5790"])
+        self.assertEqual(
+            self.given("picture", png).files[4].remarks,  # by its header: nothing is unpacked
+            ["picture: expected 90 x 80 pixels, found 5790 x 5790"])
 
     def test_a_file_that_is_too_large_is_not_read_into_numbers(self):
         self.hand_in()
@@ -913,14 +912,13 @@ class Fit(unittest.TestCase):
 
     def compared(self, theirs, ours, divides, points=None):
         points = points or self.POINTS
-        return fit.compare(points, [image(theirs, p, divides) for p in points], [(1e-7, ) * 3] * len(points),
+        return fit.compare(points, [image(theirs, p, divides) for p in points], [(1e-7,) * 3] * len(points),
                            ours, divides)
 
     def test_a_projection_is_found_but_for_its_factor(self):
         ours = perspective_matrix(50, 1.3, 1, 50)
         theirs = tuple(
-            tuple(7 * x
-                  for x in row)
+            tuple(7 * x for x in row)
             for row in perspective_matrix(50, 1.3, 1, 50, mistake="r-and-t-swapped"))
         found = self.compared(theirs, ours, True)
         self.assertEqual(found.differing, {(0, 0), (1, 1)})

@@ -37,8 +37,7 @@ COMMANDS = {
     "trade": ("scene.txt config.txt --rounds 1 --plot x.svg", TOOLS),
     "compare": ("--hand-in mine scene.txt config.txt", ("model", "project", "zbuf")),
     "check-stage": (f"view --scene scene.txt --sandbox no -- {BIN}/view", ("model", "project")),
-    "grade": ("class tests -o grades", TOOLS),
-}
+    "grade": ("class tests -o grades", TOOLS),}
 # What is there before: all that one of them replaces.
 OLDER = ("x.gif", "x.png", "z.txt", "x.html", "x.svg",
          *(f"kept/{name}" for name in ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")))
@@ -98,9 +97,9 @@ class KilledStages(ToolTest):
             self.assertEqual(self.contents(), before)
 
     def test_what_failed_first_is_named_and_a_whole_frame_is_enough(self):
-        for statuses, expected in (
-                ((-13, -13, -13, 3), "zbuf: exit status 3"), ((-13, -9, 0, 1), "view: ended by SIGKILL"),
-                ((0, -13, 0, 0), ""), ((-9, -9, -9, 0), ""), ((0, 1, 0, 0), "view: exit status 1")):
+        for statuses, expected in (((-13, -13, -13, 3), "zbuf: exit status 3"),
+                                   ((-13, -9, 0, 1), "view: ended by SIGKILL"), ((0, -13, 0, 0), ""),
+                                   ((-9, -9, -9, 0), ""), ((0, 1, 0, 0), "view: exit status 1")):
             tools = [Done(name, status, b"") for name, status in zip(TOOLS, statuses)]
             with self.assertRaisesRegex(CommandFailure, expected) if expected else contextlib.nullcontext():
                 expect_success(*tools)
@@ -117,8 +116,8 @@ class KilledStages(ToolTest):
                     pipe.frame(camera, [], "8 8\n", [])
                 self.assertEqual(str(raised.exception), f"{stage}: ended by SIGKILL")
                 files = {"model": "scene.txt", stages[-1]: "config.txt"}
-                line = " | ".join(" ".join([f"bin/{tool}", *FRAMING.get(tool, []), files.get(tool, "")])
-                                  for tool in stages)
+                line = " | ".join(" ".join([f"bin/{tool}", *FRAMING.get(tool, []),
+                                            files.get(tool, "")]) for tool in stages)
                 self.assertNotEqual(subprocess.run(["sh", "-c", line], capture_output=True).returncode, 0)
                 self.assertEqual(self.contents(), before, (stage, moment))
 
@@ -155,8 +154,9 @@ class KilledStages(ToolTest):
             self.assertEqual(done.stderr, f"{name}: {expected}\n")
 
     def contents(self):
-        return {str(path): path.is_file() and path.read_bytes() for path in pathlib.Path(".").rglob("*")
-                if path.parts[0] not in KEPT}
+        return {
+            str(path): path.is_file() and path.read_bytes()
+            for path in pathlib.Path(".").rglob("*") if path.parts[0] not in KEPT}
 
 
 add_claims(KilledStages, [(f"{command} makes nothing of a part", command) for command in COMMANDS])

@@ -28,9 +28,9 @@ ENVIRONMENT = {
     "CLASSROOM": "c", "ASSIGNMENT": "a", "SUBMISSION_TAG": "submit/1", "COMMIT_URL": "https://h/c",
     "RELEASE_URL": "https://h/r", "BIN": "/secret"}
 RUN = {
-    "gradescope": ["/autograder/run_autograder"],
-    "classroom50": ["/usr/bin/python3", "/autograder/source/autograder.py"],
-    "plain": ["/autograder/source/judge", "/autograder/submission", "/autograder/results"]}
+    "gradescope": ["/autograder/run_autograder"], "classroom50": [
+        "/usr/bin/python3", "/autograder/source/autograder.py"], "plain": [
+            "/autograder/source/judge", "/autograder/submission", "/autograder/results"]}
 # A view stage, right for cameras that look down -z: ours, whose source is in no hand-in, as a program.
 VIEW = '''import sys
 for line in sys.stdin:
@@ -55,10 +55,9 @@ for name in ("/autograder/results/results.json", "result.json", "../result.json"
     except OSError: pass
 print('{"score": 1000, "tests": []}')
 '''
+DAEMON = "if not os.fork():\n    os.setsid()\n    if not os.fork(): time.sleep(40)\nwhile True: pass\n"
 ENDINGS = {
-    "hangs with a daemon":
-    "if not os.fork():\n    os.setsid()\n    if not os.fork(): time.sleep(40)\nwhile True: pass\n",
-    "forks": "while True: os.fork()\n",
+    "hangs with a daemon": DAEMON, "forks": "while True: os.fork()\n",
     "fills": "for i in range(1000): open(f'f{i}', 'wb').write(bytes(1 << 24))\n"}
 # Put before one that is right: fails if it can read a test, a result, a secret, or what an earlier run left.
 CURIOUS = '''import glob, os
@@ -111,7 +110,6 @@ pivot_root . old; umount -l old  # by chroot there would be no namespaces in it,
 exec /usr/bin/env -i PATH=/usr/bin:/bin sh -c 'cd "$0" && exec env "$@"' "$@"
 """
 
-
 UNSHARED = ["unshare", "--kill-child", "--mount", "--pid", "--net", "--ipc", "--fork"]
 
 
@@ -131,9 +129,10 @@ def missing():
 
 def parts(result):
     """{test: part of its points} of a result."""
-    return {test.get("name", test.get("test-name")):
-            round(test["score"] / test.get("max_score", test.get("max-score")), 4)
-            for test in result["tests"]}
+    return {
+        test.get("name", test.get("test-name")): round(
+            test["score"] / test.get("max_score", test.get("max-score")), 4)
+        for test in result["tests"]}
 
 
 class KitTest(ToolTest):
@@ -232,24 +231,26 @@ class Archives(KitTest):
         pathlib.Path("tests/worked-example/stage1.txt").write_text(SECRET)
         self.grade("--kit", "plain", "tests", "-o", "a.zip")
         names = [name for name in zipfile.ZipFile("a.zip").namelist() if "/assignment/" in name]
-        self.assertEqual(names, sorted(f"pipeline/assignment/{name}/{file}" for name in SAMPLES
-                                       for file in ("config.txt", "scene.txt")))
+        self.assertEqual(
+            names,
+            sorted(f"pipeline/assignment/{name}/{file}" for name in SAMPLES
+                   for file in ("config.txt", "scene.txt")))
 
     def test_what_is_there_is_not_overwritten_by_mistake(self):
-        for words, message in (
-            (["--kit", "plain", "tests"], "expected --kit KIND TESTS -o FILE"),
-            (["--kit", "plain", "tests", "tests", "-o", "a"], "expected --kit KIND TESTS -o FILE"),
-            (["--kit", "plain", "tests", "-o", "tests/worked-example/scene.txt"], "a file outside of TESTS"),
-            (["--kit", "plain", "tests", "-o", "no/a.zip"], "cannot open no/a.zip"),
-            (["--kit", "plain", "none", "-o", "a.zip"], "cannot read none")):
+        for words, message in ((["--kit", "plain", "tests"], "expected --kit KIND TESTS -o FILE"), ([
+                "--kit", "plain", "tests", "tests", "-o", "a"], "expected --kit KIND TESTS -o FILE"), ([
+                    "--kit", "plain", "tests", "-o",
+                    "tests/worked-example/scene.txt"], "a file outside of TESTS"), ([
+                        "--kit", "plain", "tests", "-o", "no/a.zip"], "cannot open no/a.zip"), ([
+                            "--kit", "plain", "none", "-o", "a.zip"], "cannot read none")):
             self.assertIn(message, self.grade(*words, status=2).stderr)
         self.assertFalse(os.path.exists("a.zip"))
 
     def test_in_whole_points_a_test_of_little_weight_can_be_passed_and_failed(self):
         for share, points, passed in ((1, 1, True), (0, 0, False)):
-            tests = [SimpleNamespace(name=name, max_score=most, score=most * share, kinds=(), words="",
-                                     fixes=(), by_teacher="")
-                     for name, most in (("much", 1.0), ("little", 1e-6))]
+            tests = [
+                SimpleNamespace(name=name, max_score=most, score=most * share, kinds=(), words="", fixes=(),
+                                by_teacher="") for name, most in (("much", 1.0), ("little", 1e-6))]
             result = kit_classroom50.result(SimpleNamespace(tests=tests, failure=""), tests, ENVIRONMENT,
                                             datetime.now())
             self.assertEqual([(row["score"], row["max-score"], row["passed"]) for row in result["tests"]],
@@ -259,7 +260,6 @@ class Archives(KitTest):
 @unittest.skipIf(missing(), f"no bare root: {missing()}")
 class Judges(KitTest):
     """Each in a bare root."""
-
     def test_five_files_have_the_points_of_grade(self):
         pathlib.Path("tests/assignment.txt").write_text(
             "hints fix\npoints stage1.txt 1\npoints stage3.txt 2.5\npoints out.bmp 4\nanother-rule 0.5\n"
@@ -292,8 +292,9 @@ class Judges(KitTest):
         self.expect_programs(right=VIEW, wrong=VIEW.replace("- float", "+ float"), unbuilt="unbuildable",
                              ours="import os\nos.execvp('view', ['view'])\n")
         with mock.patch.dict(os.environ, PATH=f"/usr/bin:/bin:{os.environ['PATH']}:{BIN}"):
-            self.expect_points_of_grade({name: dict.fromkeys(SAMPLES, float(name == "right"))
-                                         for name in ("right", "wrong", "unbuilt", "ours")})
+            self.expect_points_of_grade({
+                name: dict.fromkeys(SAMPLES, float(name == "right"))
+                for name in ("right", "wrong", "unbuilt", "ours")})
 
     def test_hostile_programs_get_nothing_and_leave_nothing(self):
         """With a sandbox, and as a user of its own."""
@@ -320,8 +321,9 @@ class Judges(KitTest):
 
     def test_programs_without_a_sandbox_neither_end_nor_read_each_other(self):
         """Two at a time; each does its worst while the other one runs."""
-        slow = VIEW.replace("import sys", "import os, sys, time\ntime.sleep(1)\n"
-                            "if os.path.exists('/tmp/left'): os.makedirs('/tmp/left/guest/x', 0o700)")
+        slow = VIEW.replace(
+            "import sys", "import os, sys, time\ntime.sleep(1)\n"
+            "if os.path.exists('/tmp/left'): os.makedirs('/tmp/left/guest/x', 0o700)")
         self.expect_programs(right=slow, killer=KILLER + VIEW, thief=THIEF + VIEW)
         shutil.rmtree("tests/nested-transforms")
         top = self.make("plain")
@@ -335,8 +337,9 @@ class Judges(KitTest):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             first, second, header, *left = done.stdout.splitlines()
             for line in (first, second):
-                self.assertRegex(line, r"^no sandbox \(.*\): each program runs as a user of its own, with "
-                                 "network, abstract sockets and System V segments, which are removed after ")
+                self.assertRegex(
+                    line, r"^no sandbox \(.*\): each program runs as a user of its own, with "
+                    "network, abstract sockets and System V segments, which are removed after ")
             self.assertEqual(left, [])
             for name, expected in (("right", 1.0), (hostile, 0.0)):
                 result = json.loads((top / f"{name}.out/results.json").read_text())

@@ -69,10 +69,9 @@ class MakeRelease(unittest.TestCase):
         self.git("commit", "--quiet", "-m", "area: Do", "--allow-empty")
 
     def start(self, *words):
-        return subprocess.Popen(
-            [self.tree / "scripts/package/make-release", *words], cwd=self.out, text=True,
-            env={**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}"}, stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE, start_new_session=True)
+        return subprocess.Popen([self.tree / "scripts/package/make-release", *words], cwd=self.out, text=True,
+                                env={**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}"},
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
 
     def run_it(self, *words):
         process = self.start(*words)
@@ -131,8 +130,9 @@ class MakeRelease(unittest.TestCase):
             os.symlink(shutil.which(name), self.bin / name)
         done = subprocess.run([self.tree / "scripts/package/make-release", "9.8.7", "new"], cwd=self.out,
                               capture_output=True, text=True, env={"PATH": str(self.bin)})
-        self.assertEqual(done.stderr, "make-release: missing: node flock build/playground/root; run "
-                         "scripts/install-packages --checks and then --playground\n")
+        self.assertEqual(
+            done.stderr, "make-release: missing: node flock build/playground/root; run "
+            "scripts/install-packages --checks and then --playground\n")
 
     def test_version_and_changelog_are_those_of_the_commit(self):
         self.refused("CMakeLists.txt has another version than 9.8.6", version="9.8.6")

@@ -53,8 +53,7 @@ class MakefileSamples(unittest.TestCase):
     def call_make(self, *words, folder="."):
         environment = {
             name: value
-            for name, value in os.environ.items()
-            if name not in ("MAKEFLAGS", "MFLAGS")}
+            for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS")}
         return subprocess.run(["make", *words], cwd=self.root / folder, env=environment,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
 
@@ -164,11 +163,12 @@ class MakefileSamples(unittest.TestCase):
         texts = [self.file("wide-clipped", "stage3.txt").read_bytes(), b"0 0 0\n"]
         self.file("wide-clipped", "stage3.txt").unlink()
         for text, counts in zip(texts, ("10 passed, 0 failed", "9 passed, 1 failed")):
-            (self.root / "samples/SHA256SUMS").write_text(
-                f"{hashlib.sha256(text).hexdigest()}  wide-clipped/stage3.txt\n")
+            (self.root / "samples/SHA256SUMS"
+             ).write_text(f"{hashlib.sha256(text).hexdigest()}  wide-clipped/stage3.txt\n")
             self.assertIn(counts, self.make("check").stdout)
-        self.assertIn("wide-clipped: project is the first stage that has changed "
-                      "(stage3.txt, of which only the sum is kept)\n", self.make_well("diff"))
+        self.assertIn(
+            "wide-clipped: project is the first stage that has changed "
+            "(stage3.txt, of which only the sum is kept)\n", self.make_well("diff"))
         self.make_well("accept")
         self.assertFalse(self.file("wide-clipped", "stage3.txt").exists())
 
@@ -246,7 +246,7 @@ class MakefileSamples(unittest.TestCase):
 
     def test_a_failing_tool_leaves_no_half_target(self):
         for tool, targets in (("model", ("stage1.exact", "stage1.txt")),
-                              ("view", ("stage2.exact", "stage2.txt")), ("project", ("stage3.txt", ))):
+                              ("view", ("stage2.exact", "stage2.txt")), ("project", ("stage3.txt",))):
             with self.subTest(tool=tool):
                 shutil.rmtree(self.root / "out", ignore_errors=True)
                 kept = (self.bin / tool).read_bytes()

@@ -13,6 +13,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+
 sys.path.insert(0, str(SOURCE / "scripts/maintain"))
 from parts.roff import Page, add_markdown, bold, escaped  # noqa: E402
 
@@ -88,8 +89,9 @@ class Pages(ToolTest):
             for paragraph in paragraphs:
                 if paragraph.startswith(("#", "|", "    ", "- ", "```")):
                     continue
-                plain = re.sub(r"\[((?:[^\]`]|`[^`]*`)+)\]\([^)]*\)", r"\1",
-                               paragraph).replace("`", "").replace("*", "")
+                plain = re.sub(r"\[((?:[^\]`]|`[^`]*`)+)\]\([^)]*\)", r"\1", paragraph).replace("`",
+                                                                                                "").replace(
+                                                                                                    "*", "")
                 plain = re.sub(r"scene\.md", "pipeline-scene(5)",
                                re.sub(r"stage-text\.md", "pipeline-stage(5)", plain))
                 self.assertIn(" ".join(plain.split()), blocks)
@@ -101,7 +103,6 @@ class Pages(ToolTest):
 
 class Roff(unittest.TestCase):
     """Texts that roff would take for something else."""
-
     def shown(self, page):
         return [line.strip() for line in rendered(page.text()).split("\n") if line.strip()]
 

@@ -329,8 +329,7 @@ class Folders(ToolTest):
     SETTINGS = {
         "farm": ("scene.txt config.txt --parts 2 -o x.png", "x.png.farm", 1),
         "film": ("scene.txt config.txt --turn 0.1 -o x.gif", "x.gif.frames", 1),
-        "grade": ("hand-ins tests -o out", "out", 2),
-    }
+        "grade": ("hand-ins tests -o out", "out", 2),}
     FRAMES = "scene.txt config.txt --turn 0.1 -o frames"  # of film
 
     def setUp(self):
@@ -345,15 +344,13 @@ class Folders(ToolTest):
 
     def all_files(self):
         return sorted(
-            (str(path), path.read_bytes() if path.is_file() else None) for path in pathlib.Path().rglob("*")
-        )
+            (str(path), path.read_bytes() if path.is_file() else None) for path in pathlib.Path().rglob("*"))
 
     def assert_refused(self, command, words, status, message):
         before = self.all_files()
         done = script(command, *words.split())
-        self.assertEqual(
-            (done.returncode, done.stdout, done.stderr.decode()), (status, b"", f"{command}: {message}\n")
-        )
+        self.assertEqual((done.returncode, done.stdout, done.stderr.decode()),
+                         (status, b"", f"{command}: {message}\n"))
         self.assertEqual(self.all_files(), before)
 
     def test_another_is_refused(self):
@@ -377,14 +374,12 @@ class Folders(ToolTest):
         for command in ("farm", "film"):
             words, folder, status = self.SETTINGS[command]
             os.symlink("elsewhere", folder)
-            self.assert_refused(
-                command, words, status, f"expected a folder, or nothing, found the link {folder}"
-            )
+            self.assert_refused(command, words, status,
+                                f"expected a folder, or nothing, found the link {folder}")
             os.unlink(folder)
             pathlib.Path(folder).write_text("mine")
-            self.assert_refused(
-                command, words, status, f"expected a folder, or nothing, found the file {folder}"
-            )
+            self.assert_refused(command, words, status,
+                                f"expected a folder, or nothing, found the file {folder}")
 
     @unittest.skipUnless(IS_ROOT, "only root makes folders of other users")
     def test_another_users_folder_is_refused(self):
@@ -423,8 +418,9 @@ class Folders(ToolTest):
 
     def test_links_in_one_are_not_followed(self):
         """Where jobs, parallel or ffmpeg would write, without a look at what is there."""
-        planted = {"farm": ("jobs.log", "seen-0-0-1.txt", "seen-0-0-1.txt.log", "parts"),
-                   "film": ("00000.png.log", "film.gif")}
+        planted = {
+            "farm": ("jobs.log", "seen-0-0-1.txt", "seen-0-0-1.txt.log", "parts"),
+            "film": ("00000.png.log", "film.gif")}
         for command, links in planted.items():
             words, folder, _ = self.SETTINGS[command]
             os.mkdir(folder)
@@ -442,8 +438,9 @@ class Folders(ToolTest):
         frame = pathlib.Path("frames/00001.png")
         for put in (lambda: frame.symlink_to("../elsewhere/new"), lambda: frame.write_text("mine")):
             put()
-            self.assert_refused("film", self.FRAMES, 1, "expected no 00001.png in "
-                                f"{os.path.realpath('frames')} that film has not drawn")
+            self.assert_refused(
+                "film", self.FRAMES, 1, "expected no 00001.png in "
+                f"{os.path.realpath('frames')} that film has not drawn")
             frame.unlink()
 
     def test_empty_folders_of_the_user_stay_in_one(self):
@@ -482,10 +479,11 @@ class Beginnings(ToolTest):
         """Just when the folder of temporary files is there."""
         os.mkdir("tmp")
         done = subprocess.run(
-            [sys.executable, "-c", "import os, signal\nfrom lib.rim.command import run_command\n"
-             "make = os.mkdir\n"
-             "os.mkdir = lambda *words: (make(*words), os.kill(os.getpid(), signal.SIGTERM))\n"
-             "run_command(lambda: 0, 'command')"], capture_output=True, text=True,
+            [
+                sys.executable, "-c", "import os, signal\nfrom lib.rim.command import run_command\n"
+                "make = os.mkdir\n"
+                "os.mkdir = lambda *words: (make(*words), os.kill(os.getpid(), signal.SIGTERM))\n"
+                "run_command(lambda: 0, 'command')"], capture_output=True, text=True,
             env={**PLAIN, "PYTHONPATH": str(SCRIPTS), "PYTHONDONTWRITEBYTECODE": "1", "TMPDIR": "tmp"})
         self.assertEqual((done.returncode, done.stderr), (-signal.SIGTERM, "command: ended by SIGTERM\n"))
         self.assertEqual(os.listdir("tmp"), [])
@@ -501,17 +499,15 @@ class Channels(ToolTest):
                 capture_output=True,
                 env=PLAIN,
             )
+            self.assertEqual((done.returncode, done.stdout, self.files()),
+                             (1, b"", ["config.txt", "scene.txt"]), closed)
             self.assertEqual(
-                (done.returncode, done.stdout, self.files()), (1, b"", ["config.txt", "scene.txt"]), closed
-            )
-            self.assertEqual(
-                done.stderr, b"" if "2>" in closed else b"inspect: cannot read <stdin>: Bad file descriptor\n"
-            )
+                done.stderr,
+                b"" if "2>" in closed else b"inspect: cannot read <stdin>: Bad file descriptor\n")
 
 
 class OwnFiles(ToolTest):
     """Descriptors the scripts write to; these tests write nothing themselves."""
-
     def test_names_of_the_process_own_files(self):
         sys.path.insert(0, str(SCRIPTS))
         from lib.rim.output_file import own_descriptor, target_of

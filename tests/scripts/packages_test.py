@@ -30,8 +30,7 @@ done
 [ $status -eq 0 ] || exit $status
 for package; do : > "$STATE/installed/$package"; done
 """,
-    "id": '#!/bin/sh\necho "$USER_NUMBER"\n',
-}
+    "id": '#!/bin/sh\necho "$USER_NUMBER"\n',}
 SUDO = """#!/bin/sh
 [ "$SUDO_WORKS" = yes ] || { echo "sudo: a password is required" >&2; exit 1; }
 echo "sudo $*" >> "$STATE/calls"
@@ -114,11 +113,11 @@ class Packages(ToolTest):
     def test_a_package_of_another_name_does_not_keep_the_others_out(self):
         self.lack("cmake", "chromium-driver", "xvfb")
         (self.state / "unknown/chromium-driver").touch()
-        self.assertEqual(self.install("--tests"), (
-            0, "installing: cmake xvfb chromium-driver\n",
-            "install-packages: cannot install chromium-driver; tests that need these packages will be "
-            "skipped\n"
-        ))
+        self.assertEqual(
+            self.install("--tests"),
+            (0, "installing: cmake xvfb chromium-driver\n",
+             "install-packages: cannot install chromium-driver; tests that need these packages will be "
+             "skipped\n"))
         self.assertTrue((self.state / "installed/xvfb").exists())
 
     def test_a_needed_package_that_cannot_be_installed_is_an_error(self):
@@ -181,8 +180,8 @@ class Demo(ToolTest):
         (tree / "build/release/bin").symlink_to(BIN)
         for stub in ("install-packages", "build-release"):
             (tree / "scripts" / stub).write_text("#!/bin/sh\n")
-        done = subprocess.run([tree / "scripts/demo", "worked-example"], capture_output=True, text=True,
-                              env={"PATH": "/usr/bin:/bin"}, timeout=60)
+        done = subprocess.run([tree / "scripts/demo", "worked-example"], capture_output=True, text=True, env={
+            "PATH": "/usr/bin:/bin"}, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(sorted(path.name for path in tree.iterdir()), ["build", "out", "samples", "scripts"])
         made = sorted(path.name for path in (tree / "out/worked-example").iterdir())

@@ -72,8 +72,9 @@ class Picture(ToolTest):
                     done = subprocess.run(["bash", "-c", call, SOURCE / "scripts/picture", *options],
                                           capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
                     self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
-                    self.assertEqual(pathlib.Path("one.png").read_bytes(),
-                                     pathlib.Path("two.png").read_bytes())
+                    self.assertEqual(
+                        pathlib.Path("one.png").read_bytes(),
+                        pathlib.Path("two.png").read_bytes())
 
     def test_without_a_name_a_pipe_gets_a_png(self):
         words = ["vase.obj", "--size", "60x45", "--up-axis", "y"]
@@ -87,9 +88,10 @@ class Picture(ToolTest):
                               env={**os.environ, "BIN": str(BIN)})
         os.close(terminal)
         os.close(reader)
-        self.assertEqual((done.returncode, done.stderr), (
-            2, b"picture: expected -o FILE, such as -o vase.png, found a terminal for the picture (try "
-            b"picture --help)\n"))
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (2, b"picture: expected -o FILE, such as -o vase.png, found a terminal for the picture (try "
+             b"picture --help)\n"))
 
     def test_no_way_leads_into_its_own_model(self):
         scene = "0 0 3\n0 0 0\n0 1 0\n60 1 1 9\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
@@ -126,9 +128,9 @@ class Picture(ToolTest):
         framing = ("--size", "60x45", "--up-axis", "y")
         scene = run("mesh2scene", *framing, "vase.obj").stdout
         for words, tracing in ((["--trace"], ["--samples", "3"]), ([
-                "--trace", "--sampling", "adaptive", "--no-shadows", "--shading",
-                "flat"], ["--sampling", "adaptive", "--no-shadows", "--shading", "flat"]), ([
-                    "--trace", "--samples", "1", "--max-depth", "0"], ["--max-depth", "0"])):
+                "--trace", "--sampling", "adaptive", "--no-shadows", "--shading", "flat"], [
+                    "--sampling", "adaptive", "--no-shadows", "--shading", "flat"]), ([
+                        "--trace", "--samples", "1", "--max-depth", "0"], ["--max-depth", "0"])):
             with self.subTest(words):
                 done = picture("vase.obj", *framing, *words, "--stages", "kept", "-o", "one.png")
                 self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
@@ -144,9 +146,10 @@ class Picture(ToolTest):
         pathlib.Path("named.obj").write_text("mtllib own.png\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         pathlib.Path("own.png").write_text("newmtl red\n")
         done = picture("named.obj", "-o", "./own.png")
-        self.assertEqual((done.returncode, done.stderr), (
-            2, "picture: expected a place of its own for every output, found the same one for file of MODEL "
-            "'./own.png' and -o './own.png' (try picture --help)\n"))
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (2, "picture: expected a place of its own for every output, found the same one for file of MODEL "
+             "'./own.png' and -o './own.png' (try picture --help)\n"))
         self.assertEqual(pathlib.Path("own.png").read_text(), "newmtl red\n")
 
     def test_options_of_trace_need_trace(self):
@@ -155,8 +158,9 @@ class Picture(ToolTest):
                          (2, "picture: --no-shadows is for trace: it needs --trace (try picture --help)"))
 
     def test_a_note_is_passed_on_with_the_models_box(self):
-        corners = [line.split()[1:4] for line in pathlib.Path("vase.obj").read_text().splitlines()
-                   if line.startswith("v ")]
+        corners = [
+            line.split()[1:4] for line in pathlib.Path("vase.obj").read_text().splitlines()
+            if line.startswith("v ")]
         columns = [[float(word) for word in column] for column in zip(*corners)]
         low, high = (" ".join(f"{side(column):.4g}" for column in columns) for side in (min, max))
         self.assertEqual(
@@ -217,21 +221,23 @@ class Picture(ToolTest):
         os.mkdir("beside")
         os.mkdir("alone")
         pathlib.Path("beside/config.txt").write_text("40 20\n-1\n-0.5\n-1 1\n")
-        for folder, camera, words, drawn in (
-                ("alone", "60 2 1 100 ratio", [],
-                 ["project", "zbuf --coverage center --samples 3 --size 1200x600"]),
-                ("alone", "ortho -1 1 -2 2 1 9", ["--trace"], ["trace --samples 3 --size 600x1200"]),
-                (".", "60 1 1 100", ["--size", "60x60", "--background", "ff000080"],
-                 ["project", "zbuf --coverage center --samples 3 --size 60x60 --background ff000080"]),
-                ("beside", "60 1 1 100", ["--shading", "none"],
-                 ["project", "zbuf beside/config.txt --coverage center --samples 3 --shading none"])):
+        for folder, camera, words, drawn in (("alone", "60 2 1 100 ratio", [], [
+                "project",
+                "zbuf --coverage center --samples 3 --size 1200x600"]), ("alone", "ortho -1 1 -2 2 1 9", [
+                    "--trace"], ["trace --samples 3 --size 600x1200"]), (".", "60 1 1 100", [
+                        "--size", "60x60", "--background", "ff000080"], [
+                            "project", "zbuf --coverage center --samples 3 --size 60x60 --background ff000080"
+                        ]), ("beside", "60 1 1 100", ["--shading", "none"], [
+                            "project",
+                            "zbuf beside/config.txt --coverage center --samples 3 --shading none"])):
             scene = f"# mine\n\n0 0 5  # eye\n0 0 0\n0 1 0\n{camera}\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
             pathlib.Path(folder, "my scene.txt").write_text(scene)
             done = picture(f"{folder}/my scene.txt", *words, "-o", "one.png")
             self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
             image = ["--z-buffer", "none", "--image", "two.png"]
-            pipe(["model"], ["view"], *([*stage.split(), *(image if stage != "project" else [])]
-                                        for stage in drawn), stdin=scene.encode())
+            pipe(["model"], ["view"],
+                 *([*stage.split(), *(image if stage != "project" else [])] for stage in drawn),
+                 stdin=scene.encode())
             one, two = (pathlib.Path(name).read_bytes() for name in ("one.png", "two.png"))
             self.assertEqual(one, two, camera)
 
@@ -250,8 +256,9 @@ class Picture(ToolTest):
             make()
             done = picture("scene.txt", "--size", "60x60", "--stages", "kept", "-o", "one.png")
             self.assertEqual((done.returncode, done.stdout), (1, ""))
-            self.assertEqual(done.stderr, "picture: expected a regular file, which the next tool reads, "
-                             "found kept/stage3.txt\n")
+            self.assertEqual(
+                done.stderr, "picture: expected a regular file, which the next tool reads, "
+                "found kept/stage3.txt\n")
             self.assertEqual((os.listdir("kept"), os.path.exists("one.png")), (["stage3.txt"], False))
             os.unlink("kept/stage3.txt")
 
@@ -259,15 +266,17 @@ class Picture(ToolTest):
         pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n")
         for words in (["--zoom", "2"], ["--at", "0", "0", "0"], ["--color", "ff0000"]):
             done = picture("scene.txt", *words, "-o", "one.png")
-            self.assertEqual((done.returncode, done.stderr), (
-                2, f"picture: expected a model for {words[0]}, found the scene scene.txt, which has its own "
-                "camera and colors: change its lines (try picture --help)\n"))
+            self.assertEqual(
+                (done.returncode, done.stderr),
+                (2, f"picture: expected a model for {words[0]}, found the scene scene.txt, which has its own "
+                 "camera and colors: change its lines (try picture --help)\n"))
 
     def test_what_mesh2scene_takes_is_passed_on(self):
         words = ["--at", "0", "-1", "0.5", "--zoom", "2", "--color", "ff0000", "--size", "60x45"]
         picture("vase.obj", *words, "--background", "00000000", "--stages", "kept", "-o", "one.png")
         self.assertEqual(
-            pathlib.Path("kept/scene.txt").read_bytes(), run("mesh2scene", *words, "vase.obj").stdout)
+            pathlib.Path("kept/scene.txt").read_bytes(),
+            run("mesh2scene", *words, "vase.obj").stdout)
         image = pathlib.Path("one.png").read_bytes()
         self.assertEqual(image[25], 6)  # the color type: with an alpha
 
@@ -290,8 +299,9 @@ class Picture(ToolTest):
 
     def test_a_misspelt_option_names_the_nearest(self):
         done = picture("vase.obj", "--bakground", "00000000", "-o", "one.png")
-        self.assertEqual(done.stderr, "picture: unrecognized arguments: --bakground 00000000 (did you mean "
-                         "--background?) (try picture --help)\n")
+        self.assertEqual(
+            done.stderr, "picture: unrecognized arguments: --bakground 00000000 (did you mean "
+            "--background?) (try picture --help)\n")
 
 
 if __name__ == "__main__":

@@ -36,7 +36,6 @@ def run(program, *words, **settings):
 class Prefix(ToolTest):
     """A prefix with a blank, a quote and a dollar in its name, and commands that only show how they were
     called."""
-
     def setUp(self):
         super().setUp()
         self.prefix = pathlib.Path("it's a $HOME\n").resolve()
@@ -162,8 +161,8 @@ class Prefix(ToolTest):
                          f"expected a command, found '{word}' (did you mean {hint}?) (try pipeline help)")
         for word in ("", "x", "ma", "-v", "--", "lib", "README", "helper.py", "../bin/pipeline", "x" * 5000,
                      "sho\\w", "sho\nw"):
-            self.refuses([word, "1"],
-                         f"expected a command, found '{word}' (try pipeline help)".replace("\n", "?"))
+            self.refuses([word, "1"], f"expected a command, found '{word}' (try pipeline help)".replace(
+                "\n", "?"))
         self.refuses(["help", "shoe"],
                      "expected a command, found 'shoe' (did you mean show?) (try pipeline help)")
 
@@ -201,7 +200,6 @@ class Prefix(ToolTest):
 
 class BuildTree(ToolTest):
     """The commands as built."""
-
     def test_the_stages_make_the_sample(self):
         scene, config = SAMPLE / "scene.txt", SAMPLE / "config.txt"
         line = f'"$0" model "{scene}" | "$0" view | "$0" project | "$0" zbuf "{config}"'

@@ -34,8 +34,9 @@ def letters(data):
 
 
 def run_of(tool, words, data, files=None, reads=()):
-    return {"tool": tool, "words": [*words], "input": data, "files": files or {}, "reads": [*reads],
-            "isPiped": [False, False]}
+    return {
+        "tool": tool, "words": [*words], "input": data, "files": files or {}, "reads": [*reads], "isPiped": [
+            False, False]}
 
 
 def runs_of_pack():
@@ -70,15 +71,15 @@ def runs_of_samples():
                 break
             data = done.stdout
         else:
-            for words in ([], ["--samples", "3", "-o", "out.ppm"], ["--wireframe"],
-                          ["--algorithm", "scanline"],
-                          ["--fragments", "fragments.txt", "--stats", "counts.txt"]):
+            for words in ([], ["--samples", "3", "-o", "out.ppm"], ["--wireframe"], [
+                    "--algorithm", "scanline"], ["--fragments", "fragments.txt", "--stats", "counts.txt"]):
                 yield run_of("zbuf", ["config.txt", *words], data, {"config.txt": config},
                              ["out.bmp", "out.ppm", "fragments.txt", "counts.txt"])
 
 
-MODEL = {"a.obj": b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n",
-         "a.mtl": b"newmtl red\nKd 1 0 0\n"}
+MODEL = {
+    "a.obj": b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n",
+    "a.mtl": b"newmtl red\nKd 1 0 0\n"}
 
 
 def runs_of_models():
@@ -105,10 +106,11 @@ def native(run):
                                   stderr=subprocess.PIPE, cwd=folder, check=False)
             output.seek(0)
             files = {name: pathlib.Path(folder) / name for name in run["reads"]}
-            return {"status": done.returncode, "output": letters(output.read()),
-                    "messages": letters(done.stderr),
-                    "written": {name: letters(path.read_bytes()) if path.exists() else None
-                                for name, path in files.items()}}
+            return {
+                "status": done.returncode, "output": letters(output.read()), "messages": letters(done.stderr),
+                "written": {
+                    name: letters(path.read_bytes()) if path.exists() else None
+                    for name, path in files.items()}}
 
 
 FILES = ("index.html", "main.js", "mesh2scene.wasm", "samples.json", "tools.wasm", "worker.js")
@@ -121,9 +123,10 @@ NOT_BUILT = "scripts/build-playground has not run here"
 @unittest.skipUnless(shutil.which("node"), "node is missing")
 class ToolsOfThePage(unittest.TestCase):
     def check(self, runs):
-        given = json.dumps([{**run, "input": letters(run["input"]),
-                             "files": {name: letters(data) for name, data in run["files"].items()}}
-                            for run in runs])
+        given = json.dumps([{
+            **run, "input": letters(run["input"]), "files": {
+                name: letters(data)
+                for name, data in run["files"].items()}} for run in runs])
         done = subprocess.run(["node", ROOT / "tests/scripts/playground_runs.mjs", BUILT / "wasm/bin"],
                               input=given, capture_output=True, text=True, check=True)
         answers = [json.loads(line) for line in done.stdout.splitlines()]
@@ -148,10 +151,10 @@ class ToolsOfThePage(unittest.TestCase):
 @unittest.skipUnless(shutil.which("node"), "node is missing")
 class TheBuild(unittest.TestCase):
     """Where the page goes."""
-
     def build(self, folder):
-        words = [ROOT / "scripts/playground/build.mjs", BUILT / "npm", BUILT / "wasm/bin", "1.0.0", folder,
-                 BUILT / "THIRD-PARTY"]
+        words = [
+            ROOT / "scripts/playground/build.mjs", BUILT / "npm", BUILT / "wasm/bin", "1.0.0", folder,
+            BUILT / "THIRD-PARTY"]
         return subprocess.run(["node", *words], capture_output=True, text=True, timeout=60)
 
     def test_what_is_in_the_way_stays(self):
@@ -170,8 +173,9 @@ class TheBuild(unittest.TestCase):
                 make(pathlib.Path(folder, name))
                 before = sorted(pathlib.Path(folder).rglob("*"))
                 done = self.build(folder)
-                self.assertEqual((done.returncode, done.stdout, done.stderr), (
-                    1, "", f"build-playground: {folder}/{name} is in the way, and none of this page's\n"))
+                self.assertEqual(
+                    (done.returncode, done.stdout, done.stderr),
+                    (1, "", f"build-playground: {folder}/{name} is in the way, and none of this page's\n"))
                 self.assertEqual(sorted(pathlib.Path(folder).rglob("*")), before)
 
     def test_an_earlier_page_is_replaced(self):
@@ -180,8 +184,8 @@ class TheBuild(unittest.TestCase):
                 self.assertEqual(self.build(folder).returncode, 0)
             names = sorted(str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*"))
             self.assertEqual(names, [
-                "playground", "playground.html",
-                *(f"playground/{name}" for name in sorted((*FILES, *FILES_OF_PYTHON)))])
+                "playground", "playground.html", *(f"playground/{name}"
+                                                   for name in sorted((*FILES, *FILES_OF_PYTHON)))])
 
 
 class TheEditor(unittest.TestCase):
@@ -301,7 +305,6 @@ class PageTest(unittest.TestCase):
 
 class ThePage(PageTest):
     """All that it does."""
-
     def test_it_shows_the_native_picture(self):
         self.check_the_native_picture()
 
@@ -343,8 +346,9 @@ class ThePage(PageTest):
                   words=words)
         self.browser.run("document.body.playground.copyLink()")
         self.browser.wait_for(lambda: self.browser.run("return location.hash"))
-        state, shown, hash_ = (self.browser.run(script) for script in
-                               ("return document.body.playground.state", IMAGE, "return location.hash"))
+        state, shown, hash_ = (self.browser.run(script)
+                               for script in ("return document.body.playground.state", IMAGE,
+                                              "return location.hash"))
         self.tearDown()
         self.open(hash_)
         self.assertEqual(self.browser.run("return document.body.playground.state"), state)
@@ -370,8 +374,8 @@ class ThePage(PageTest):
         words = {"model": "", "view": "", "project": "", "zbuf": "--z-buffer $(touch${IFS}pwned) `id`.pgm"}
         self.browser.run(SET, {"words": words})
         line = self.browser.run("return document.body.playground.line.text")
-        self.assertEqual(shlex.split(line)[-4:],
-                         ["--z-buffer", "$(touch${IFS}pwned)", "`id`.pgm", "config.txt"])
+        self.assertEqual(
+            shlex.split(line)[-4:], ["--z-buffer", "$(touch${IFS}pwned)", "`id`.pgm", "config.txt"])
         self.assertIn("'$(touch${IFS}pwned)' '`id`.pgm'", line)
 
     def test_the_stages_to_begin_with_are_right(self):
@@ -392,9 +396,10 @@ class ThePage(PageTest):
         self.assertEqual(self.browser.run(self.TOLD), ["", ""])
         self.browser.run("document.querySelector('#own-run').click()")
         self.browser.wait_for(lambda: any(self.browser.run(self.TOLD)))
-        self.assertRegex(self.browser.run(self.TOLD)[1],
-                         r"^your own view: 1 of 3 vertices differ, first line 2, z of vertex 1 of triangle "
-                         r"0: 2 in place of -2; \d+ of 100 pixels differ\.$")
+        self.assertRegex(
+            self.browser.run(self.TOLD)[1],
+            r"^your own view: 1 of 3 vertices differ, first line 2, z of vertex 1 of triangle "
+            r"0: 2 in place of -2; \d+ of 100 pixels differ\.$")
         listed = self.browser.run("return document.querySelectorAll('#theirs [data-name]').length")
         self.assertEqual(listed, 1)
 
@@ -403,10 +408,10 @@ class ThePage(PageTest):
         self.edit(scene=scene.decode(), config=config.decode())
         text = (ROOT / "samples/worked-example/stage3.txt").read_text()
         for wrong, told in ((text + ".5 .5 .0\n.9 .9 .0\n.1 .9 .0\n", "2 triangles in place of 1"),
-                            ("triangle 77\n" + text, "every vertex is right, but"),
-                            (text.replace("0.1111111", "0x1", 1), "1 of 3 vertices differ"),
-                            (text + "hello world\n", "do not take it: zbuf: "),
-                            (text.replace("0.8660254", "0.8660294", 1), "1 of 3 vertices differ")):
+                            ("triangle 77\n" + text, "every vertex is right, but"), (text.replace(
+                                "0.1111111", "0x1", 1), "1 of 3 vertices differ"),
+                            (text + "hello world\n", "do not take it: zbuf: "), (text.replace(
+                                "0.8660254", "0.8660294", 1), "1 of 3 vertices differ")):
             with self.subTest(wrong=wrong):
                 self.assertRegex(self.own("project", wrong, "text")[1], told)
                 self.browser.run("document.querySelector('#own-off').click()")
@@ -418,14 +423,17 @@ class ThePage(PageTest):
         self.edit(scene="0 0 2\n0 0 0\n0 1 0\n60 1 1 10\nbackground 9 8 7\nend\n", config="2 2\n")
         right = "P3 # a comment\n2 2 255 9 8 7  9 8 7\n9 8 7  9 8 7"
         image = "<img src=x onerror='document.body.dataset.hit = 1'>"
-        for text, told in (
-            (right, "0 of 4 pixels differ"),
-            (right[:-1] + "6", "1 of 4 pixels differ, first row 1, column 1: 9 8 6 in place of 9 8 7"),
-            (right[:-1], "there is no picture of it: expected 12 numbers behind 255, found 11"),
-            (right.replace("9 8 7", "9 256 7"), "expected a number from 0 to 255, found 256"),
-            (right.replace("2 2", "2 3"), "begins with P3 2 2 255, found P3 2 3 255"),
-            ("P3 2 2 255 " + "0 " * 9000, "it is longer than such a picture"),
-            (image, "found <img src=x onerror='document.body.datas")):
+        for text, told in ((right, "0 of 4 pixels differ"),
+                           (right[:-1] + "6",
+                            "1 of 4 pixels differ, first row 1, column 1: 9 8 6 in place of 9 8 7"),
+                           (right[:-1],
+                            "there is no picture of it: expected 12 numbers behind 255, found 11"),
+                           (right.replace(
+                               "9 8 7",
+                               "9 256 7"), "expected a number from 0 to 255, found 256"), (right.replace(
+                                   "2 2", "2 3"), "begins with P3 2 2 255, found P3 2 3 255"),
+                           ("P3 2 2 255 " + "0 " * 9000, "it is longer than such a picture"),
+                           (image, "found <img src=x onerror='document.body.datas")):
             with self.subTest(text=text[:80]):
                 self.assertIn(told, self.own("zbuf", text, "text")[1])
                 self.browser.run("document.querySelector('#own-off').click()")
@@ -487,18 +495,18 @@ class ThePage(PageTest):
 
     def test_code_that_came_along_does_nothing_until_run_and_then_no_harm(self):
         scene, config = self.sample("worked-example")
-        self.edit(scene=scene.decode(), config=config.decode(),
-                  mine={"tool": "view", "kind": "js", "text": "return 'ran'"})
+        self.edit(scene=scene.decode(), config=config.decode(), mine={
+            "tool": "view", "kind": "js", "text": "return 'ran'"})
         self.assertEqual(self.browser.run(self.TOLD), ["", ""])
         self.assertIn("'ran'", self.browser.run("return document.body.playground.state.mine.text"))
         address, asked = serve(self, BUILT / "site")
         for code, told in (("for (;;);", "it has not ended after 5 seconds"), ("throw 5", "5"),
-                           ("return x(", "SyntaxError|the code cannot be read"),
-                           ("return 'a'.repeat(1e8)", "it returned too much"),
-                           ("postMessage({error: {toString: null}}); for (;;);", "it answers by itself"),
-                           ("for (;;) postMessage(null);", "it answers by itself"),
-                           ("throw new Error('x y '.repeat(1e6));", "^.{200,400}$"),
-                           (f"importScripts('{address}')", "NetworkError"),
+                           ("return x(", "SyntaxError|the code cannot be read"), ("return 'a'.repeat(1e8)",
+                                                                                  "it returned too much"),
+                           ("postMessage({error: {toString: null}}); for (;;);",
+                            "it answers by itself"), ("for (;;) postMessage(null);", "it answers by itself"),
+                           ("throw new Error('x y '.repeat(1e6));",
+                            "^.{200,400}$"), (f"importScripts('{address}')", "NetworkError"),
                            (f"const r = new XMLHttpRequest(); r.open('GET', '{address}', false); "
                             "r.send()", "NetworkError")):
             with self.subTest(code=code):
@@ -532,7 +540,6 @@ class ThePageInFirefox(ThePage):
 
 class TheFolder(PageTest):
     """The same, served as files; of code in the page, nothing comes back to the server."""
-
     def setUp(self):
         self.address, self.asked = serve(self, BUILT / "site/playground")
         self.open("")
@@ -588,10 +595,9 @@ class TheFolder(PageTest):
         shown = "return document.querySelector('#theirs .asked').innerText"
         self.browser.wait_for(lambda: self.browser.run(shown) == "Name the mistake stopped")
         told = self.told_by_python("#theirs", "Name the mistake")
-        files = self.browser.run(
-            "const files = document.body.playground.inspector.data.theirs.handIn.files;"
-            "return Promise.all(Object.entries(files).map(async ([name, data]) => "
-            "[name, await new Blob([data]).text()]))")
+        files = self.browser.run("const files = document.body.playground.inspector.data.theirs.handIn.files;"
+                                 "return Promise.all(Object.entries(files).map(async ([name, data]) => "
+                                 "[name, await new Blob([data]).text()]))")
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "mine").mkdir()
             for name, text in files:
@@ -605,9 +611,10 @@ class TheFolder(PageTest):
         self.browser.run("document.querySelector('#tab-explanation').click();"
                          "document.body.playground.inspector.select({triangle: 2, pixel: 5050})")
         told = self.told_by_python("#explanation", "Run it here")
-        words = [ROOT / "scripts/explain", *(ROOT / "samples/tilted-camera" / name
-                                             for name in ("scene.txt", "config.txt")),
-                 "--coverage", "center", "--triangle", "2", "--pixel", "50,50"]
+        words = [
+            ROOT / "scripts/explain",
+            *(ROOT / "samples/tilted-camera" / name for name in ("scene.txt", "config.txt")), "--coverage",
+            "center", "--triangle", "2", "--pixel", "50,50"]
         done = subprocess.run(words, env={**os.environ, "BIN": str(BIN)}, capture_output=True, text=True)
         self.assertEqual(told.replace("scene.txt", ""),
                          done.stdout.replace(str(words[1]), "").replace("scene.txt", ""))
@@ -634,12 +641,11 @@ VIOLATIONS = """return axe.run().then(found => found.violations.map(({impact, id
 @unittest.skipIf(MISSING, f"missing: {' '.join(MISSING)}")
 class ForEverybody(unittest.TestCase):
     """No serious finding of axe-core, on the playground and on a page of inspect."""
-
     def check(self, page, script=""):
         for scheme in ("light", "dark"):
             with Browser(1400, 900) as browser:
-                browser.devtools("Emulation.setEmulatedMedia",
-                                 features=[{"name": "prefers-color-scheme", "value": scheme}])
+                browser.devtools("Emulation.setEmulatedMedia", features=[{
+                    "name": "prefers-color-scheme", "value": scheme}])
                 browser.open(page)
                 ready = "return document.body.dataset.runs || document.body.dataset.ready"
                 browser.wait_for(lambda: browser.run(ready))

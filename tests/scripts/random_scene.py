@@ -13,9 +13,7 @@ def scene_of_parts(is_lit, count=400, seed=7):
     for i in range(count):
         x, y, z = (rng.uniform(-2.5, 2.5) for _ in range(3))
         text += "push\nrotate %d 1 2 3\n" % rng.randrange(360) if i % 3 == 0 else ""
-        text += "triangle\n" +"".join(
-            f"{x + rng.uniform(-0.5, 0.5):.7f} {y + rng.uniform(-0.5, 0.5):.7f} "
-            f"{z + rng.uniform(-0.5, 0.5):.7f}\n"
-            for _ in range(3))
+        text += "triangle\n" + "".join(f"{x + rng.uniform(-0.5, 0.5):.7f} {y + rng.uniform(-0.5, 0.5):.7f} "
+                                       f"{z + rng.uniform(-0.5, 0.5):.7f}\n" for _ in range(3))
         text += "pop\n" if i % 3 == 2 else ""
     return text + "end\n"

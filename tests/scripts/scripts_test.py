@@ -40,8 +40,9 @@ class Help(ToolTest):
         in_python = [path for path in commands() if path.read_bytes().startswith(b"#!/usr/bin/env python3")]
         for command in in_python:
             self.assertRegex(command.read_text(), rf'\n    run_command\(main, "{command.name}"')
-        chosen = [*(path for path in commands() if path not in in_python),
-                  *(SOURCE / "scripts" / name for name in ("stages", "compare", "grade", "explain"))]
+        chosen = [
+            *(path for path in commands() if path not in in_python),
+            *(SOURCE / "scripts" / name for name in ("stages", "compare", "grade", "explain"))]
         for command, (channel, reason) in itertools.product(chosen, ways):
             with self.subTest(command.relative_to(SOURCE), channel=channel):
                 done = subprocess.run(["sh", "-c", f'"$0" --help {channel}', command], capture_output=True,
@@ -56,8 +57,7 @@ class Writing(ToolTest):
     BY_ITSELF = re.compile(
         r"""\b(mkdir|makedirs|mkdtemp|rmtree|rmdir|unlink|write_text|write_bytes)\b"""
         r"""|\b(copyfile|copytree|shutil\.(copy|move)|os\.(remove|replace|rename|link|symlink)|mv|rm)\b"""
-        r"""|open\([^()]*(\([^()]*\))?[^()]*["'][wax]b?\+?["']"""
-    )
+        r"""|open\([^()]*(\([^()]*\))?[^()]*["'][wax]b?\+?["']""")
     REASONS = {
         "check-stage": "removes the file of a long stderr that it kept in the round before",
         "lib/rim/output_file.py": "owns an output file",
@@ -78,8 +78,7 @@ class Writing(ToolTest):
         "install-packages": "the folder build of the source tree",
         "build-playground": "the folder build of the source tree, and files of its own in another",
         "playground/make-root": "the folder build of the source tree",
-        "playground/run_command.py": "files in the memory of a browser",
-    }
+        "playground/run_command.py": "files in the memory of a browser",}
     # They write into the source tree, build, or the folder that --out names.
     ROOMS_OF_DEVELOPERS = ("measure", "maintain", "package")
 
@@ -129,7 +128,6 @@ class OldNames(ToolTest):
 
 class OldPython(ToolTest):
     """The oldest Python is 3.9 for the commands, as lib/rim/command.py says, and 3.10 for the tests."""
-
     def test_no_command_uses_newer_syntax(self):
         modules = [path for path in (SOURCE / "scripts").rglob("*.py")]
         scripts = [path for path in commands() if path.read_bytes().startswith(b"#!/usr/bin/env python3")]

@@ -62,7 +62,6 @@ def ended(process):
 
 class Cluster:
     """`test` is skipped where no Slurm can be had."""
-
     def __init__(self, test, names):
         path = os.environ["PATH"] + ":/usr/sbin:/sbin"
         for program in PROGRAMS:
@@ -128,7 +127,7 @@ class Cluster:
             if value := condition():
                 return value
             time.sleep(0.1)
-        logs = "".join(f"\n{path.name}:\n" +"".join(path.read_text(errors="replace").splitlines(True)[-30:])
+        logs = "".join(f"\n{path.name}:\n" + "".join(path.read_text(errors="replace").splitlines(True)[-30:])
                        for path in sorted(self.here.glob("*.log")))
         raise AssertionError(f"waited {seconds} s for {what}{logs}")
 
@@ -136,8 +135,7 @@ class Cluster:
         """Words of a job, as scontrol shows them: JobState, Restarts, BatchHost, Reason ...; {} for one that
         Slurm has forgotten."""
         return dict(
-            word.split("=", 1)
-            for word in self.output("scontrol", "show", "job", "-o", str(job)).split()
+            word.split("=", 1) for word in self.output("scontrol", "show", "job", "-o", str(job)).split()
             if "=" in word)
 
     def kill_node(self, node):

@@ -77,9 +77,7 @@ class OnSlurm(ToolTest):
     def job_of_part(self, number):
         """Slurm's record of the newest job that draws a part."""
         lines = [
-            dict(word.split("=", 1)
-                 for word in line.split()
-                 if "=" in word)
+            dict(word.split("=", 1) for word in line.split() if "=" in word)
             for line in subprocess.run(["scontrol", "show", "job", "-o"], env=self.cluster.environment,
                                        capture_output=True, text=True).stdout.splitlines()]
         found = [

@@ -49,16 +49,14 @@ NOTED = [
     ("60 1.02 1 50 ratio", "500 500", aspect("1"), "60 1 1 50 ratio"),
     ("ortho -1 1 -1 1 1 9", "400 300", box("1.33333"), "ortho -1.33333 1.33333 -1 1 1 9"),
     ("ortho 1 -1 -1 1 1 9", "400 300", box("1.33333"), "ortho 1.33333 -1.33333 -1 1 1 9"),
-    ("frustum -1 1 -1 1 1 9", "200 400 # tall\r", box("0.5"), "frustum -0.5 0.5 -1 1 1 9"),
-]
+    ("frustum -1 1 -1 1 1 9", "200 400 # tall\r", box("0.5"), "frustum -0.5 0.5 -1 1 1 9"),]
 FINE = [
     ("60 1 1 50", "500 500"),
     ("60 1 1 50", "400 300\n-1\n-0.75\n-1 1"),
     ("60 1 1 50", "1000 995"),
     ("60 1.3333333 1 50 ratio", "# a comment\n400 300"),
     ("ortho -4 4 -3 3 1 9", "400 300"),
-    ("ortho -4 4 3 -3 1 9", "400 300"),
-]
+    ("ortho -4 4 3 -3 1 9", "400 300"),]
 
 
 class SquareTest(ToolTest):
@@ -72,8 +70,7 @@ class SquareTest(ToolTest):
         numbers = [float(word) for word in re.sub("#.*", "", config).split()]
         columns, rows, left, bottom = (numbers + [-1, -1])[:4]
         points = [
-            tuple(map(float, line.split()))
-            for line in pathlib.Path("stage3.txt").read_text().split("\n")
+            tuple(map(float, line.split())) for line in pathlib.Path("stage3.txt").read_text().split("\n")
             if line]
         width, height = (max(p[axis] for p in points) - min(p[axis] for p in points) for axis in (0, 1))
         return (width * columns / -left) / (height * rows / -bottom)
@@ -90,8 +87,8 @@ class Stages(SquareTest):
         for projection, config, mend, mended in NOTED:
             with self.subTest(projection=projection, config=config):
                 note = self.note(projection, config)
-                self.assertEqual(
-                    note, f"a square is drawn {self.drawn(config):.3g} times as wide as high: {mend}")
+                self.assertEqual(note,
+                                 f"a square is drawn {self.drawn(config):.3g} times as wide as high: {mend}")
                 self.assertGreater(abs(self.drawn(config) - 1), 0.01)
                 self.assertEqual(self.note(mended, config), "")
                 self.assertAlmostEqual(self.drawn(config), 1, delta=0.001)
@@ -105,8 +102,8 @@ class Stages(SquareTest):
     def test_a_config_that_is_a_pipe_is_noted(self):
         pathlib.Path("scene.txt").write_text(SCENE.format("60 1 1 50"))
         line = f'"{SOURCE}/scripts/stages" scene.txt <(echo 400 300) five'
-        done = subprocess.run(["bash", "-c", line], capture_output=True, text=True,
-                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+        done = subprocess.run(["bash", "-c", line], capture_output=True, text=True, env={
+            "BIN": str(BIN), "PATH": "/usr/bin:/bin"})
         self.assertEqual(
             (done.returncode, done.stderr),
             (0,
@@ -114,13 +111,13 @@ class Stages(SquareTest):
 
     def test_a_config_that_is_a_bad_pipe_is_refused(self):
         line = f'"{SOURCE}/scripts/stages" scene.txt <(echo 400) five'
-        done = subprocess.run(["bash", "-c", line], capture_output=True, text=True,
-                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
-        self.assertEqual((done.returncode, done.stderr, os.path.exists("five")), (
-            1,
-            "stages: zbuf: /dev/fd/63:1:4: expected the height in pixels, a whole number from 1 to 65535, "
-            "found the end of the line\n",
-            False))
+        done = subprocess.run(["bash", "-c", line], capture_output=True, text=True, env={
+            "BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+        self.assertEqual(
+            (done.returncode, done.stderr, os.path.exists("five")),
+            (1,
+             "stages: zbuf: /dev/fd/63:1:4: expected the height in pixels, a whole number from 1 to 65535, "
+             "found the end of the line\n", False))
 
 
 class Inspect(SquareTest):

@@ -13,7 +13,6 @@ FULL_BYTES = 8192  # of the disk of a full host, less than a part of a test's sc
 class SshServer:
     """In the current folder; each host's logins start in a folder of its name. `full` is a host with a full
     disk, `silent` hosts lead to a port that never answers. `test` is skipped where no sshd can be had."""
-
     def __init__(self, test, hosts, full=None, silent=None):
         for program in ("/usr/sbin/sshd", "ssh", "rsync", "ssh-keygen"):
             if not shutil.which(program):

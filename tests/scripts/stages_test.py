@@ -57,21 +57,20 @@ class Stages(ToolTest):
 
     def test_too_few_operands_are_named(self):
         for words, reason in (((), "the following arguments are required: SCENE, CONFIG, DIR"),
-                              (("scene.txt", ), "the following arguments are required: CONFIG, DIR"),
+                              (("scene.txt",), "the following arguments are required: CONFIG, DIR"),
                               (("scene.txt", "config.txt", "a", "b"), "unrecognized arguments: b")):
             done = run_stages(*words)
             told = f"stages: {reason} (try stages --help)\n"
             self.assertEqual((done.stderr.decode(), done.returncode), (told, 2))
 
     def test_a_sphere_names_the_ways_to_draw_it(self):
-        pathlib.Path("scene").write_text(
-            (SAMPLE / "scene.txt").read_text().replace("\nend", "\nsphere 0 0 0 1\nend"))
+        pathlib.Path("scene").write_text((SAMPLE / "scene.txt").read_text().replace(
+            "\nend", "\nsphere 0 0 0 1\nend"))
         line = pathlib.Path("scene").read_text().split("sphere")[0].count("\n") + 1
         self.assert_refused(
             self.stages("dir", scene="scene"),
             f"model: scene:{line}:1: expected triangles alone, found a sphere: trace draws it, and model "
-            f"--facets N makes triangles of it"
-        )
+            f"--facets N makes triangles of it")
         self.assertFalse(os.path.exists("dir"))
 
     def test_a_folder_in_a_files_place_is_refused(self):
@@ -140,6 +139,7 @@ class Stages(ToolTest):
     def test_where_there_is_no_room_all_stays(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (80, 80))
+
         os.mkdir("dir")
         pathlib.Path("dir/stage1.txt").write_text("old")
         for folder, kept in (("dir", ["dir"]), ("new", ["dir"])):
@@ -162,8 +162,7 @@ class Stages(ToolTest):
         notes = self.stages("out", scene="far.txt").stderr.decode().splitlines()
         self.assertIn(
             "view: note: the digits of a vertex and of 2 more are not certain: numbers cancel here beyond "
-            "31 digits",
-            notes)
+            "31 digits", notes)
         self.assertEqual([note for note in notes if "exact" in note or notes.count(note) > 1], [])
         pathlib.Path("near.txt").write_text(
             "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntranslate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\n"
@@ -173,8 +172,7 @@ class Stages(ToolTest):
             if note.startswith("model")]
         self.assertEqual(notes, [
             "model: note: near.txt:9:1: the digits of this vertex and of 2 more are not certain: numbers "
-            "cancel here beyond 31 digits"
-        ])
+            "cancel here beyond 31 digits"])
 
     def test_pipes_are_read_once(self):
         line = (f'"{STAGES}" <(cat "{SAMPLE}/scene.txt") <(cat "{SAMPLE}/config.txt") one && "{STAGES}" - '
@@ -186,7 +184,6 @@ class Stages(ToolTest):
 
 class PlainFile(ToolTest):
     """scripts/lib/text/plain_stage_text.py, which people copy."""
-
     def test_it_reads_and_writes_what_the_tools_write(self):
         shutil.copy(SOURCE / "scripts/lib/text/plain_stage_text.py", "stage_text.py")
         code = ("import sys; sys.path.insert(0, '.'); import stage_text; "

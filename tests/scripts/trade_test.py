@@ -20,22 +20,22 @@ from trade_parts.choice import Choice, Limits, Row, cheapest, least_wrong
 from trade_parts.levers import settings
 from trade_parts.losses import Loss
 from trade_parts.report import about_ties, about_times
-from trade_parts.timing import (AGAIN, CHEAPER, DEARER, EMPTY, TIE, UNTOLD, Times,
-                                median_interval)
+from trade_parts.timing import (AGAIN, CHEAPER, DEARER, EMPTY, TIE, UNTOLD, Times, median_interval)
 
-LEAST = {"--digits 5", "default", "--digits 9", "--digits 12", "--digits exact", "--precision double",
-         "--depth f32", "--depth u24"}  # what every scene feels
+LEAST = {
+    "--digits 5", "default", "--digits 9", "--digits 12", "--digits exact", "--precision double",
+    "--depth f32", "--depth u24"}  # what every scene feels
 CERTIFIED = "--digits 12 --certify -"
 # Two walls 1e-6 apart, the hidden one first, seen from 3 away: in NDC their z differ by 2e-8 or so, less than
 # seven digits tell.
-LAYERS = "0 0 3\n0 0 0\n0 1 0\n60 1 0.1 100\n" + "".join(
-    f"triangle\n-1 -1 {z}\n1 -1 {z}\n0 1 {z}\n" for z in ("0", "0.000001")) + "end\n"
+LAYERS = "0 0 3\n0 0 0\n0 1 0\n60 1 0.1 100\n" + "".join(f"triangle\n-1 -1 {z}\n1 -1 {z}\n0 1 {z}\n"
+                                                         for z in ("0", "0.000001")) + "end\n"
 
 
 def trade(*words, **settings):
-    return subprocess.run([SOURCE / "scripts/trade", *words], capture_output=True, text=True, timeout=120,
-                          env={"BIN": str(BIN), "PATH": f"{BIN}:/usr/bin:/bin",
-                               "LANG": "C.UTF-8"}, **settings)
+    return subprocess.run([SOURCE / "scripts/trade", *words], capture_output=True, text=True,
+                          timeout=120, env={
+                              "BIN": str(BIN), "PATH": f"{BIN}:/usr/bin:/bin", "LANG": "C.UTF-8"}, **settings)
 
 
 def tables(text):
@@ -66,7 +66,8 @@ class Measures(ToolTest):
         done = trade("scene.txt", "config.txt", "--rounds", "1")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         found = tables(done.stdout)
-        self.assertEqual({rule: set(rows) for rule, rows in found.items()},
+        self.assertEqual({rule: set(rows)
+                          for rule, rows in found.items()},
                          {"center": LEAST | {CERTIFIED}, "nearest": {"default", "--digits exact"}})
         self.assertEqual(found["center"]["--digits exact"]["wrong pixels"], "0")
         self.assertEqual(found["center"][CERTIFIED]["wrong pixels"], "0")
@@ -78,18 +79,21 @@ class Measures(ToolTest):
                      [(1, 0, 0), (9, 0, 0), (9, 1, 0)], [(9, 0, 0), (9, 1, 0), (9, 0, -1)],
                      *([(-3, -1, z), (2, -1, z), (0.5, 2, z)] for z in (-2, -1.999995)),
                      [(0, 0.5, 0.5), (0, 1, 0.5), (0.5, 0.5, 0.5)]]
-        pathlib.Path("scene.txt").write_text(
-            "0 0 3\n0 0 0\n0 1 0\n60 1 1 10\nlight 1 2 3 1 1 1\nattributes normal\n" +
-            "".join("triangle\n" + "".join(f"{x} {y} {z} {x} {y} 1\n" for x, y, z in corners)
-                    for corners in triangles) + "end\n")
+        pathlib.Path(
+            "scene.txt").write_text("0 0 3\n0 0 0\n0 1 0\n60 1 1 10\nlight 1 2 3 1 1 1\nattributes normal\n" +
+                                    "".join("triangle\n" + "".join(f"{x} {y} {z} {x} {y} 1\n"
+                                                                   for x, y, z in corners)
+                                            for corners in triangles) + "end\n")
         done = trade("scene.txt", "config.txt", "--rounds", "1", "--all")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         found = tables(done.stdout)
-        self.assertEqual(set(found["center"]), LEAST | {
-            "--clip frustum", "--clip reject", "--cull back", "--depth-epsilon 1e-6", "--shading flat",
-            "--shading gouraud", "--samples 2", CERTIFIED})
-        self.assertEqual(set(found["rays"]), {f"trace --sampling {name}" for name in
-                                              ("basic", "jittered", "adaptive")})
+        self.assertEqual(
+            set(found["center"]), LEAST | {
+                "--clip frustum", "--clip reject", "--cull back", "--depth-epsilon 1e-6", "--shading flat",
+                "--shading gouraud", "--samples 2", CERTIFIED})
+        self.assertEqual(set(found["rays"]),
+                         {f"trace --sampling {name}"
+                          for name in ("basic", "jittered", "adaptive")})
         lines = done.stdout.split("\n\nThe simplest")[0].splitlines()
         self.assertLessEqual((max(map(len, lines)), sum(map(len, found.values()))), (80, 21))
 
@@ -169,8 +173,9 @@ class Measures(ToolTest):
             rows = tables(done.stdout)["center"]
             self.assertEqual(rows["--digits 12"]["wrong pixels"], "0", name)
             self.assertIn("--clip frustum", rows, name)
-            self.assertEqual("trade: note: --clip reject --coverage center is left out: project: expected a "
-                             "vertex in front" in done.stderr, "--clip reject" not in rows, name)
+            self.assertEqual(
+                "trade: note: --clip reject --coverage center is left out: project: expected a "
+                "vertex in front" in done.stderr, "--clip reject" not in rows, name)
 
     def test_options_of_project_are_passed_on(self):
         backs = trade("scene.txt", "config.txt", "--rounds", "1", "--cull", "front")
@@ -193,8 +198,8 @@ class Answers(ToolTest):
             self.assertEqual(done.returncode, 0)
             self.assertIn("The simplest with 0 wrong pixels:\n", done.stdout)  # one round tells nothing
             exact = " | ".join(f"{tool} --digits exact" for tool in ("model scene.txt", "view", "project"))
-            lossless, default = (picture(f"{words} | zbuf --coverage {rule} config.txt > z.txt") for words in
-                                 (exact, "model scene.txt | view | project"))
+            lossless, default = (picture(f"{words} | zbuf --coverage {rule} config.txt > z.txt")
+                                 for words in (exact, "model scene.txt | view | project"))
             self.assertEqual(picture(command_line(done.stdout)), lossless)
             self.assertNotEqual(default, lossless)
 
@@ -253,8 +258,7 @@ class Mistakes(ToolTest):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 9\n1 0 9\n0 1 9\nend\n")
         self.check(
             "trade: the picture of the exact run is empty: there is nothing to compare. Run the pipe "
-            "to see why",
-            "scene.txt", "config.txt")
+            "to see why", "scene.txt", "config.txt")
 
     def test_limits_are_numbers(self):
         for option, word, expected in (("--max-wrong", "-1", "a number of at least 0"),
@@ -336,9 +340,10 @@ class Choices(unittest.TestCase):
 
     def test_the_answer_tells_of_ties_and_of_a_busy_machine(self):
         self.assertEqual(about_ties(Choice(self.seven)), "")
-        self.assertEqual(about_ties(Choice(self.seven, ties=(self.five,))),
-                         "\nThese cost the same, as far as anybody notices; this is the simplest:"
-                         "\n    --digits 5")
+        self.assertEqual(
+            about_ties(Choice(self.seven, ties=(self.five,))),
+            "\nThese cost the same, as far as anybody notices; this is the simplest:"
+            "\n    --digits 5")
         self.assertIn("\nToo busy to tell which is cheapest, or too few rounds: this is the simplest.\n",
                       about_ties(Choice(self.seven, untold=(self.five,))))
 
@@ -349,8 +354,8 @@ class Clock(unittest.TestCase):
 
     def times(self, five, again=(1.0,) * 8, default=2.0):
         return Times({
-            EMPTY: [1.0] * 8, DEFAULT: [default * x for x in self.load],
-            AGAIN: [default * x * y for x, y in zip(self.load, again)],
+            EMPTY: [1.0] * 8, DEFAULT: [default * x for x in self.load], AGAIN: [
+                default * x * y for x, y in zip(self.load, again)],
             Setting("5"): [default * x * y for x, y in zip(self.load, five)]})
 
     def verdict(self, five, again=(1.0,) * 8):
@@ -358,9 +363,9 @@ class Clock(unittest.TestCase):
 
     def test_the_median_lies_between_order_statistics_in_99_of_100_samples(self):
         self.assertEqual(median_interval([3, 1, 2, 4, 5, 6, 7]), (0, float("inf")))  # 2 of 2^7 are outside
-        self.assertEqual(median_interval([3, 1, 2, 4, 5, 6, 7, 8]), (1, 8))          # 2 of 2^8
-        self.assertEqual(median_interval(range(1, 12)), (1, 11))   # (1 + 11) 2 of 2^11 would be 1.2 %
-        self.assertEqual(median_interval(range(1, 13)), (2, 11))   # (1 + 12) 2 of 2^12 are 0.6 %
+        self.assertEqual(median_interval([3, 1, 2, 4, 5, 6, 7, 8]), (1, 8))  # 2 of 2^8
+        self.assertEqual(median_interval(range(1, 12)), (1, 11))  # (1 + 11) 2 of 2^11 would be 1.2 %
+        self.assertEqual(median_interval(range(1, 13)), (2, 11))  # (1 + 12) 2 of 2^12 are 0.6 %
 
     def test_load_that_slows_a_round_does_not_count(self):
         self.assertEqual(self.verdict((0.8,) * 8), CHEAPER)

@@ -103,7 +103,7 @@ class Transparent(ToolTest):
             for stage, note in (("project", ""), ("zbuf", "check-stage: " + NOTE)):
                 with self.subTest(scene=name, stage=stage):
                     done = run_script("check-stage", stage, "--scene", f"{name}127.5.txt", "--config",
-                                   "config.txt", "--", BIN / stage)
+                                      "config.txt", "--", BIN / stage)
                     verdict = done.stdout.partition("\n")[0]
                     more = ": only x, y and z are judged, not the numbers behind them"
                     right = f"{name}127.5.txt: right" + (more if name == "lit" and stage != "zbuf" else "")
@@ -121,7 +121,6 @@ class Transparent(ToolTest):
 
 class Alpha(unittest.TestCase):
     """Pixels by hand; (PNG specification, 13.16: alpha compositing)."""
-
     def png(self, rows, width, cut=0):
         packed = zlib.compress(b"".join(b"\0" + row for row in rows)[:-cut or None])
         return b"\x89PNG\r\n\x1a\n" + png_chunk(

@@ -31,8 +31,7 @@ class TryPackage(unittest.TestCase):
         self.put(
             self.bin / "cpack",
             '#!/bin/sh\nwhile [ "$1" != -B ]; do shift; done\nmkdir -p "$2"; : > "$2/p.deb"; : > '
-            '"$2/p.tar.gz"\n'
-        )
+            '"$2/p.tar.gz"\n')
 
     def put(self, path, text):
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -24,8 +24,7 @@ class Turntable(ToolTest):
         """Runs make on a scene whose camera is at (0 0 2) and looks at the origin; gives what it printed."""
         environment = {
             name: value
-            for name, value in os.environ.items()
-            if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+            for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
         return subprocess.run([
             "make", "-f", SOURCE / "samples/turntable/Makefile", f"BIN={BIN}", "SCENE=scene.txt",
             "CONFIG=config.txt", "OUT=out", "MIDDLE=0 0 0", "RADIUS=2", "HEIGHT=0", "FRAMES=4", *words],

@@ -20,7 +20,6 @@ EVERY = int(os.environ.get("FAULTS_EVERY", "4"))  # of the allocations, which ar
 
 class FaultTest(OlderImageTest):
     """Lets one call fail (fault_shim.cpp), for every number of the call that a run reaches."""
-
     def run_with_fault(self, call, number, error, tool, operands, text):
         """The run, and whether it reached the call."""
         mark = pathlib.Path(self.outside, "mark")
@@ -161,14 +160,19 @@ class Faults(FaultTest):
         counts 256."""
         *_, (zbuf, _, ndc), (trace, _, view) = tool_inputs()
         lit = stage_texts(CAMERA + "light 1 2 3 1 1 1\nlight 3 2 1 1 1 1\n" + TRIANGLE + "end\n")[2]
-        for tool, text, options, size, expected in (
-            (zbuf, ndc, [], "2048x2047", False), (zbuf, ndc, [], "2048x2048", True),
-            (zbuf, ndc, ["--samples", 2], "1024x1024", True), (zbuf, lit, [], "682x683", False),
-            (zbuf, lit, [], "683x683", True), (zbuf, lit, ["--threads", 1], "683x683", False),
-            (zbuf, lit, ["--shading", "none"], "683x683", False), (trace, view, [], "126x130", False),
-            (trace, view, [], "128x128", True), (trace, view, ["--samples", 2], "64x64", True)):
-            done, was_started = self.run_with_fault("thread", 1, errno.EAGAIN, tool, [
-                "--size", size, "--z-buffer", "none", *options], text)
+        for tool, text, options, size, expected in ((zbuf, ndc, [], "2048x2047",
+                                                     False), (zbuf, ndc, [], "2048x2048", True), (zbuf, ndc, [
+                                                         "--samples", 2
+                                                     ], "1024x1024", True), (zbuf, lit, [], "682x683", False),
+                                                    (zbuf, lit, [], "683x683", True), (zbuf, lit, [
+                                                        "--threads", 1], "683x683", False), (zbuf, lit, [
+                                                            "--shading",
+                                                            "none"], "683x683", False), (trace, view, [],
+                                                                                         "126x130", False),
+                                                    (trace, view, [], "128x128", True), (trace, view, [
+                                                        "--samples", 2], "64x64", True)):
+            done, was_started = self.run_with_fault("thread", 1, errno.EAGAIN, tool,
+                                                    ["--size", size, "--z-buffer", "none", *options], text)
             self.assertEqual((done.returncode, was_started), (0, expected), (tool, options, size))
 
     def test_a_link_or_rename_that_fails_leaves_the_old_image(self):
@@ -263,8 +267,7 @@ class ManyFiles(FaultTest):
                 messages.add(done.stderr.decode())
             self.assertEqual(messages, {
                 f"{self.TOOL}: cannot write {name}: Input/output error\n"
-                for name in options
-                if "." in name})
+                for name in options if "." in name})
 
     def test_an_interrupted_write_or_close_of_any_file_goes_on(self):
         for options in (self.BMP, self.PLAIN, self.PNGS):

@@ -44,7 +44,7 @@ class Bounds(ToolTest):
                 "1 0 0\n0 1 0\n0 0 1\n\n")
         view = pipe(["view", "--digits", "3"], stdin=text)
         absolute = float(view.split(b"bounds view ")[1].split()[0])
-        self.assertAlmostEqual(absolute, 0.005 * 3 ** 0.5 + 0.0005, 8)
+        self.assertAlmostEqual(absolute, 0.005 * 3**0.5 + 0.0005, 8)
         ndc = pipe(["project", "--digits", "2"], stdin=text.split("\n", 3)[3].replace("world", "view"))
         self.assertIn(b"bounds ndc 0.005 0 0.005", ndc)
 
@@ -54,25 +54,25 @@ class Bounds(ToolTest):
         for words, text, status, message in (
             (["model", "--bounds", "--bare"], SCENE, 2, "neither --bare nor --facets with it, found --bare"),
             (["model", "--bounds", "--facets", "4"], SCENE, 2, "found --facets"),
-            (["model", "--bounds", "--precision", "double"], SCENE, 2,
-             "--precision: expected extended, as bounds need it, found 'double'"),
+            (["model", "--bounds", "--precision",
+              "double"], SCENE, 2, "--precision: expected extended, as bounds need it, found 'double'"),
             (["model", "--bounds"], sphere, 1, "a sphere"),
-            (["project", "--cull", "back"], bounded, 2,
-             "--cull: expected none with bounds in the text, found another"),
-            *((["project", "--clip", mode], bounded, 2, "--clip: expected auto or near with bounds")
-              for mode in ("frustum", "reject", "none")),
+            (["project", "--cull",
+              "back"], bounded, 2, "--cull: expected none with bounds in the text, found another"),
+                *((["project", "--clip", mode], bounded, 2, "--clip: expected auto or near with bounds")
+                  for mode in ("frustum", "reject", "none")),
             (["project", "--clip", "near", "--clip-inset", "0.5"], bounded, 2, "--clip-inset: "),
             (["project"], bounded.replace("0 0\n", "0 -1\n"), 1, "the relative bound of at least 0"),
             (["project"], bounded + "bounds view 0 0\n", 1, "expected one 'bounds'"),
             (["project"], bounded.replace("view 0", "world 0"), 1,
              "'bounds world': a stage before this one has passed on a line that holds for its input"),
-            (["project"], bounded.replace("0 0\n", "0 0 0 0\n"), 1,
-             "expected the end of the line after the bounds, found '0'"),
+            (["project"], bounded.replace(
+                "0 0\n", "0 0 0 0\n"), 1, "expected the end of the line after the bounds, found '0'"),
             (["view"], "eye 0 0 5\nlook 0 0 0\nup 0 1 0\nbounds world 1e308 1e308\n", 1,
              "expected bounds that stay finite in view space"),
             (["project"], bounded.replace("view 0", "0"), 1, "expected the space 'world', 'view' or 'ndc'"),
-            (["zbuf", "config.txt", "--certify", "c"], NDC, 2,
-             "--certify: expected --coverage center with it, found 'nearest'"),
+            (["zbuf", "config.txt", "--certify",
+              "c"], NDC, 2, "--certify: expected --coverage center with it, found 'nearest'"),
             ([*zbuf, "c", "--samples", "2"], NDC, 2, "--certify: expected --samples 1 with it, found '2'"),
             ([*zbuf, "-", "-o", "-"], NDC, 2, "expected a file, as --certify is standard output, found '-'"),
             ([*zbuf, "-", "--seen", "-"], NDC, 2, "--certify: expected a file, as --seen is"),
@@ -110,8 +110,8 @@ class Certify(ToolTest):
         """A wall moves by 1/8; one that recedes to the right by 1/8 more, as x is off by as much."""
         limits = "8 8\n-4\n-4\n%r 1\n"
         for count, text, config in ((64, wall(2) + wall(2.24), WINDOW), (0, wall(2) + wall(2.26), WINDOW),
-                                    (64, wall(2, 1) + wall(2.4, 1), MIDDLE),
-                                    (0, wall(2, 1) + wall(2.9, 1), MIDDLE),
+                                    (64, wall(2, 1) + wall(2.4, 1), MIDDLE), (0, wall(2, 1) + wall(2.9, 1),
+                                                                              MIDDLE),
                                     (64, wall(2), limits % depth(1.9)), (0, wall(2), limits % depth(1.8)),
                                     (64, wall(2), f"8 8\n-4\n-4\n-1 {depth(2.1)!r}\n"),
                                     (0, wall(2), f"8 8\n-4\n-4\n-1 {depth(2.2)!r}\n")):
@@ -144,8 +144,9 @@ class Certify(ToolTest):
         self.assertEqual(self.certify(text)[:2], ["certain 0", "uncertain 64"])
 
     def test_the_picture_and_the_depths_stay(self):
-        outputs = [(run("zbuf", "config.txt", "--coverage", "center", *words, stdin=NDC + wall(5)).stdout,
-                    pathlib.Path("out.bmp").read_bytes()) for words in ((), ("--certify", "c.txt"))]
+        outputs = [(run("zbuf", "config.txt", "--coverage", "center", *words,
+                        stdin=NDC + wall(5)).stdout, pathlib.Path("out.bmp").read_bytes())
+                   for words in ((), ("--certify", "c.txt"))]
         self.assertEqual(outputs[0], outputs[1])
         self.assertEqual(self.files(), ["c.txt", "config.txt", "out.bmp", "scene.txt"])
 
@@ -157,8 +158,9 @@ class Certify(ToolTest):
         self.assertEqual(self.certify(text, "--threads", "2"), whole)
         rng, uncertain = random.Random(1), 0
         for _ in range(60):
-            text = NDC + "".join(triangle(*((rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(2, 5))
-                                            for _ in range(3))) for _ in range(3))
+            text = NDC + "".join(
+                triangle(*((rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(2, 5)) for _ in range(3)))
+                for _ in range(3))
             whole = self.certify(text)[2:]
             bands = [self.certify(text, "--rows", rows)[2:] for rows in ("0:3", "3:8")]
             self.assertEqual(bands[0] + bands[1], whole)

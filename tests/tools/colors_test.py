@@ -22,8 +22,8 @@ class Paints(ToolTest):
             by_color = self.scene(light, ("", "", ""),
                                   ("color 200 60.25 10\n", "color 10 200 99.5\n", "color 255 255 255\n"))
             self.assertNotIn(b" color", pipe(["model"], stdin=by_paint))
-            for words in (["zbuf"], ["zbuf", "--samples", 2, "--threads", 2], ["trace"],
-                          ["trace", "--no-shadows"]):
+            for words in (["zbuf"], ["zbuf", "--samples", 2, "--threads", 2], ["trace"], [
+                    "trace", "--no-shadows"]):
                 drawing = [*words, "--size", "60x60", "-o", "-"]
                 stages = [["model"], ["view"], *[["project"]] * (words[0] == "zbuf"), drawing]
                 self.assertEqual(pipe(*stages, stdin=by_paint), pipe(*stages, stdin=by_color), words)

@@ -212,18 +212,18 @@ class Endings(ToolTest):
             return run(*words, stdout=output)
 
     def test_all_is_as_before(self):
-        small = (len(CAMERA + TRIANGLE) * 2, ) * 2  # less than a part has
+        small = (len(CAMERA + TRIANGLE) * 2,) * 2  # less than a part has
         words = ("cut-scene", "scene.txt", "4", "-o")
         ended = "ended by a signal; unfinished files are removed"
         for status, message, fail in (
             (1, "cannot write <stdout>: No space left on device", lambda *out: run_with(">/dev/full", *out)),
             (1, "cannot write <stdout>: Bad file descriptor", lambda *out: run_with(">&-", *out)),
-            (1, "cannot write .*: File too large", lambda *out: run(
-                *out, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, small))),
-            (1, None, self.with_closed_pipe),
-            (1, "cut.txt:165:1: expected 'end', .*", lambda *out: run(out[0], "cut.txt", *out[2:])),
-            *((-number, ended, lambda *out, number=number: self.end_by(number, out[-1]))
-              for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP))):
+            (1, "cannot write .*: File too large",
+             lambda *out: run(*out, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, small))),
+            (1, None, self.with_closed_pipe), (1, "cut.txt:165:1: expected 'end', .*",
+                                               lambda *out: run(out[0], "cut.txt", *out[2:])),
+                *((-number, ended, lambda *out, number=number: self.end_by(number, out[-1]))
+                  for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP))):
             for folder in self.FOLDERS:
                 pathlib.Path("cut.txt").write_text(self.GOOD.replace("end\n", ""))
                 before = sorted(pathlib.Path(".").rglob("*"))

@@ -72,7 +72,6 @@ class Folders(OlderImageTest):
 
 class SmallFileSystem(OlderImageTest):
     """Private file systems, in a namespace that ends with the command."""
-
     def run_there(self, mount_options, words, text):
         """Runs a command in a new file system that holds the older image, then lists that file system on
         stdout."""

@@ -41,29 +41,26 @@ class Notes(ToolTest):
         self.assertEqual(stderr_of(scene, "config.txt", options), told)
 
 
-add_claims(Notes, [
+NOTES = [
     # Noted by model.
     claim("a scene may be empty", "", "model: note: the picture will be empty: the scene has no triangle",
           NONE_CAME),
     claim(
         "a scale by 0", "scale 0 0 0\n" + TRIANGLE,
         "model: note: <stdin>:5:1: this scale by 0 leaves the triangle without area; 1 keeps a direction "
-        "as it is",
-        EMPTY + "the triangle is without area on the screen, as when seen edge-on"),
+        "as it is", EMPTY + "the triangle is without area on the screen, as when seen edge-on"),
     claim(
         "a scale by 0 among others",
         "rotate 30 1 1 1\nscale 1 2 3\nscale 1 0 1\nrotate 9 3 2 1\nscale 0 1 1\n" + 3 * TRIANGLE,
         "model: note: <stdin>:7:1: this scale by 0 leaves all 3 triangles without area; 1 keeps a direction "
-        "as it is",
-        EMPTY + "all 3 triangles are without area on the screen, as when seen edge-on"),
+        "as it is", EMPTY + "all 3 triangles are without area on the screen, as when seen edge-on"),
     claim("a scale by 0 that a triangle escapes", "push\nscale 0 0 0\n" + TRIANGLE + "pop\n" + TRIANGLE),
     claim("a scale by 0 along the normal", "scale 1 1 0\n" + TRIANGLE),
     # Noted by project.
     claim(
         "all behind the eye", "translate 0 0 7\n" + TRIANGLE + "translate 0 0 4\n" + TRIANGLE, WILL_BE_EMPTY +
         "all 2 triangles are behind the eye (z from 2 to 6 in view space; the camera looks down -z: turn it "
-        "around, or move it back by more than 6)",
-        NONE_CAME),
+        "around, or move it back by more than 6)", NONE_CAME),
     claim("too near to be divided", "translate 0 0 4.9999\n" + TRIANGLE,
           WILL_BE_EMPTY + "the triangle is nearer than the near plane (z is -0.0001)", NONE_CAME),
     claim("culled", TRIANGLE, WILL_BE_EMPTY + "the triangle is dropped by --cull", NONE_CAME, project=[
@@ -79,8 +76,8 @@ add_claims(Notes, [
     claim(
         "behind and culled", "translate 0 0 9\n" + TRIANGLE + "translate 0 0 -9\n" + TRIANGLE, WILL_BE_EMPTY +
         "none of 2 triangles is left: 1 behind the eye (z is 4 in view space; the camera looks down -z: turn "
-        "it around, or move it back by more than 4), 1 dropped by --cull",
-        NONE_CAME, project=["--cull", "front"]),
+        "it around, or move it back by more than 4), 1 dropped by --cull", NONE_CAME, project=[
+            "--cull", "front"]),
     claim(
         "radians", "translate 1 0 0\n" + TRIANGLE,
         "project: note: nothing is in view, but with a fovY of 60 degrees in place of 1.047, 1 triangle "
@@ -90,8 +87,8 @@ add_claims(Notes, [
     claim(
         "radians, clipped", "translate 1 0 0\n" + TRIANGLE,
         "project: note: nothing is in view, but with a fovY of 60 degrees in place of 1.047, 1 triangle "
-        "would be: angles are in degrees; was this one in radians?",
-        NONE_CAME, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n", project=["--clip", "frustum"]),
+        "would be: angles are in degrees; was this one in radians?", NONE_CAME,
+        camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n", project=["--clip", "frustum"]),
     claim("no radians where no angle would help", "translate 100 0 0\n" + TRIANGLE,
           EMPTY + "the triangle is right of the window (x from 2188 to 2210, " + WINDOW,
           camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n"),
@@ -105,13 +102,11 @@ add_claims(Notes, [
     claim(
         "a light with channels up to 255", "light 0 0 5 255 200 128\n" + TRIANGLE,
         "model: note: <stdin>:5:7: a light of 255 is 255 times full light: 1 is full, so divide by 255 if "
-        "this is a color"
-    ),
+        "this is a color"),
     claim(
         "ambient light with channels up to 255", "ambient 0 64 0\n" + LIT + TRIANGLE,
         "model: note: <stdin>:5:9: ambient light of 64 is 64 times full light: 1 is full, so divide by 255 "
-        "if this is a color"
-    ),
+        "if this is a color"),
     claim("a bright light", "light 0 0 5 16 8 4\n" + TRIANGLE),
     claim("a bright light that fades", "attenuation 0 0 1\nlight 0 0 5 100 100 100\n" + TRIANGLE),
     claim("a telescope", TRIANGLE, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n"),
@@ -131,8 +126,7 @@ add_claims(Notes, [
     claim(
         "at the rear limit, as near is too small", TRIANGLE, EMPTY +
         "the triangle is at the camera's far, which shows nothing (z is 1, perhaps rounded: a near that is "
-        "too close to the eye leaves z no digits)",
-        camera="0 0 5\n0 0 0\n0 1 0\n60 1 1e-7 5e9\n"),
+        "too close to the eye leaves z no digits)", camera="0 0 5\n0 0 0\n0 1 0\n60 1 1e-7 5e9\n"),
     claim("beyond the rear limit by the last digit", "translate 0 0 -95.0001\n" + TRIANGLE,
           EMPTY + "the triangle is beyond the rear limit (z is 1.00000002, the limit is 1, the camera's far)",
           project=["--digits", "10"]),
@@ -162,42 +156,36 @@ add_claims(Notes, [
     claim(
         "a light behind the surface", LIT + TRIANGLE,
         "zbuf: note: the picture is black: no light reaches the side that is seen (put a light on the eye's "
-        "side; ambient 0.2 0.2 0.2 would show it from anywhere)"
-    ),
+        "side; ambient 0.2 0.2 0.2 would show it from anywhere)"),
     claim(
         "a weak light", "light 0 0 5 0.002 0.002 0.001\ncolor 200 200 200\n" + TRIANGLE,
         "zbuf: note: the picture is black: the light on the side that is seen is too weak (its intensity is "
-        "0.002; 1 is full)"
-    ),
+        "0.002; 1 is full)"),
     claim(
         "a weak light before the surface and a strong one behind it",
         "light 0 0 5 0.002 0 0\nlight 0 0 -5 1 1 1\ncolor 200 200 200\n" + TRIANGLE,
         "zbuf: note: the picture is black: the light on the side that is seen is too weak (its intensity is "
-        "0.002; 1 is full)",
-        zbuf=["--shading", "gouraud"]),
+        "0.002; 1 is full)", zbuf=["--shading", "gouraud"]),
     claim(
         "lights of no intensity", "light 0 0 5 0 0 0\nlight 1 0 5 0 0 0\ncolor 200 200 200\n" + TRIANGLE,
         "zbuf: note: the picture is black: every light has the intensity 0 (the last three numbers of "
-        "'light'; 1 is full)"
-    ),
+        "'light'; 1 is full)"),
     claim(
         "a light weakened by its distance",
         "attenuation 1 0 100\nlight 0 0 5 1 1 1\ncolor 200 200 200\n" + TRIANGLE,
         "zbuf: note: the picture is black: the light on the side that is seen is too weak (its intensity is "
-        "1, and attenuation weakens it: '1 0 0' would not)"
-    ),
+        "1, and attenuation weakens it: '1 0 0' would not)"),
     claim(
         "a material of no share", "material 1 0 0 1\nlight 0 0 5 1 1 1\ncolor 200 200 200\n" + TRIANGLE,
         "zbuf: note: the picture is black: the material reflects no light but the ambient (of 'material KA "
-        "KD KS N', KD and KS are 0)"
-    ),
+        "KD KS N', KD and KS are 0)"),
     claim("a light behind the surface, as the note advises", "ambient 0.2 0.2 0.2\n" + LIT + TRIANGLE),
     claim("a silhouette", "background 255 255 255\n" + LIT + TRIANGLE),
     claim("the color of the background", "background 255 255 255\ncolor 255 255 255\n" + TRIANGLE,
           EMPTY + "what is seen has the color of the background"),
     claim("no edge in sight", "scale 99 99 1\ntranslate -0.3 -0.3 0\n" + TRIANGLE,
-          EMPTY + "--wireframe shows edges alone, and none is in sight", zbuf=["--wireframe"]), ])
-
+          EMPTY + "--wireframe shows edges alone, and none is in sight", zbuf=["--wireframe"])]
+add_claims(Notes, NOTES)
 
 # Samples that show what a note tells of: zbuf draws matt what is glass; 7 digits cannot tell two walls apart.
 ARE_NOTED = {"glass-and-mirrors", "two-walls"}
@@ -207,7 +195,7 @@ class Silence(ToolTest):
     def test_every_sample(self):
         for scene in sorted(SOURCE.glob("samples/*/scene.txt")):
             for options in ((), ("--coverage", "center"), ("--samples", "2"), ("--algorithm", "scanline"),
-                            ("--wireframe", )):
+                            ("--wireframe",)):
                 with self.subTest(scene=scene.parent.name, options=options):
                     noted = stderr_of(scene.read_text(), scene.parent / "config.txt", {"zbuf": options})
                     self.assertEqual([line for line in noted if " the picture is " in line], [])
@@ -226,12 +214,12 @@ class Silence(ToolTest):
 class FirstVisible(ToolTest):
     """The note is there exactly if no pixel has a depth, whatever the rule, the format, the algorithm and the
     kernel."""
-
     def random_text(self, rng):
         def vertex():
             reach = rng.choice((1.02, 1.3, 3))
             return "%.7f %.7f %.7f\n" % (rng.uniform(-reach, reach), rng.uniform(
                 -reach, reach), rng.choice((-1.2, -1, 0.999, 1, 1.0000001, 1.2)))
+
         return "".join("".join(vertex() for _ in range(3)) + "\n" for _ in range(rng.choice((1, 1, 2, 3))))
 
     def test_random_triangles_at_the_limits(self):

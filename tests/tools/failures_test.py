@@ -44,8 +44,9 @@ class ErrorLines(ToolTest):
 
     def test_a_missing_input_writes_one_as_well(self):
         for tool in ("model", "view", "project"):
-            self.assertEqual(run(tool, "none.txt").stdout.decode(),
-                             f"error {tool}: cannot open none.txt: No such file or directory\n")
+            self.assertEqual(
+                run(tool, "none.txt").stdout.decode(),
+                f"error {tool}: cannot open none.txt: No such file or directory\n")
 
     def test_a_tool_that_draws_writes_none_for_its_output_is_no_stage_text(self):
         for tool in DRAWING:
@@ -93,9 +94,8 @@ class ErrorLines(ToolTest):
                                                                        "an earlier stage failed: a b: c"),
                            ("error no colon", "an earlier stage failed: no colon"),
                            ("error nothing", "an earlier stage failed: nothing"),
-                           ("error : x",
-                            "an earlier stage failed: : x"), ("error",
-                                                              "an earlier stage failed, without saying why")):
+                           ("error : x", "an earlier stage failed: : x"),
+                           ("error", "an earlier stage failed, without saying why")):
             self.assert_fails(run("zbuf", "config.txt", stdin=line + "\n"), 1, f"zbuf: no picture: {told}")
 
     def test_from_a_file_the_whole_message_is_repeated(self):
@@ -150,8 +150,7 @@ class WholePipe(ToolTest):
     FAILURES = (  # the stage that fails, its words, and its message
         ("model", "--bogus", "expected an option of model, found '--bogus' (try model --help)"),
         ("model", "none.txt", "cannot open none.txt: No such file or directory"),
-        ("model", "cut.txt",
-         "cut.txt:9:1: expected 'end', which closes a scene, found the end of the input"),
+        ("model", "cut.txt", "cut.txt:9:1: expected 'end', which closes a scene, found the end of the input"),
         ("view", "--bogus", "expected an option of view, found '--bogus' (try view --help)"),
         ("project", "--clip x",
          "--clip: expected auto, near, frustum, reject or none, found 'x' (try project --help)"),

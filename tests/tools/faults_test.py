@@ -11,9 +11,8 @@ import subprocess
 import time
 import unittest
 
-from toolbox import (
-    ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, TRIANGLE, ToolTest, command, pseudo_terminal, run,
-    run_with, stage_texts)
+from toolbox import (ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, TRIANGLE, ToolTest, command,
+                     pseudo_terminal, run, run_with, stage_texts)
 
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
 OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"], "trace": ["config.txt"]}
@@ -90,7 +89,6 @@ class FullDisk(FaultTest):
 
 class ClosedReader(FaultTest):
     """The reader of the output has gone, as `head` does."""
-
     def run_without_reader(self, tool, text, ignore):
         pathlib.Path("input.txt").write_text(text)
         end, writing = os.pipe()

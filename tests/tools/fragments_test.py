@@ -34,8 +34,10 @@ def colors_by_number(count):
 def random_triangles(count, seed):
     """Triangles at few depths, some beyond the limits, so that every fate occurs."""
     numbers = random.Random(seed)
+
     def vertex(z):
         return f"{numbers.uniform(-1.5, 1.5):.7f} {numbers.uniform(-1.5, 1.5):.7f} {z:.7f}\n"
+
     text = ""
     for _ in range(count):
         depths = [numbers.choice([-0.1, 0, 0.25, 0.5, 0.75, 1, 1.1])] * 3 if numbers.random() < 0.5 else [
@@ -56,8 +58,7 @@ class Fragments(ToolTest):
 
     def test_every_fate_is_told_with_its_reason(self):
         self.assertEqual(self.probe("".join(map(wall, (0.5, 0.25, 0.75, 0.25, -0.5, 1)))), [
-            "zbuf: 1,2: triangle 0, depth 0.5: kept",
-            "zbuf: 1,2: triangle 1, depth 0.25: kept",
+            "zbuf: 1,2: triangle 0, depth 0.5: kept", "zbuf: 1,2: triangle 1, depth 0.25: kept",
             "zbuf: 1,2: triangle 2, depth 0.75: lost, behind triangle 1",
             "zbuf: 1,2: triangle 3, depth 0.25: lost, equal and later than triangle 1",
             "zbuf: 1,2: triangle 4, depth -0.5: lost, before the front limit",
@@ -146,8 +147,9 @@ class Fragments(ToolTest):
     def test_every_fate_turns_up_in_what_was_compared(self):
         self.zbuf("--fragments", "fragments.txt", stdin=random_triangles(300, 8),
                   config="40 30\n-1\n-1\n0 1\n")
-        fates = collections.Counter(re.sub(r" (than )?triangle \d+", "", line.split(": ")[2])
-                                    for line in pathlib.Path("fragments.txt").read_text().splitlines())
+        fates = collections.Counter(
+            re.sub(r" (than )?triangle \d+", "",
+                   line.split(": ")[2]) for line in pathlib.Path("fragments.txt").read_text().splitlines())
         self.assertEqual(
             set(fates), {
                 "kept", "lost, behind", "lost, equal and later", "lost, before the front limit",

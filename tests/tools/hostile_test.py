@@ -10,8 +10,7 @@ import resource
 import subprocess
 import unittest
 
-from toolbox import (
-    CAMERA, DRAWING, HEADER, HEADERS, SCENE, ToolTest, command, run, tool_inputs)
+from toolbox import (CAMERA, DRAWING, HEADER, HEADERS, SCENE, ToolTest, command, run, tool_inputs)
 
 MEMORY = 256 << 20
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
@@ -67,8 +66,8 @@ class Hostile(ToolTest):
         self.assertGreater(read, 20, tool)
 
     def test_a_damaged_scene_is_read_as_it_reads_or_refused(self):
-        self.check("model", [], SCENE.encode(),
-                   lambda _, done: (done.stderr, done.stdout.count(b"\n\n")) == (b"", 1))
+        self.check("model", [], SCENE.encode(), lambda _, done: (done.stderr, done.stdout.count(b"\n\n")) ==
+                   (b"", 1))
 
     def test_so_is_a_damaged_stage_text(self):
         def has_whole_triangles(_, done):  # three vertices are complete, or none

@@ -43,7 +43,6 @@ def triangles(count, seed, size, has_normals):
 
 class KeptTriangles(ToolTest):
     """The scan-line algorithm keeps all triangles."""
-
     def check(self, text, *options, config="40 40\n", note=""):
         pathlib.Path("config.txt").write_text(config)
         pictures = []
@@ -75,19 +74,19 @@ class KeptTriangles(ToolTest):
     def test_nor_if_every_triangle_hides_those_before(self):
         walls = "".join(
             f"-9 -9 {-i / LEAST / 4:.9f} 1 {i % 256} 0 0\n9 -9 {-i / LEAST / 4:.9f} 1 0 {i % 256} 0\n0 9 "
-            f"{-i / LEAST / 4:.9f} 1 0 0 9\n\n"
-            for i in range(3 * LEAST))
+            f"{-i / LEAST / 4:.9f} 1 0 0 9\n\n" for i in range(3 * LEAST))
         self.check(COLORED + walls, config="4 4\n")
 
     def test_statistics_and_notes_speak_of_those_let_go_of_too(self):
         """A bright far wall, and black ones before it; one of them reaches far out."""
         def wall(z, color, right="9"):
             return f"-9 -9 {z:.6f} 1 {color}\n{right} -9 {z:.6f} 1 {color}\n0 9 {z:.6f} 1 {color}\n\n"
+
         black = "".join(wall(-i / LEAST / 4, "0 0 0", "70" if i == 5 else "9") for i in range(3 * LEAST))
         is_black = "zbuf: note: the picture is black: every color is 0\n"
         is_background = "zbuf: note: the picture is empty: what is seen has the color of the background\n"
-        for first, z_max, note in ((wall(0.5, "0 0 0"), "0.5", is_black), (wall(0.75, "0 200 0"), "0.75",
-                                                                           is_background)):
+        for first, z_max, note in ((wall(0.5, "0 0 0"), "0.5", is_black), (wall(
+                0.75, "0 200 0"), "0.75", is_background)):
             self.check(COLORED + first + black, "--stats", "stats.txt", config="4 4\n", note=note)
             lines = pathlib.Path("stats.txt").read_text().splitlines()
             last = f"{-(3 * LEAST - 1) / LEAST / 4:.6f}"

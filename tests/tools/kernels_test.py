@@ -11,8 +11,8 @@ import unittest
 from toolbox import HEADER, HEADERS, ToolTest, run
 
 KERNELS = ("scalar", "sse4", "avx2", "avx512")
-DIGITS = ([], *(["--digits", str(decimals)] for decimals in range(18)), ["--digits", "exact"],
-          ["--digits", "exact", "--precision", "double"], ["--precision", "double"])
+DIGITS = ([], *(["--digits", str(decimals)] for decimals in range(18)), ["--digits", "exact"], [
+    "--digits", "exact", "--precision", "double"], ["--precision", "double"])
 
 
 def random_text(count):
@@ -25,8 +25,8 @@ def random_text(count):
         return rng.choice(("%.7f" % value, "%.7f" % value, "%.17g" % value, "%d" % value,
                            "%.8f" % ((int(value * 128) + 0.5) / 128)))
 
-    return "".join(f"{number(-3, 3)} {number(-3, 3)} {number(-9, -2)}\n" + "\n" * (i % 3 == 2)
-                   for i in range(3 * count))
+    return "".join(
+        f"{number(-3, 3)} {number(-3, 3)} {number(-9, -2)}\n" + "\n" * (i % 3 == 2) for i in range(3 * count))
 
 
 class Kernels(ToolTest):

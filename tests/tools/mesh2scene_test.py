@@ -70,8 +70,7 @@ def picture_of(scene, width, height):
     pixels = data[-3 * width * height:]
     background = tuple(int(float(word)) for word in header(scene)["background"][0].split())
     return [[
-        tuple(pixels[3 * (row * width + k):3 * (row * width + k) + 3]) != background
-        for k in range(width)]
+        tuple(pixels[3 * (row * width + k):3 * (row * width + k) + 3]) != background for k in range(width)]
             for row in range(height)]
 
 
@@ -88,7 +87,7 @@ class Formats(ToolTest):
                         for vertex, i in zip(got, indices):
                             for x, expected in zip(vertex[:3], mesh.vertices[i]):
                                 # assimp reads a decimal to within a unit of a float's last digit.
-                                self.assertLessEqual(abs(x - expected), 2.0 ** -22 * max(abs(expected), 0.25))
+                                self.assertLessEqual(abs(x - expected), 2.0**-22 * max(abs(expected), 0.25))
                             if mesh.colors and suffix != "stl":
                                 for x, expected in zip(vertex[3:6], mesh.colors[i]):
                                     self.assertAlmostEqual(x, expected, 2)
@@ -100,20 +99,17 @@ class Formats(ToolTest):
         """A binary file's numbers come out as the shortest decimals of the same floats."""
         generator = random.Random(5)
         points = [
-            tuple(float32(generator.uniform(-1, 1) * 10**generator.randint(-6, 6))
-                  for _ in range(3))
+            tuple(float32(generator.uniform(-1, 1) * 10**generator.randint(-6, 6)) for _ in range(3))
             for _ in range(60)]
-        pathlib.Path("model.stl").write_bytes(FORMATS["stl"](Mesh(points, [], [
-            (i, i + 1, i + 2) for i in range(0, 60, 3)])))
+        pathlib.Path("model.stl").write_bytes(FORMATS["stl"](Mesh(
+            points, [], [(i, i + 1, i + 2) for i in range(0, 60, 3)])))
         words = [
-            line.split()[:3]
-            for line in scene_of("model.stl").split("attributes", 1)[1].splitlines()
+            line.split()[:3] for line in scene_of("model.stl").split("attributes", 1)[1].splitlines()
             if line[:1] in "-0123456789" and line]
         self.assertEqual([tuple(float32(float(word)) for word in row) for row in words], points)
         self.assertLessEqual(
             max(
-                len(word.lstrip("-").replace(".", "").split("e")[0].strip("0"))
-                for row in words
+                len(word.lstrip("-").replace(".", "").split("e")[0].strip("0")) for row in words
                 for word in row), 9)
 
     def test_standard_input_is_read_too(self):
@@ -128,8 +124,7 @@ class Normals(ToolTest):
         mesh = vase(12)
         pathlib.Path("model.stl").write_bytes(FORMATS["stl"](mesh))
         cosines = [
-            sum(a * b
-                for a, b in zip(vertex[-3:], mesh.normals[i]))
+            sum(a * b for a, b in zip(vertex[-3:], mesh.normals[i]))
             for got, indices in zip(world_triangles(scene_of("model.stl")), mesh.triangles)
             for vertex, i in zip(got, indices)]
         self.assertGreater(min(cosines), 0.96)
@@ -146,8 +141,9 @@ class Normals(ToolTest):
         points = [tuple(round(x, 6) for x in p) for i in range(9) for p in ring(i)]
         quads = [(16 * i + k, 16 * i + 16 + k, 16 * i + 16 + (k + 1) % 16, 16 * i + (k + 1) % 16)
                  for i in range(8) for k in range(16)]
-        triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))
-                     if len({points[i] for i in t}) == 3]
+        triangles = [
+            t for a, b, c, d in quads for t in ((a, b, c), (a, c, d)) if len({points[i]
+                                                                              for i in t}) == 3]
         pathlib.Path("ball.stl").write_bytes(FORMATS["stl"](Mesh(points, [], triangles)))
         normals = {}
         for triangle in world_triangles(scene_of("ball.stl")):
@@ -176,16 +172,14 @@ class Normals(ToolTest):
 
         corners = fan(lambda t: (math.cos(t), math.sin(t), 0)) + fan(lambda t: (math.cos(t), 0, -math.sin(t)))
         points = [p for triangle in corners for p in triangle]
-        pathlib.Path("fans.stl").write_bytes(FORMATS["stl"](Mesh(points, [], [
-            (i, i + 1, i + 2) for i in range(0, len(points), 3)])))
-        for crease, expected in (("60", {(0, 0, 1), (0, 1, 0)}), ("100", {
-            (0, round(math.sqrt(0.5), 3), round(math.sqrt(0.5), 3))})):
+        pathlib.Path("fans.stl").write_bytes(FORMATS["stl"](Mesh(
+            points, [], [(i, i + 1, i + 2) for i in range(0, len(points), 3)])))
+        for crease, expected in (("60", {(0, 0, 1), (0, 1, 0)}), ("100", {(0, round(
+                math.sqrt(0.5), 3), round(math.sqrt(0.5), 3))})):
             normals = {
-                tuple(round(x, 3) + 0.0
-                      for x in vertex[-3:])
+                tuple(round(x, 3) + 0.0 for x in vertex[-3:])
                 for triangle in world_triangles(scene_of("fans.stl", "--crease", crease))
-                for vertex in triangle
-                if vertex[:3] == (0, 0, 0)}
+                for vertex in triangle if vertex[:3] == (0, 0, 0)}
             self.assertEqual(normals, expected, crease)
 
     def test_an_edge_stays_sharp_beyond_the_crease(self):
@@ -217,11 +211,10 @@ class Framing(ToolTest):
         generator = random.Random(11)
         meshes = [knot(2), vase(4), terrain(4)]
         for _ in range(17):  # clouds of triangles, near and far from the origin
-            sizes = [10 ** generator.uniform(-0.5, 0.5) for _ in range(3)]
-            center = [generator.choice((0, 10 ** generator.uniform(-1, 3))) for _ in range(3)]
+            sizes = [10**generator.uniform(-0.5, 0.5) for _ in range(3)]
+            center = [generator.choice((0, 10**generator.uniform(-1, 3))) for _ in range(3)]
             points = [
-                tuple(round(c + s * generator.uniform(-1, 1), 5)
-                      for c, s in zip(center, sizes))
+                tuple(round(c + s * generator.uniform(-1, 1), 5) for c, s in zip(center, sizes))
                 for _ in range(600)]
             meshes.append(Mesh(points, [(0, 0, 1)] * 600, [(i, i + 1, i + 2) for i in range(0, 600, 3)]))
         for number, mesh in enumerate(meshes):
@@ -328,14 +321,13 @@ def gltf_with_nodes():
     mesh = vase(1)
     document = json.loads(FORMATS["gltf"](mesh))
     s = math.sqrt(0.5)
-    document["nodes"] = [{
-        "name": "root", "translation": [1, 2, 3], "rotation": [0, s, 0, s],
-        "children": [1, 2]},  # 90 degrees about y
-                         {"name": "first", "mesh": 0, "scale": [2, 1, 0.5]},
-                         {"name": "second", "mesh": 0, "scale": [-1, 1, 1], "translation": [0, 0, 4]}, {
-                             "name": "eye", "camera": 0, "translation": [0, 0, 25]}, {
-                                 "name": "lamp", "translation": [7, 8, 9],
-                                 "extensions": {"KHR_lights_punctual": {"light": 0}}}]
+    document["nodes"] = [
+        {"name": "root", "translation": [1, 2, 3], "rotation": [0, s, 0, s], "children": [
+            1, 2]},  # 90 degrees about y
+        {"name": "first", "mesh": 0, "scale": [2, 1, 0.5]},
+        {"name": "second", "mesh": 0, "scale": [-1, 1, 1], "translation": [0, 0, 4]},
+        {"name": "eye", "camera": 0, "translation": [0, 0, 25]},
+        {"name": "lamp", "translation": [7, 8, 9], "extensions": {"KHR_lights_punctual": {"light": 0}}}]
     document["scenes"] = [{"nodes": [0, 3, 4]}]
     document["cameras"] = [{
         "type": "perspective", "perspective": {"yfov": math.radians(40), "znear": 1, "zfar": 100}}]
@@ -391,8 +383,8 @@ class Nodes(ToolTest):
         for aspect in ({}, {"aspectRatio": 1.5}, {"aspectRatio": 16 / 9}, {"aspectRatio": 0.6}):
             for yfov in (10, 40, 95):
                 document["cameras"] = [{
-                    "type": "perspective",
-                    "perspective": {"yfov": math.radians(yfov), "znear": 1, "zfar": 100, **aspect}}]
+                    "type": "perspective", "perspective": {
+                        "yfov": math.radians(yfov), "znear": 1, "zfar": 100, **aspect}}]
                 pathlib.Path("model.gltf").write_text(json.dumps(document))
                 found = header(scene_of("model.gltf", "--size", "300x200"))["projection"].split()
                 self.assertAlmostEqual(float(found[0]), yfov, 3, aspect)
@@ -430,9 +422,8 @@ class Nodes(ToolTest):
         lights = document["extensions"]["KHR_lights_punctual"]["lights"]
         for light, translation in (({"color": [-1, 0, 0]}, [0, 0, 0]), ({"color": [1, 1, 1]}, [1e39, 0, 0])):
             lights[1:] = [{"type": "point", **light}]
-            document["nodes"][5:] = [
-                {"translation": translation, "extensions": {"KHR_lights_punctual": {"light": 1}}}
-            ]
+            document["nodes"][5:] = [{
+                "translation": translation, "extensions": {"KHR_lights_punctual": {"light": 1}}}]
             document["scenes"] = [{"nodes": [0, 3, 4, 5]}]
             pathlib.Path("model.gltf").write_text(json.dumps(document))
             self.assertEqual(header(scene_of("model.gltf"))["light"], usual)
@@ -448,8 +439,7 @@ class Colors(ToolTest):
             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
             "property uchar red\nproperty uchar green\n"
             "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 "
-            "255 0 77\n1 0 0 0 128 1\n0 1 0 9 8 7\n3 0 1 2\n"
-        )
+            "255 0 77\n1 0 0 0 128 1\n0 1 0 9 8 7\n3 0 1 2\n")
         self.assertEqual([vertex[3:6] for vertex in world_triangles(scene_of("model.ply"))[0]], [(255, 0, 77),
                                                                                                  (0, 128, 1),
                                                                                                  (9, 8, 7)])
@@ -475,16 +465,15 @@ STUDIO = "1 1 0.15 20"  # of meshes whose file says nothing of materials
 
 def by_roughness(base, metallic, roughness):
     """Blinn-Phong in place of glTF's metallic and roughness factors, as docs/models.md has it."""
-    shininess = min(10000, max(1, 2 / roughness ** 4 - 2))
+    shininess = min(10000, max(1, 2 / roughness**4 - 2))
     f0 = 0.04 + metallic * (max(base) - 0.04)
     return 1, 1 - metallic / 2, min(1, f0 * (shininess + 2) / 8), round(shininess)
 
 
 class Materials(ToolTest):
-    MTL = (
-        "newmtl matt\nKd 0.8 0.8 0.8\nKs 0 0 0\nNs 10\nnewmtl shiny\nKa 0.4 0.2 0.1\nKd 0.8 0.2 0\nKs 0.6 "
-        "0.5 0.5\nNs 64\nnewmtl other\nKd 0 0 1\n"
-        "newmtl twin\nKa 0 0.15 0\nKd 0 0.3 0\nKs 0.6 0 0\nNs 64\n")
+    MTL = ("newmtl matt\nKd 0.8 0.8 0.8\nKs 0 0 0\nNs 10\nnewmtl shiny\nKa 0.4 0.2 0.1\nKd 0.8 0.2 0\nKs 0.6 "
+           "0.5 0.5\nNs 64\nnewmtl other\nKd 0 0 1\n"
+           "newmtl twin\nKa 0 0.15 0\nKd 0 0.3 0\nKs 0.6 0 0\nNs 64\n")
 
     def write_obj(self, *names):
         pathlib.Path("model.mtl").write_text(self.MTL)
@@ -509,8 +498,9 @@ class Materials(ToolTest):
 
     def test_one_is_enough_where_all_are_alike(self):
         self.write_obj("shiny", "twin")
-        self.assertEqual(self.lines("model.obj"), [
-            "material 0.5 1 0.6 64", "paint 204 51 0", "material 0.5 1 0.6 64", "paint 0 76.5 0", "use 1"])
+        self.assertEqual(
+            self.lines("model.obj"),
+            ["material 0.5 1 0.6 64", "paint 204 51 0", "material 0.5 1 0.6 64", "paint 0 76.5 0", "use 1"])
         self.assertEqual(self.lines("model.obj", "--color", "0000ff"),
                          ["material 0.5 1 0.6 64", "paint 0 0 255"])
         self.write_obj("other")
@@ -537,10 +527,8 @@ class Materials(ToolTest):
         pathlib.Path("model.gltf").write_text(json.dumps(document))
         for options in ([], ["--nodes"]):
             lines = self.lines("model.gltf", *options)
-            found = [[float(word)
-                      for word in line.split()[1:]]
-                     for line in lines
-                     if line.startswith("material")]
+            found = [
+                [float(word) for word in line.split()[1:]] for line in lines if line.startswith("material")]
             self.assertEqual(len(found), len(kinds))
             for factors, (base, metallic, roughness) in zip(found, kinds):
                 for value, expected in zip(factors, by_roughness(base, metallic, max(roughness, 1e-9))):
@@ -559,8 +547,7 @@ class Materials(ToolTest):
         self.assertEqual(done.returncode, 0)
         self.assertIn(
             "mesh2scene: note: model.obj: it has more than 256 materials; from there on meshes have "
-            "the first\n",
-            done.stderr.decode())
+            "the first\n", done.stderr.decode())
         self.assertEqual([line for line in lines if line.startswith("material")],
                          [f"material 1 1 0.5 {i + 1}" for i in range(256)])
         self.assertEqual([line for line in lines if line.startswith("use")],
@@ -645,8 +632,7 @@ class Refusals(ToolTest):
             "ply\nformat ascii 1.0\nelement vertex 900000000\nproperty float x\nproperty float y\nproperty "
             "float z\n"
             "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
-            "3 0 1 2\n"
-        )
+            "3 0 1 2\n")
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
         self.assert_refused("many.ply", "many.ply: assimp cannot read this model: ")
         done = run("mesh2scene", stdin=pathlib.Path("many.ply").read_bytes())  # is measured, too
@@ -675,32 +661,24 @@ SECRET = struct.pack("<9f", 7, 7, 7, 8, 7, 7, 7, 8, 7)  # bytes that would come 
 def gltf_of(*uris):
     """A triangle from each of the files."""
     count = range(len(uris))
-    return json.dumps(
-        {
-            "asset": {"version": "2.0"},
-            "scenes": [{"nodes": [*count]}],
-            "nodes": [{"mesh": i} for i in count],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": i}}]} for i in count],
-            "accessors": [
-                {
-                    "bufferView": i,
-                    "componentType": 5126,
-                    "count": 3,
-                    "type": "VEC3",
-                    "min": [0, 0, 0],
-                    "max": [9, 9, 9],
-                }
-                for i in count
-            ],
-            "bufferViews": [{"buffer": i, "byteLength": 36} for i in count],
-            "buffers": [{"uri": uri, "byteLength": 36} for uri in uris],
-        }
-    )
+    return json.dumps({
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [*count]}],
+        "nodes": [{"mesh": i} for i in count],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": i}}]} for i in count],
+        "accessors": [{
+            "bufferView": i,
+            "componentType": 5126,
+            "count": 3,
+            "type": "VEC3",
+            "min": [0, 0, 0],
+            "max": [9, 9, 9],} for i in count],
+        "bufferViews": [{"buffer": i, "byteLength": 36} for i in count],
+        "buffers": [{"uri": uri, "byteLength": 36} for uri in uris],})
 
 
 class OtherFiles(ToolTest):
     """A model opens regular files in or below its folder."""
-
     def setUp(self):
         super().setUp()
         pathlib.Path("home/model/parts").mkdir(parents=True)
@@ -742,8 +720,7 @@ class OtherFiles(ToolTest):
         refused = (
             "../secret parts/../../secret .. . parts parts/up/../secret /etc/passwd /dev/stdin /dev/zero out "
             "parts/out home/secret absolute zero self/environ /proc/self/environ fifo to_fifo socket "
-            "loop gone"
-        )
+            "loop gone")
         of_no_file = "nothing file/../../secret nothing/../../secret %2e%2e/secret ..\\secret"
         for uri in ["", secret, "file://" + secret, *refused.split(), *of_no_file.split()]:
             with self.subTest(uri):
@@ -751,9 +728,8 @@ class OtherFiles(ToolTest):
                 self.assertEqual((done.returncode, done.stdout), (1, b""))
                 if uri == secret or uri in refused.split():
                     expected = f"regular files in or below the model's folder, found {quoted(uri)}"
-                    self.assertEqual(
-                        done.stderr.decode(), f"mesh2scene: home/model/a.gltf: expected {expected}\n"
-                    )
+                    self.assertEqual(done.stderr.decode(),
+                                     f"mesh2scene: home/model/a.gltf: expected {expected}\n")
 
     def test_that_a_model_can_do_without_are_noted(self):
         for name in ("../secret", "fifo", "/dev/zero", "out"):
@@ -808,8 +784,7 @@ class OtherFiles(ToolTest):
         for name in ("home/model/fifo", "home/model/socket", "/dev/zero", "/dev/null"):
             done = run("mesh2scene", name)
             self.assert_fails(
-                done, 1, f"mesh2scene: {name}: expected a regular file, or - for what comes through a pipe"
-            )
+                done, 1, f"mesh2scene: {name}: expected a regular file, or - for what comes through a pipe")
 
     def test_are_limited_together(self):
         pathlib.Path("big.obj").write_text("mtllib big.mtl\n" + BOX + "#" * 600_000)
@@ -823,9 +798,8 @@ class OtherFiles(ToolTest):
         self.assert_quiet_success(run("mesh2scene", "--max-input", "2", "--up-axis", "y", "big.obj"))
         with open("big.obj", "ab") as file:
             file.truncate(10**13)  # no bytes on the disk
-        self.assert_fails(
-            run("mesh2scene", "big.obj"), 1, f"mesh2scene: big.obj: {limit.replace('1', '1000')}"
-        )
+        self.assert_fails(run("mesh2scene", "big.obj"), 1,
+                          f"mesh2scene: big.obj: {limit.replace('1', '1000')}")
         self.assert_fails(
             run("mesh2scene", "--max-input", "1", stdin=BOX + "#" * 1_000_000),
             1,
@@ -835,7 +809,6 @@ class OtherFiles(ToolTest):
 
 class Endings(ToolTest):
     """assimp runs in a child, which ends with its parent."""
-
     def test_a_closed_pipe_ends_it_by_sigpipe(self):
         pathlib.Path("box.obj").write_text(BOX)
         reader, writer = os.pipe()
@@ -865,18 +838,17 @@ class Endings(ToolTest):
     def test_a_signal_ends_both(self):
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             for kill in (
-                lambda parent, child, n: os.kill(parent, n),
-                lambda parent, child, n: os.kill(child, n),
-                lambda parent, child, n: os.killpg(parent, n),
+                    lambda parent, child, n: os.kill(parent, n),
+                    lambda parent, child, n: os.kill(child, n),
+                    lambda parent, child, n: os.killpg(parent, n),
             ):
                 self.assertEqual(self.end(number, kill), (-number, ""))
 
     def test_the_end_of_its_time_is_told(self):
         for number in (signal.SIGXCPU, signal.SIGALRM):
             status, message = self.end(number, lambda parent, child, n: os.kill(child, n))
-            self.assertEqual(
-                (status, message), (1, "mesh2scene: <stdin>: assimp does not come to an end with this file\n")
-            )
+            self.assertEqual((status, message),
+                             (1, "mesh2scene: <stdin>: assimp does not come to an end with this file\n"))
 
 
 class Coarse(ToolTest):
@@ -915,8 +887,8 @@ class Notes(ToolTest):
         pathlib.Path("box.obj").write_text(BOX)
         pathlib.Path("leaf.stl").write_text("solid\nfacet normal 0 0 1\nouter loop\nvertex -2 0.125 0\n"
                                             "vertex 1e9 0 3\nvertex 0 1e9 7\nendloop\nendfacet\nendsolid\n")
-        for name, axis, box in (("box.obj", "y", "0 0 0 to 1 1 1"), 
-                                ("leaf.stl", "z", "-2 0 0 to 1e+09 1e+09 7")):
+        for name, axis, box in (("box.obj", "y", "0 0 0 to 1 1 1"), ("leaf.stl", "z",
+                                                                     "-2 0 0 to 1e+09 1e+09 7")):
             self.assertEqual(
                 run("mesh2scene", name).stderr.decode(),
                 f"mesh2scene: note: {axis} is taken for up, as in most {name[-3:].upper()} files (--up-axis "

@@ -26,7 +26,7 @@ class SceneMessages(ToolTest):
         self.assert_fails(run("model", "scene.txt"), 1, "model: scene.txt:" + message)
 
 
-add_claims(SceneMessages, [
+SCENES = [
     # The camera.
     ("the eye has a z", "0 0\n", "1:4: expected the z of the eye, found the end of the line"),
     ("a number may be too large", "0 0 1e309\n",
@@ -58,8 +58,7 @@ add_claims(SceneMessages, [
      "6:3: expected one 'background', found a second one after scene.txt:5:12"),
     ("columns that are announced are there", CAMERA + "attributes color normal\ntriangle\n0 0 0 1 2 3\n",
      "7:12: expected the normal's x of vertex 1 of 3 (x y z r g b nx ny nz, by the line 'attributes color "
-     "normal'), found the end of the line"
-     ),
+     "normal'), found the end of the line"),
     ("a light may leave a doubles range", CAMERA + "scale 1 1e300 1\nlight\n  0 -1e300 0 1 1 1\nend\n",
      "7:3: expected a light whose image is within a double's range, found an overflow of its y"),
     ("ambient light takes nothing away", CAMERA + "ambient -1 0 0\n",
@@ -69,12 +68,12 @@ add_claims(SceneMessages, [
     ("a material has a shininess", CAMERA + "material 1 1 1\n",
      "5:15: expected the shininess, a whole number below 2^64, found the end of the line"),
     ("attenuation is not negative", CAMERA + "attenuation 1 -1 0\n",
-     "5:15: expected the linear attenuation of at least 0, found '-1'"), ])
+     "5:15: expected the linear attenuation of at least 0, found '-1'")]
+add_claims(SceneMessages, SCENES)
 
 
 class StageMessages(ToolTest):
     """The three readers of stage text find the same errors; each reads its own header, in place of HEADER."""
-
     def check(self, text, message):
         for tool, *options in (["view"], ["project"], ["zbuf", "config.txt"]):
             pathlib.Path("stage.txt").write_text(text.replace(HEADER, HEADERS[tool]))
@@ -87,18 +86,15 @@ add_claims(StageMessages, [
      "9:1: expected header lines before the first triangle, found 'up'"),
     ("a material is one of the header's", MATERIALS + HEADER + "0 0 0 2\n",
      "8:7: expected the material of vertex 1 of 3 (x y z material, by the line 'attributes material'), a "
-     "whole number below 2, found '2'"
-     ),
+     "whole number below 2, found '2'"),
     ("a material is a whole number", MATERIALS + HEADER + "0 0 0 1.0\n",
      "8:7: expected the material of vertex 1 of 3 (x y z material, by the line 'attributes material'), a "
-     "whole number below 2, found '1.0'"
-     ),
+     "whole number below 2, found '1.0'"),
     ("a vertex has the columns of its attributes", "attributes color\n" + HEADER + "0 0 0 1 1\n",
      "6:10: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes color'), found the end "
-     "of the line"
-     ),
+     "of the line"),
     ("a coordinate may be too large", HEADER + "0 0 0\n1 0 0\n0 1e999 0\n",
-     "7:3: expected the y of vertex 3 of 3 within a double's range, found '1e999'"), ])
+     "7:3: expected the y of vertex 3 of 3 within a double's range, found '1e999'"),])
 
 
 class CameraMessages(ToolTest):
@@ -108,37 +104,35 @@ class CameraMessages(ToolTest):
 
 
 CAMERA_FORM = "a camera (header lines eye, look and up; or --scene; or --eye, --look and --up)"
-add_claims(CameraMessages, [
+CAMERAS = [
     ("view needs a whole camera", "view", "eye 0 0 5\n# c\n\n 0 0 0\n", 1,
      f"<stdin>:4:2: expected {CAMERA_FORM}, found no look or up"),
     ("view says which option is missing", "view --eye 0 0 5 --look 0 0 0", VERTICES, 1,
      f"<stdin>:1:1: expected {CAMERA_FORM}, found no up"),
     ("fovX may be far too large", "project", "perspective 100 1e308 1 9\n", 1,
      "<stdin>:1:13: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a "
-     "scene, the word ratio at the end), found 100 * 1e+308"
-     ),
+     "scene, the word ratio at the end), found 100 * 1e+308"),
     ("a vertex on the eye plane cannot be divided", "project --clip none",
      "perspective 60 1 1 9\n0 0 -2\n1 0 0\n0 1 -2\n", 1, f"<stdin>:3:1: {IN_FRONT}, found z = 0"),
     ("a vertex behind the eye cannot be divided", "project --clip none",
      "perspective 60 1 1 9\n0 0 2\n1 0 -2\n0 1 -2\n", 1, f"<stdin>:2:1: {IN_FRONT}, found z = 2"),
     (
-        "a cut may be too near to the eye", "project",
-        "perspective 120 1 1e-200 1e200\n1.8 -0.4 0.4\n-0.3 -1.1 1.0\n0.9 -0.6 -2.0\n", 1,
+        "a cut may be too near to the eye",
+        "project",
+        "perspective 120 1 1e-200 1e200\n1.8 -0.4 0.4\n-0.3 -1.1 1.0\n0.9 -0.6 -2.0\n",
+        1,
         # The first cut is on the edge from vertex 2 to vertex 3, a third of the way along.
         "<stdin>:3:1: expected a cut that 31 digits can tell from the eye plane (a larger near helps), found "
-        "one nearer to it"
-    ),
+        "one nearer to it"),
     ("a light may leave a doubles range in view", "view",
      "eye -1e308 0 0\nlook 0 0 0\nup 0 1 0\nlight  1.7e308 0 0 1 1 1\n", 1,
      "<stdin>:4:8: expected a light whose image is within a double's range, found an overflow of its z"),
     ("what is projected is not put before the camera", "view", "attributes w color\n" + HEADER, 1,
      "<stdin>:1:12: expected a text that is not projected yet, found one with the column 'w', which "
-     "project adds"
-     ),
+     "project adds"),
     ("what is projected is not projected again", "project", "perspective 60 1 1 9\nattributes w\n", 1,
      "<stdin>:2:12: expected a text that is not projected yet, found one with the column 'w', which "
-     "project adds"
-     ),
+     "project adds"),
     ("a w is above 0", "zbuf config.txt", "attributes w\n0 0 0 0\n", 1,
      "<stdin>:2:7: expected the w of vertex 1 of 3 (x y z w, by the line 'attributes w') above 0, found '0'"),
     ("shading needs a light", "zbuf config.txt --shading flat", "background 1 2 3\n" + VERTICES, 1,
@@ -149,8 +143,7 @@ add_claims(CameraMessages, [
      "this text has not been through project"),
     ("a whole of a clipped triangle is in clip space", "zbuf config.txt", "clipped\n0 0 0\n", 1,
      "<stdin>:2:6: expected the w of vertex 1 of 3 (x y z w, by the line 'attributes w'), found the end of "
-     "the line"
-     ),
+     "the line"),
     ("a frame may be asked for", "zbuf config.txt --expect-framed", VERTICES, 1,
      "<stdin>:1:1: expected a framed text (model --framed), found one without 'framed'"),
     ("a frame of nothing may be asked for", "zbuf config.txt --expect-framed", "", 1,
@@ -160,7 +153,8 @@ add_claims(CameraMessages, [
     ("a scene besides the input exists", "view --scene none.txt", "", 1,
      "cannot open none.txt: No such file or directory"),
     ("a camera of option and header makes sense", "view --look 0 0 5", HEADER, 2,
-     "--look: expected a point other than the eye to look at, found 0 0 5 (try view --help)"), ])
+     "--look: expected a point other than the eye to look at, found 0 0 5 (try view --help)")]
+add_claims(CameraMessages, CAMERAS)
 
 
 class VertexPlaces(ToolTest):
@@ -208,7 +202,7 @@ class VertexPlaces(ToolTest):
 
     def test_project_without_clipping(self):
         for form, column in self.LINES:
-            text = self.of_stage_text(*3 * (self.GOOD, )) * 1000 + self.of_stage_text(
+            text = self.of_stage_text(*3 * (self.GOOD,)) * 1000 + self.of_stage_text(
                 self.GOOD, self.GOOD, form.format("1 1 2.50"))
             with self.subTest(form=form):
                 done = run("project", "--clip", "none", "--perspective", 60, 1, 1, 9, stdin=text)
@@ -232,9 +226,10 @@ class VertexPlaces(ToolTest):
             "translate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\ntriangle\n  1 2 3\n4 5 6\n7 8 9\nend\n"
         )
         done = run("model", stdin=scene)
-        self.assertEqual((done.stderr.decode(), done.returncode), (
-            "model: note: <stdin>:9:3: the digits of this vertex and of 2 more are not certain: "
-            "numbers cancel here beyond 31 digits\n", 0))
+        self.assertEqual(
+            (done.stderr.decode(), done.returncode),
+            ("model: note: <stdin>:9:3: the digits of this vertex and of 2 more are not certain: "
+             "numbers cancel here beyond 31 digits\n", 0))
 
     def test_digits_that_are_not_certain_are_counted(self):
         lost = "push\ntranslate 1e31 0 0\nrotate 120 1 1 1\nrotate 240 1 1 1\ntranslate -1e31 0 0\n"
@@ -242,36 +237,36 @@ class VertexPlaces(ToolTest):
         triangles = "triangle\n1 2 3\n4 5 6\n7 8 10\n"
         beyond = "are not certain: numbers cancel here beyond 31 digits\n"
         for text, notes in (
-            (lost + lights + "pop\n" + triangles, [
-                f"10:7: the digits of this light {beyond}"]), (lost + 3 * lights + "pop\n" + triangles, [
-                    f"10:7: the digits of this light and of 2 more {beyond}"
-                ]), (triangles + lost + "scale 0 0 1\ntriangle\n0 0 0\n0 0 0\n0 0 0\npop\n", [
-                    f"16:1: the digits of this vertex and of 2 more {beyond}"]),
+            (lost + lights + "pop\n" + triangles, [f"10:7: the digits of this light {beyond}"]),
+            (lost + 3 * lights + "pop\n" + triangles, [
+                f"10:7: the digits of this light and of 2 more {beyond}"]),
+            (triangles + lost + "scale 0 0 1\ntriangle\n0 0 0\n0 0 0\n0 0 0\npop\n", [
+                f"16:1: the digits of this vertex and of 2 more {beyond}"]),
                 # Enough for more than one part of a text; what stands behind it takes the parts back.
             (lost + lights + 3000 * triangles + "pop\n" + triangles, [
                 f"10:7: the digits of this light {beyond}",
                 f"12:1: the digits of this vertex and of 8999 more {beyond}"])):
             with self.subTest(notes=notes):
                 done = run("model", "--digits", "exact", stdin=CAMERA + text + "end\n")
-                self.assertEqual((done.stderr.decode(), done.returncode), (
-                    "".join("model: note: <stdin>:" + note for note in notes), 0))
+                self.assertEqual((done.stderr.decode(), done.returncode),
+                                 ("".join("model: note: <stdin>:" + note for note in notes), 0))
 
     def test_the_digits_of_one_vertex(self):
         # Cut at w = 1e-20: one cut lies on the axis, of the other's x no digit is right.
         done = run("project", "--clip", "near", "--perspective", 90, 1, "1e-20", 10,
                    stdin="0 0 -2\n0 0 2\n 1 0 1\n")
-        self.assertEqual((done.stderr.decode(), done.returncode), (
-            "project: note: <stdin>:3:2: the digits of this vertex are not certain: numbers cancel here "
-            "beyond 31 digits\n",
-            0))
+        self.assertEqual(
+            (done.stderr.decode(), done.returncode),
+            ("project: note: <stdin>:3:2: the digits of this vertex are not certain: numbers cancel here "
+             "beyond 31 digits\n", 0))
 
     def test_digits_of_a_light_in_view_space(self):
         text = "eye -1e34 0.5 1e32\nlook 0 5 9\nup 0 1 0\n  light 1 2 3 1 1 1\n"
         done = run("view", stdin=text)
-        self.assertEqual((done.stderr.decode(), done.returncode), (
-            "view: note: <stdin>:4:9: the digits of this light are not certain: numbers cancel here beyond "
-            "31 digits\n",
-            0))
+        self.assertEqual(
+            (done.stderr.decode(), done.returncode),
+            ("view: note: <stdin>:4:9: the digits of this light are not certain: numbers cancel here beyond "
+             "31 digits\n", 0))
 
     def test_no_sample_has_digits_that_are_not_certain(self):
         scenes = sorted(SOURCE.glob("samples/*/scene.txt"))
@@ -290,8 +285,7 @@ class VertexPlaces(ToolTest):
         self.assert_fails(
             run("project", stdin=text), 1,
             "project: <stdin>:1:13: expected a perspective whose window is within a double's range, found an "
-            "overflow of its width"
-        )
+            "overflow of its width")
 
 
 class ConfigMessages(ToolTest):
@@ -303,7 +297,7 @@ class ConfigMessages(ToolTest):
 
 add_claims(ConfigMessages, [
     ("nothing follows the limits", "8 8\n-1\n-1\n0 1\n5\n",
-     "5:1: expected nothing after the limits of Z, found '5'"), ])
+     "5:1: expected nothing after the limits of Z, found '5'"),])
 
 
 class DepthFormatMessages(ToolTest):
@@ -327,7 +321,7 @@ add_claims(DepthFormatMessages, [
     ("a float may underflow to the other limit", "f32 0 1e-46",
      "that are two different floats, found 0 and 1e-46"),
     ("24 bits need a distance of the limits", "u24 -1e308 1e308", f"{APART}, found -1e+308 and 1e+308"),
-    ("24 bits need a distance that can be divided", "u24 0 9.9e-301", f"{APART}, found 0 and 9.9e-301"), ])
+    ("24 bits need a distance that can be divided", "u24 0 9.9e-301", f"{APART}, found 0 and 9.9e-301"),])
 
 
 class OptionMessages(ToolTest):
@@ -352,8 +346,7 @@ add_claims(OptionMessages, [
      "expected an option of view, found '--Eye' (did you mean --eye?)"),
     *((f"{tool} names what {option} is now", f"{tool} {option} 1 scene.txt",
        f"expected an option of {tool}, found '{option}' ({now})")
-      for tool, option, now in OLD_NAMES
-      if (BIN / tool).exists()),
+      for tool, option, now in OLD_NAMES if (BIN / tool).exists()),
     ("short options are no options either", "model -x", "expected an option of model, found '-x'"),
     ("options are not abbreviated", "model --dig 3", "expected an option of model, found '--dig'"),
     ("zbuf takes two operands", "zbuf config.txt a b", "expected no further operand, found 'b'"),
@@ -363,8 +356,7 @@ add_claims(OptionMessages, [
      "--z-buffer: expected a file or none, as the image is standard output, found '-'"),
     *((f"counts of {tool} are not written among its data", f"{tool} --stats -",
        "--stats: expected a file, as standard output carries the data (/dev/stderr shows them), found '-'")
-      for tool in ("model", "view", "project", "zbuf", "trace")
-      if (BIN / tool).exists()),
+      for tool in ("model", "view", "project", "zbuf", "trace") if (BIN / tool).exists()),
     ("a background has six digits", "zbuf config.txt --background ff800",
      "--background: expected RRGGBB or RRGGBBAA, hexadecimal digits, found 'ff800'"),
     ("the digits of a background are hexadecimal", "zbuf config.txt --background ff80g0",
@@ -433,14 +425,13 @@ add_claims(OptionMessages, [
      "--perspective: expected far beyond near, found '1'"),
     ("a perspective of an option has a fovX", "project --perspective 90 2 1 9",
      "--perspective: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a "
-     "scene, the word ratio at the end), found 90 * 2"
-     ),
+     "scene, the word ratio at the end), found 90 * 2"),
     ("a frustum has a near above 0", "view --frustum -1 1 -1 1 0 9",
      "--frustum: expected near above 0, found '0'"),
     ("an ortho has six numbers", "view --ortho -1 1 -1 1 0",
      "--ortho: expected 6 values (L R B T N F), found 5"),
     ("there is one projection among the options", "project --perspective 60 1 1 9 --ortho -1 1 -1 1 1 9",
-     "--perspective: expected one projection, found a second one after --ortho"), ])
+     "--perspective: expected one projection, found a second one after --ortho"),])
 
 
 class FileMessages(ToolTest):
@@ -459,7 +450,7 @@ add_claims(FileMessages, [
     ("a folder of the image may be missing", "zbuf config.txt --image no/out.bmp",
      "cannot open no/out.bmp: No such file or directory"),
     ("a folder of the depths may be missing", "zbuf config.txt --z-buffer no/z.txt",
-     "cannot open no/z.txt: No such file or directory"), ])
+     "cannot open no/z.txt: No such file or directory"),])
 
 
 class SizeMessages(ToolTest):

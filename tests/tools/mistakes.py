@@ -15,7 +15,7 @@ class Mistake:
     name: str
     title: str
     line: int
-    files: dict                                         # name to text, with the mistake in it
+    files: dict  # name to text, with the mistake in it
     edits: dict  # name to the lines that show it, each with its -, + or |
     command: str = ""
     stderr: str = ""
@@ -27,7 +27,7 @@ class Mistake:
 def load(path=DATA):
     """The unbroken files, name to text, and the mistakes in the order of the data file."""
     base, mistakes, group = {}, [], ""
-    name = None                                         # of the file that the lines belong to
+    name = None  # of the file that the lines belong to
     for number, line in enumerate(path.read_text().splitlines(), 1):
         if line.startswith("--- "):
             name = line[4:]
@@ -75,7 +75,7 @@ def edited(text, edits, mistake):
     text."""
     if edits and edits[0].startswith("|"):
         return "".join(edit[2:] + "\n" for edit in edits)
-    blocks = []                                         # pairs of old and new lines
+    blocks = []  # pairs of old and new lines
     for edit in edits:
         if edit.startswith("-") and (not blocks or blocks[-1][1]):
             blocks.append(([], []))

@@ -52,6 +52,7 @@ def add(mistake):
         status, stderr = mistakes.run(mistake, BIN, SCRIPTS)
         self.assertEqual(stderr, mistake.stderr)
         self.assertEqual(status, mistake.status)
+
     setattr(Mistakes, "test_" + mistake.name.replace("-", "_"), test)
 
 

@@ -10,8 +10,8 @@ import re
 import subprocess
 import unittest
 
-from toolbox import (
-    ALL_TOOLS, BIN, CAMERA, HEADER, HEADERS, SCENE, SOURCE, ToolTest, pipe, run, stage_texts, tool_inputs)
+from toolbox import (ALL_TOOLS, BIN, CAMERA, HEADER, HEADERS, SCENE, SOURCE, ToolTest, pipe, run, stage_texts,
+                     tool_inputs)
 
 PLAIN = """1 2 6
 1 0.5 0
@@ -101,15 +101,13 @@ class Answers(ToolTest):
             "model": stage + ["--bare", "--framed"],
             "view": stage + projection + ["--bare", "--eye X Y Z", "--look X Y Z", "--up X Y Z"],
             "project": stage + projection +
-                       ["--aspect angle|ratio", "--clip auto|near|frustum|reject|none", "--cull back|front"],
+            ["--aspect angle|ratio", "--clip auto|near|frustum|reject|none", "--cull back|front"],
             "zbuf": [
                 "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--coverage ",
                 "--algorithm ", "--background RRGGBB"],
             "trace": projection + [
-                         "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE",
-                         "--background RRGGBB", "--sampling basic|regular|jittered|adaptive", "--samples N",
-                         "--threshold N", "--threads N"],
-        }
+                "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--background RRGGBB",
+                "--sampling basic|regular|jittered|adaptive", "--samples N", "--threshold N", "--threads N"],}
         for tool in ALL_TOOLS:
             text = run(tool, "--help-all").stdout.decode()
             for word in common + words[tool]:
@@ -135,8 +133,7 @@ class Answers(ToolTest):
             "view": ["Numbers", "Camera", "Light", "Output"],
             "project": ["Numbers", "Projection", "Clipping", "Output"],
             "zbuf": ["Output", "Pixels", "Color and light", "Debugging"],
-            "trace": ["Output", "Projection", "Pixels", "Color and light", "Debugging"],
-        }
+            "trace": ["Output", "Projection", "Pixels", "Color and light", "Debugging"],}
         for tool in ALL_TOOLS:
             found = re.findall(r"^(\w[\w ]*):$", run(tool, "--help").stdout.decode(), re.M)
             self.assertEqual(found, ["Example", "Operands", *groups[tool], "General"])
@@ -193,8 +190,7 @@ class OneLightMore(ToolTest):
         for own in ("", "light 7 8 9 0.5 0.5 0.5\n"):
             added = pipe(["model"], ["view", "--light", "1e2", "-2", ".5", "1", "0", "0.25"],
                          stdin=CAMERA + own + triangle)
-            written = pipe(["model"], ["view"],
-                           stdin=CAMERA + own + "light 100 -2 0.5 1 0 0.25\n" + triangle)
+            written = pipe(["model"], ["view"], stdin=CAMERA + own + "light 100 -2 0.5 1 0 0.25\n" + triangle)
             self.assertEqual(added, written)
 
     def test_one_of_the_scene_moves(self):
@@ -216,14 +212,14 @@ class OneLightMore(ToolTest):
         light = ["--light", "1", "2", "3", "1", "1"]
         self.assert_fails(run("view", "--bare", *light, "1"), 2,
                           "view: expected --bare or --light, found both (try view --help)")
-        self.assert_fails(run("view", *light, "-1", stdin=HEADER), 2,
-                          "view: --light: expected the blue of the light of at least 0, found '-1' "
-                          "(try view --help)")
+        self.assert_fails(
+            run("view", *light, "-1", stdin=HEADER), 2,
+            "view: --light: expected the blue of the light of at least 0, found '-1' "
+            "(try view --help)")
 
 
 class CameraPrecedence(ToolTest):
     """Options override --scene, and --scene overrides the header, part by part."""
-
     def view(self, *options, header=""):
         return pipe(["view", "--bare", *options],
                     stdin=header + "1 2 3\n0 0 0\n0 0 0\n\n").decode().splitlines()[0]
@@ -259,6 +255,7 @@ class CameraPrecedence(ToolTest):
         self.assertEqual(
             self.view("--eye", "-1", "-2", "-5", "--look", "-.5", "-2", "-1e-3", "--up", "-.5", "-1", "-0"),
             expected)
+
 
 if __name__ == "__main__":
     unittest.main()

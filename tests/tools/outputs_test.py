@@ -22,10 +22,9 @@ class SeparateOutputs(ToolTest):
         pathlib.Path("stage3.txt").write_bytes(stage_texts()[2])
 
     def refused(self, first, second):
-        return (
-            f"zbuf: expected a place of its own for every output, found the same one for {first} and "
-            f"{second} "
-            "(try zbuf --help)")
+        return (f"zbuf: expected a place of its own for every output, found the same one for {first} and "
+                f"{second} "
+                "(try zbuf --help)")
 
     def check_refused(self, words, first, second, **settings):
         """The run is refused, and every file stays as it was."""
@@ -179,15 +178,13 @@ class SeparateOutputs(ToolTest):
 PICTURES = ("--image", "--z-buffer", "--depth-image", "--stats")
 SCENE_TEXT, WORLD, VIEW, NDC, SCREEN, MODEL = range(6)
 RUNS = (  # tool, its inputs, the words behind them, the options that name an output
-    ("model", {"INPUT": SCENE_TEXT}, [], ["--stats"]),
-    ("view", {"--scene": SCENE_TEXT, "INPUT": WORLD}, [], ["--stats"]),
-    ("project", {"--scene": SCENE_TEXT, "INPUT": VIEW}, [], ["--stats"]),
-    ("zbuf", {"CONFIG": SCREEN, "INPUT": NDC}, [], [*PICTURES, "--fragments", "--seen"]),
-    ("zbuf", {"CONFIG": SCREEN, "INPUT": NDC}, ["--coverage", "center"], ["--certify"]),
-    ("trace", {"--scene": SCENE_TEXT, "CONFIG": SCREEN, "INPUT": VIEW}, [], [*PICTURES]),
-    ("cut-scene", {"SCENE": SCENE_TEXT}, ["2"], []),
-    ("join-seen", {"PART": WORLD}, [], []),
-    ("mesh2scene", {"INPUT": MODEL}, [], []))
+    ("model", {"INPUT": SCENE_TEXT}, [], ["--stats"]), ("view", {"--scene": SCENE_TEXT, "INPUT": WORLD}, [], [
+        "--stats"]), ("project", {"--scene": SCENE_TEXT, "INPUT": VIEW}, [], ["--stats"]), ("zbuf", {
+            "CONFIG": SCREEN, "INPUT": NDC}, [], [*PICTURES, "--fragments", "--seen"]), ("zbuf", {
+                "CONFIG": SCREEN, "INPUT": NDC}, ["--coverage", "center"], ["--certify"]), ("trace", {
+                    "--scene": SCENE_TEXT, "CONFIG": SCREEN, "INPUT": VIEW}, [], [*PICTURES]), ("cut-scene", {
+                        "SCENE": SCENE_TEXT}, ["2"], []), ("join-seen", {
+                            "PART": WORLD}, [], []), ("mesh2scene", {"INPUT": MODEL}, [], []))
 SUFFIXES = {"--image": ".bmp", "--depth-image": ".pgm"}
 LINKS = {"its name": None, "a symbolic link": os.symlink, "a hard link": os.link}
 
@@ -195,7 +192,6 @@ LINKS = {"its name": None, "a symbolic link": os.symlink, "a hard link": os.link
 class InputsStay(ToolTest):
     """No output replaces, or is added to, a file that the run reads: of each tool, every output with every
     input."""
-
     def setUp(self):
         super().setUp()
         self.texts = [
@@ -254,7 +250,6 @@ class InputsStay(ToolTest):
                                                                     LINKS):
                 with self.subTest(tool=tool, option=option, input=taken, from_stdin=from_stdin, way=way):
                     self.check(tool, inputs, more, option, taken, from_stdin, LINKS[way])
-
 
 
 if __name__ == "__main__":

@@ -18,9 +18,8 @@ NEEDS_PNG = b"without libpng" in run("zbuf", "config.txt", "--image", "x.png").s
 
 
 def triangles(*corners_of):
-    return "".join("".join(f"{x:.7f} {y:.7f} {z:.7f}\n"
-                           for x, y, z in corners) + "\n"
-                   for corners in corners_of)
+    return "".join(
+        "".join(f"{x:.7f} {y:.7f} {z:.7f}\n" for x, y, z in corners) + "\n" for corners in corners_of)
 
 
 def random_triangles(seed, count):
@@ -201,11 +200,10 @@ class DepthEpsilon(Pictures):
 class DepthLimits(Pictures):
     """The limits of Z may be as far apart as the depth format allows; messages_test.py has those that are
     refused."""
-
     def expect_depth(self, format_name, front, rear, z, expected):
         pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n{front} {rear}\n")
-        for options in ([], ["--algorithm", "scanline"], ["--coverage",
-                                                          "center"], ["--depth-epsilon", "1e300"]):
+        for options in ([], ["--algorithm", "scanline"], ["--coverage", "center"], [
+                "--depth-epsilon", "1e300"]):
             with self.subTest(depth=format_name, front=front, rear=rear, z=z, options=options):
                 words = self.zbuf(wall_at(z), "--depth", format_name, *options).decode().split()
                 self.assertEqual({float(word) for word in words}, {expected})
@@ -243,7 +241,7 @@ class DepthLimits(Pictures):
 
 def distance_to_segment(p, a, b):
     along, way = (b[0] - a[0], b[1] - a[1]), (p[0] - a[0], p[1] - a[1])
-    t = (way[0] * along[0] + way[1] * along[1]) / (along[0] ** 2 + along[1] ** 2)
+    t = (way[0] * along[0] + way[1] * along[1]) / (along[0]**2 + along[1]**2)
     t = min(1, max(0, t))
     return math.hypot(way[0] - t * along[0], way[1] - t * along[1])
 
@@ -263,8 +261,10 @@ class Wireframes(Pictures):
     def test_silhouettes_are_unbroken_and_no_pixel_is_far_from_an_edge(self):
         """Of a pyramid that is seen from above."""
         rng, step_count, lit_count = random.Random(6), 0, 0
+
         def on_screen(p):
             return (p[0] + 1) * COLUMNS / 2 - 0.5, (1 - p[1]) * ROWS / 2 - 0.5
+
         for _ in range(9):
             turn = rng.uniform(0, 1)
             base = [(0.9 * math.cos(turn + i), 0.9 * math.sin(turn + i), 0.5) for i in range(6)]

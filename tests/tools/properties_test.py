@@ -17,7 +17,6 @@ SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12))  # fewer with sanitizers, 
 class Scene:
     """A random scene as pieces of text: a camera that looks at the surroundings of the origin, and triangles
     there."""
-
     def __init__(self, seed):
         self.random = random.Random(seed)
         self.eye, self.look, self.up = (self.numbers(3, 1) for _ in range(3))
@@ -32,8 +31,8 @@ class Scene:
     def text(self, before="", triangles=None, scale=1):
         row = lambda numbers: " ".join(repr(scale * number) for number in numbers) + "\n"
         camera = row(self.eye) + row(self.look) + row(self.up) + f"50 1.25 {scale * 0.5!r} {scale * 40!r}\n"
-        body = "".join("triangle\n" +"".join(map(row, t))
-                       for t in (self.triangles if triangles is None else triangles))
+        body = "".join(
+            "triangle\n" + "".join(map(row, t)) for t in (self.triangles if triangles is None else triangles))
         return camera + before + body + "end\n"
 
 
@@ -75,7 +74,7 @@ class Properties(ToolTest):
         for scene in self.scenes():
             expected = self.ndc(scene.text(), "--digits", "exact")
             self.assertGreater(expected.count(b"\n\n"), 10)
-            for scale in (2.0 ** 40, 2.0 ** -30):
+            for scale in (2.0**40, 2.0**-30):
                 self.assertEqual(self.ndc(scene.text(scale=scale), "--digits", "exact"), expected)
 
     def test_rotating_or_reversing_the_vertices_keeps_what_is_covered(self):
@@ -84,8 +83,8 @@ class Properties(ToolTest):
             for coverage in ("nearest", "center"):
                 covered = set()
                 for order in ((1, 2, 3), (2, 3, 1), (3, 2, 1), (1, 3, 2)):
-                    text = "".join("\n".join([body[0], *(body[i] for i in order)]) + "\n\n"
-                                   for body in bodies)
+                    text = "".join(
+                        "\n".join([body[0], *(body[i] for i in order)]) + "\n\n" for body in bodies)
                     self.picture(text, "--coverage", coverage, "--fragments", "fragments.txt")
                     fragments = pathlib.Path("fragments.txt").read_text()
                     covered.add(frozenset(line.partition(", depth")[0] for line in fragments.splitlines()))
@@ -125,9 +124,8 @@ class Properties(ToolTest):
                 # The pieces share a corner on the edge from b to c; all coordinates are decimals.
                 a, b, c = ([2 * scene.random.randrange(-600, 600) for _ in range(2)] for _ in range(3))
                 d = [(b[i] + c[i]) // 2 for i in range(2)]
-                text = lambda *points: "".join("triangle 0\n" +"".join(f"{x / 1000:.3f} {y / 1000:.3f} 0.25\n"
-                                                                       for x, y in t) + "\n"
-                                               for t in points)
+                text = lambda *points: "".join("triangle 0\n" + "".join(
+                    f"{x / 1000:.3f} {y / 1000:.3f} 0.25\n" for x, y in t) + "\n" for t in points)
                 whole = self.picture(text((a, b, c)), "--coverage", "center")
                 self.assertEqual(self.picture(text((a, b, d), (a, d, c)), "--coverage", "center"), whole)
 

@@ -36,12 +36,12 @@ class Bands(seen_test.Seen):
     HEADERS = (
         "", "background 10 20 30\ncolor 200 100 50\n",
         "attributes color normal\nbackground 9 9 9\nlight 1 2 3 1 1 1\nambient 0.2 0.2 0.2\nmaterial 1 "
-        "1 0.5 8\n",
-        "attributes normal\nlight 3 1 3 1 0.5 1\n",
+        "1 0.5 8\n", "attributes normal\nlight 3 1 3 1 0.5 1\n",
         "attributes normal\nmaterial 1 1 0 1\nmaterial 0.2 0.5 1 9\nlight 3 1 3 1 0.5 1\n")
 
     def scene(self, rng, kind, count):
         coordinate = lambda: rng.choice((rng.uniform(-2, 2), rng.randrange(-4, 5) / 2))
+
         def vertex(z):
             words = [coordinate(), coordinate(), z if z is not None else coordinate()]
             if "attributes color" in kind:
@@ -49,6 +49,7 @@ class Bands(seen_test.Seen):
             if "normal" in kind:
                 words += [rng.uniform(-1, 1), rng.uniform(-1, 1), 1]
             return " ".join(f"{word:.5g}" for word in words) + "\n"
+
         lines = "1 0.5 4\n0 0 0\n0 1 0\n50 1 2.5 8\n" + kind
         for _ in range(count):
             z = rng.choice((None, None, 0, 0.5))
@@ -175,8 +176,7 @@ class Words(seen_test.Seen):
             self.assertEqual(
                 done.stderr.decode(),
                 f"zbuf: --rows: expected {which if rows else 'A:B, such as 0:100'}, found '{rows}' (try zbuf "
-                f"--help)\n"
-            )
+                f"--help)\n")
             self.assertFalse(pathlib.Path("out.bmp").exists())
 
     def test_a_band_needs_memory_for_itself_alone(self):

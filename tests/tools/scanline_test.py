@@ -19,9 +19,10 @@ def zbuf(config, stage3, *options):
 
 
 class MemoryTest(ToolTest):
-    FEW = ("-0.01 -0.02 0.5\n0.02 -0.01 0.1\n0.0 0.02 -0.3\n\n"  # in the middle
-           "-1 -1 0.9\n1 -0.9999 0.9\n1 -1 0.9\n\n"               # along the lower border
-           "-0.9 0.9 0\n-0.88 0.9 0.4\n-0.9 0.88 0.3\n\n")
+    FEW = (
+        "-0.01 -0.02 0.5\n0.02 -0.01 0.1\n0.0 0.02 -0.3\n\n"  # in the middle
+        "-1 -1 0.9\n1 -0.9999 0.9\n1 -1 0.9\n\n"  # along the lower border
+        "-0.9 0.9 0\n-0.88 0.9 0.4\n-0.9 0.88 0.3\n\n")
 
     def check(self, config):
         pathlib.Path("config.txt").write_text(config)

@@ -80,7 +80,6 @@ class Pictures(Seen):
 
 class Owners(Seen):
     """Against the fragments that zbuf reports."""
-
     def fragments(self, text, *options):
         """(pixel, number) of every fragment that was kept, in order."""
         self.zbuf("--fragments", "fragments.txt", *options, stdin=text)
@@ -133,8 +132,8 @@ class Owners(Seen):
         lines = []
         for i in range(60_000):
             x, y, z = rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)
-            a, b, c, d = (f"{x + dx:.7f} {y + dy:.7f} {z:.7f}\n" for dx, dy in ((0, 0), (0.1, 0), (0.1, 0.1),
-                                                                                (0, 0.1)))
+            a, b, c, d = (f"{x + dx:.7f} {y + dy:.7f} {z:.7f}\n"
+                          for dx, dy in ((0, 0), (0.1, 0), (0.1, 0.1), (0, 0.1)))
             lines.append(f"{a}{b}{c}\n" + (f"triangle {i}\n{a}{c}{d}\n" if i % 3 == 0 else ""))
         text = "".join(lines).encode()
         seen = self.seen(text)
@@ -158,10 +157,9 @@ class Text(Seen):
     SEEN, UNSEEN = (f"{x} 0 0.5 1\n{x}.9 0 0.5 1\n{x} 9 0.5 1\n\n" for x in (0, 20))
     # A claim, a text and what is seen of it; None: all of it.
     CASES = (
-        ("numbers stay as they came",
-         "-9.0 -9 +0.50\n9e0 -9.00000000000000000001 0.5\n00 .9e1 5e-1\n\n", None),
-        ("so do header lines and columns",
-         "attributes w color\nbackground 1.50 2 3e0\n"
+        ("numbers stay as they came", "-9.0 -9 +0.50\n9e0 -9.00000000000000000001 0.5\n00 .9e1 5e-1\n\n",
+         None),
+        ("so do header lines and columns", "attributes w color\nbackground 1.50 2 3e0\n"
          "-9 -9 0.5 1.0 255 0.0 7\n9 -9 0.5 1 1 1 1\n0 9 0.5 2e0 3 3 3.25\n\n", None),
         ("comments and blanks around lines go",
          "# a wall\nbackground 1 2 3 # dark\n\n -9 -9\t0.5 \r\n# here\n9  -9 0.5\t# corner\n0 9 0.5\r\n",
@@ -233,8 +231,8 @@ class Outputs(Seen):
 
     def test_some_cannot_be_had_together(self):
         for words, message in self.REFUSED:
-            self.assert_fails(
-                run("zbuf", "config.txt", *words.split()), 2, f"zbuf: {message} (try zbuf --help)")
+            self.assert_fails(run("zbuf", "config.txt", *words.split()), 2,
+                              f"zbuf: {message} (try zbuf --help)")
 
     def test_the_image_may_be_standard_output(self):
         wall = WALL.format(0.5)

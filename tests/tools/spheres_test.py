@@ -38,11 +38,11 @@ class Text(ToolTest):
             ["model"],
             stdin=scene("color 1 2 3\nattributes normal\ntranslate 1 0 0\nscale 1 2 3\nsphere 0 1 0 2\n"))
         self.assertEqual(
-            done.decode().split("\n", 5)[5],
-            "".join(f"{p} 1.0000000 2.0000000 3.0000000\n"
-                    for p in ("1.0000000 2.0000000 0.0000000", "3.0000000 2.0000000 0.0000000",
-                              "1.0000000 6.0000000 0.0000000", "1.0000000 2.0000000 6.0000000")).join([
-                                  "sphere\n", "\n"]))
+            done.decode().split("\n", 5)[5], "".join(
+                f"{p} 1.0000000 2.0000000 3.0000000\n"
+                for p in ("1.0000000 2.0000000 0.0000000", "3.0000000 2.0000000 0.0000000",
+                          "1.0000000 6.0000000 0.0000000", "1.0000000 2.0000000 6.0000000")).join([
+                              "sphere\n", "\n"]))
 
     def test_the_points_take_the_way_of_vertices(self):
         """As the corners of triangles, they get the same digits in all stages."""
@@ -51,16 +51,16 @@ class Text(ToolTest):
         triangles = "".join("triangle\n" + f"{p}\n" * 3 for p in points)
         camera = "3 1 4\n0 0 0\n0.1 1 0\n60 1 1 100\n"
         for options in ([], ["--digits", "exact"], ["--digits", "15"]):
-            as_sphere, as_triangles = (pipe(["model", *options], ["view", *options],
-                                            stdin=scene(words, part, camera=camera)).decode()
-                                       for part in ("sphere\n0.1 0.2 0.3 1.25\n", triangles))
+            as_sphere, as_triangles = (pipe(["model", *options], ["view", *options], stdin=scene(
+                words, part, camera=camera)).decode() for part in ("sphere\n0.1 0.2 0.3 1.25\n", triangles))
             lines = [line for line in as_triangles.split("\n") if line and not line.startswith("perspective")]
             self.assertEqual([line for line in as_sphere.split("\n") if line and line[0] in "-0123456789"],
                              lines[::3])
 
     def test_each_of_the_four_points_is_noted_once(self):
-        done = run("model", stdin=scene("rotate 33 1 2 3\ntranslate 1e33 0 0\nrotate 33 1 2 3\n"
-                                        "translate -1e33 1e20 0\nsphere 0.1 0.2 0.3 1\n"))
+        done = run(
+            "model", stdin=scene("rotate 33 1 2 3\ntranslate 1e33 0 0\nrotate 33 1 2 3\n"
+                                 "translate -1e33 1e20 0\nsphere 0.1 0.2 0.3 1\n"))
         self.assertIn(b"the digits of this vertex and of 3 more are not certain", done.stderr)
 
     def test_counts_as_one_object(self):
@@ -164,8 +164,9 @@ class Facets(ToolTest):
         cut = "triangle\n0 0 0\n1 0 0\n0 1 0\n" * 2 + "triangle\n0 0 0\n"
         done = run("model", "--facets", "2", stdin=scene(cut))
         message = "<stdin>:15:1: expected the x of vertex 2 of 3, found 'end'\n"
-        corners = "".join(f"{x} 0.0000000 0.0000000 0.0000000 1.0000000\n" for x in (
-            "0.0000000 0.0000000", "1.0000000 0.0000000", "0.0000000 1.0000000")) + "\n"
+        corners = "".join(
+            f"{x} 0.0000000 0.0000000 0.0000000 1.0000000\n"
+            for x in ("0.0000000 0.0000000", "1.0000000 0.0000000", "0.0000000 1.0000000")) + "\n"
         self.assertEqual((done.returncode, done.stderr.decode()), (1, f"model: {message}"))
         self.assertTrue(done.stdout.decode().endswith(2 * corners + f"error model: {message}"), done.stdout)
 
@@ -188,8 +189,7 @@ class Facets(ToolTest):
         body = text.decode().split("\n", 5)
         self.assertEqual(body[4], "attributes normal")
         vertices = [
-            list(map(float, line.split()))
-            for line in body[5].split("\n")
+            list(map(float, line.split())) for line in body[5].split("\n")
             if line and line[0] in "-0123456789"]
         self.assertEqual(len(vertices), 3 * (2 * 4 * 64 * 63 + 2))
         for vertex in vertices:
@@ -217,9 +217,7 @@ class Facets(ToolTest):
         counts = (8, 16, 32, 64, 128)
         for count in counts:
             found = depths(traced(text, model_options=["--facets", str(count)])[0])
-            both = [(a, b)
-                    for row, other in zip(exact, found)
-                    for a, b in zip(row, other, strict=True)
+            both = [(a, b) for row, other in zip(exact, found) for a, b in zip(row, other, strict=True)
                     if max(a, b) < 0.9]
             self.assertGreater(len(both), 4000)
             errors.append(sum(abs(a - b) for a, b in both) / len(both))
@@ -229,7 +227,6 @@ class Facets(ToolTest):
 
 class Symmetry(ToolTest):
     """A change that leaves a sphere as it is leaves its picture, byte by byte."""
-
     def test_quarter_turns(self):
         text = LIGHT + "color 200 150 100\n{}sphere\n0 0 0 1.5\n"
         expected = traced(scene(text.format("")))
@@ -243,7 +240,7 @@ class Symmetry(ToolTest):
         exact = ["--digits", "exact"]
 
         def unit(k):
-            s = 2.0 ** k
+            s = 2.0**k
             camera = f"0 {0.25 * s!r} {5 * s!r}\n0 0 0\n0 1 0\n60 1 {s!r} {100 * s!r}\n"
             return traced(
                 scene(
@@ -266,7 +263,6 @@ class Symmetry(ToolTest):
 
 class Limits(ToolTest):
     """Rays see the first side that is between the depth limits."""
-
     def test_the_front_limit_cuts_it_open(self):
         camera = "0 0 0\n0 0 -1\n0 1 0\northo -2 2 -2 2 0 10\n"
         text = scene("sphere\n0 0 -5 1\n", camera=camera)
@@ -323,19 +319,16 @@ class EmptyPictures(ToolTest):
         self.expect(
             self.EMPTY +
             "the sphere is beyond the rear limit (z from -106 to -104 in view space, the limit is -100, the "
-            "camera's far)",
-            "sphere 0 0 -100 1\n")
+            "camera's far)", "sphere 0 0 -100 1\n")
         self.expect(
             self.EMPTY +
             "the sphere is before the front limit (z from -0.75 to -0.25 in view space, the limit is -1, the "
-            "camera's near)",
-            "sphere 0 0 4.5 0.25\n")
+            "camera's near)", "sphere 0 0 4.5 0.25\n")
         # z = 101 / 99 - 200 / (99 w) in NDC is 0 where w = 200 / 101.
         self.expect(
             self.EMPTY +
             "the sphere is beyond the rear limit (z from -6 to -4 in view space, the limit of the config "
-            "is -1.98)",
-            "sphere 0 0 0 1\n", config="40 40\n-1\n-1\n-1 0\n")
+            "is -1.98)", "sphere 0 0 0 1\n", config="40 40\n-1\n-1\n-1 0\n")
         self.expect(self.EMPTY + "the sphere is met by no ray between the limits of Z",
                     "sphere 0.001 0.001 0 0.0001\n")
 
@@ -346,8 +339,8 @@ class EmptyPictures(ToolTest):
             "90 1 1 100", "ortho -10 5 -10 10 1 100"), "rotate 45 0 0 1\nscale 3 1 1\nsphere 0 0 0 1\n"
         window = "150 200\n-1\n-1\n-1 1\n"  # 0.1 a pixel
         reach = math.sqrt(5)
-        self.expect("", f"translate {5 + reach - 0.2} 0 0\n" + words, camera=camera, config=window,
-                    options=["--no-shadows"])
+        self.expect("", f"translate {5 + reach - 0.2} 0 0\n" + words, camera=camera, config=window, options=[
+            "--no-shadows"])
         self.expect(self.EMPTY + "the sphere is right of the window",
                     f"translate {5 + reach + 0.001} 0 0\n" + words, camera=camera, config=window)
 
@@ -361,18 +354,15 @@ class EmptyPictures(ToolTest):
         self.expect(
             self.EMPTY +
             "the sphere is left of the window; the triangle is right of the window (x from 2 to 2.2, the "
-            "window from -1 to 1)",
-            "sphere -12 0 0 1\n", "triangle\n10 0 0\n11 0 0\n10 1 0\n")
+            "window from -1 to 1)", "sphere -12 0 0 1\n", "triangle\n10 0 0\n11 0 0\n10 1 0\n")
         self.expect("", "sphere -12 0 0 1\n", TRIANGLE)
         self.expect("", "triangle\n10 0 0\n11 0 0\n10 1 0\n", SPHERE)
 
     def test_seen_but_as_black_as_the_background(self):
         black = "trace: note: the picture is black: "
-        unlit = (
-            black +
-            "no light reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 "
-            "would show it from anywhere)"
-        )
+        unlit = (black +
+                 "no light reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 "
+                 "would show it from anywhere)")
         shadow = (
             black +
             "all that is seen is in shadow (--no-shadows lights it; ambient 0.2 0.2 0.2 would show it, too)")
@@ -389,11 +379,9 @@ class EmptyPictures(ToolTest):
         wall, lid = "triangle\n-9 -9 -4\n9 -9 -4\n0 9 -4\n", "triangle\n-30 -30 7\n30 -30 7\n0 30 7\n"
         self.expect(shadow, "light 0 0 9 1 1 1\n", wall, lid)
         self.expect("", "light 0 0 9 1 1 1\n", wall)
-        weak = (
-            black +
-            "the light that arrives is too weak (1 is full), or the materials reflect none of it (KD and "
-            "KS are 0)"
-        )
+        weak = (black +
+                "the light that arrives is too weak (1 is full), or the materials reflect none of it (KD and "
+                "KS are 0)")
         self.expect(weak, "light 0 0 9 0.003 0.003 0.003\n", SPHERE)
         self.expect(weak, "light 0 0 9 1 1 1\nmaterial 1 0 0 1\n", SPHERE)
         mirror = "material 1 1 0 1 1 1 1\n"

@@ -25,7 +25,6 @@ sys.argv[1:] = rest
 
 PERSPECTIVE = "60 1 1 100"
 
-
 # Expected output
 
 DIGITS = ("7", "0", "3", "12", "exact")
@@ -79,9 +78,9 @@ class StabilityTest(ToolTest):
 
 # Model
 
+
 class Model(StabilityTest):
     """Scene commands; the reference runs them too."""
-
     def check(self, *commands):
         self.assert_output("model", scene_text(commands), "--bare")
 
@@ -89,7 +88,8 @@ class Model(StabilityTest):
 add_claims(Model, [
     ("a right angle about z is exact and prints no -0", "rotate;90 0 0 1", UNITS, POINTS),
     ("right angles of either sign and many turns are exact", "rotate;-450 0 1 0", "rotate;36000000630 1 0 0",
-     POINTS), ("a half turn about a slanted axis is exact", "rotate;180 1 1 0", UNITS, POINTS),
+     POINTS),
+    ("a half turn about a slanted axis is exact", "rotate;180 1 1 0", UNITS, POINTS),
     ("a third of a turn about the diagonal permutes the axes", "rotate;120 1 1 1", UNITS, POINTS),
     ("the sine of 30 degrees is one half, at 1e9 as well", "rotate;30 1 0 0",
      triangle("0 1e9 0", "0 0 1e9", "1 0 0")),
@@ -121,7 +121,8 @@ add_claims(Model, [
     ("what is 0 stays 0 under a scale of 1e600", "scale;1e300 1 1", "scale;1e300 1 1",
      triangle("0 1 0", "0 2 1", "0 3 3")),
     ("1e16 + 0.1 - 1e16 is 0.1", "translate;1e16 0 -1e16", "translate;0.1 0.1 0.1", "translate;-1e16 0 1e16",
-     POINTS), ("digits beside 1e16 that a double has no room for", "translate;1e16 1e17 -1e18", POINTS),
+     POINTS),
+    ("digits beside 1e16 that a double has no room for", "translate;1e16 1e17 -1e18", POINTS),
     ("a pivot at 1e9 and back", "translate;1e9 -1e9 1e9", "rotate;33 1 2 3", "translate;-1e9 1e9 -1e9",
      POINTS),
     ("a pivot at 1e9 with 45 degrees and a scale", "translate;1e9 1e9 0", "scale;0.3 0.3 3",
@@ -137,7 +138,8 @@ add_claims(Model, [
      triangle("1e300 -1e300 0", "1.7976931348623157e308 1 0", "0 0 1")),
     ("ten levels of push, each with a rotation and a scale",
      *["push", "rotate;31 1 2 -1", "scale;1.1 0.9 1.01", "translate;1 -2 3"] * 10, LARGE, *["pop"] * 10,
-     POINTS), ("36 times 10 degrees about a slanted axis is nothing", *["rotate;10 2 -1 2"] * 36, LARGE), ])
+     POINTS),
+    ("36 times 10 degrees about a slanted axis is nothing", *["rotate;10 2 -1 2"] * 36, LARGE),])
 
 
 class ModelAtLength(StabilityTest):
@@ -163,13 +165,13 @@ class ModelAtLength(StabilityTest):
 
 # View
 
+
 def seen_text(eye, look, up, points):
     return f"eye {eye}\nlook {look}\nup {up}\n" + lines_of(points)
 
 
 class View(StabilityTest):
     """Eye, look, up, and points in world space."""
-
     def check(self, eye, look, up, *points):
         self.assert_output("view", seen_text(eye, look, up, points), "--bare")
 
@@ -209,12 +211,11 @@ add_claims(View, [
     ("points of 1e300 before a camera on the axes", "0 0 0", "0 0 -1", "0 1 0", "1e300 0 0", "0 -1e300 1e300",
      "1e-300 1 1"),
     ("points that cancel down to their last bits", "0 0 0", "1 1 1", "0 1 0", "1e15 -1e15 1",
-     "123456789012.345 -123456789012.344 0", "1e8 1e8 -2e8"), ])
+     "123456789012.345 -123456789012.344 0", "1e8 1e8 -2e8"),])
 
 
 class ViewNotes(StabilityTest):
     """A vertex that needs more digits than there are is reported, and is right as far as the digits go."""
-
     def check(self, eye, look, up, *points):
         text = seen_text(eye, look, up, points)
         done = run("view", "--bare", stdin=text)
@@ -226,15 +227,13 @@ class ViewNotes(StabilityTest):
 
 add_claims(ViewNotes, [
     ("points of 1e300", "0 0 0", "1 2 2", "0 1 0", "1e300 0 0", "0 -1e300 1e300", "1e-300 1 1"),
-    ("an eye at the largest doubles that looks back", "-1.7e308 0 0", "1.7e308 1 0", "0 1 0", *NEAR_ORIGIN),
-])
-
+    ("an eye at the largest doubles that looks back", "-1.7e308 0 0", "1.7e308 1 0", "0 1 0", *NEAR_ORIGIN),])
 
 # Project
 
+
 class Project(StabilityTest):
     """A projection as in a scene, and points in view space; --clip auto."""
-
     def check(self, projection, *points):
         keyword = "" if projection.split()[0] in ("ortho", "frustum") else "perspective "
         self.assert_output("project", keyword + projection + "\n" + lines_of(points))
@@ -286,7 +285,7 @@ add_claims(Project, [
     ("a triangle behind the eye leaves nothing but its number's gap", PERSPECTIVE, "1 1 1", "2 0 1", "0 0 5",
      "1 2 -3", "2 0 -3", "0 0 -3"),
     ("pieces at 1e9 and behind the eye", PERSPECTIVE, "1e9 -1e9 1e9", "1e9 2e9 -1e9", "-1e9 0 -1.5e9"),
-    ("a cut next to the eye plane", "60 1 1e-9 1e3", "1 1 1e-12", "1 -1 -2", "-3 0.5 -4"), ])
+    ("a cut next to the eye plane", "60 1 1e-9 1e3", "1 1 1e-12", "1 -1 -2", "-3 0.5 -4"),])
 
 
 class ProjectOtherwise(StabilityTest):
@@ -313,6 +312,7 @@ class ProjectOtherwise(StabilityTest):
 
 
 # Cases from a file
+
 
 def expanded(case):
     """The lines of a model case's scene after the camera. `rotrep N` stands for N rotations; `[repeat N]` in
@@ -360,9 +360,9 @@ class Cases(StabilityTest):
 
 if options.cases:
     with open(options.cases, encoding="utf-8") as cases_file:
-        add_claims(Cases, [(f"{case['id']} {case['title']}", case) for case in json.load(cases_file)["cases"]
-                           if case["stage"] in ("model", "view", "project")])
-
+        add_claims(Cases, [
+            (f"{case['id']} {case['title']}", case)
+            for case in json.load(cases_file)["cases"] if case["stage"] in ("model", "view", "project")])
 
 if __name__ == "__main__":
     unittest.main()

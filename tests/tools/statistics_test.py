@@ -32,8 +32,8 @@ def triangles_of(text, reader):
 
 def extents(text, reader):
     """Smallest and largest coordinates, as they are written."""
-    columns = list(zip(*(corner.written for triangle in triangles_of(text, reader)
-                         for corner in triangle.corners)))
+    columns = list(
+        zip(*(corner.written for triangle in triangles_of(text, reader) for corner in triangle.corners)))
     return {
         f"{axis}_{end}": choose(column, key=Fraction)
         for axis, column in zip("xyz", columns) for end, choose in (("min", min), ("max", max))}
@@ -43,10 +43,11 @@ def random_scene(rng, projection):
     """Triangles before, behind and around the camera, and some without area."""
     def point(reach):
         return " ".join("%.3f" % rng.uniform(-reach, reach) for _ in range(3)) + "\n"
+
     body = ""
     for _ in range(40):
         reach = rng.choice((1, 4, 15))
-        body += "push\ntranslate\n" + point(reach) + "triangle\n" +"".join(
+        body += "push\ntranslate\n" + point(reach) + "triangle\n" + "".join(
             point(rng.choice((0.1, 1, 9))) for _ in range(3)) + "pop\n"
     return f"0 0 3\n0 0 0\n0 1 0\n{projection}\n" + body + "end\n"
 
@@ -54,13 +55,14 @@ def random_scene(rng, projection):
 class Projected:
     """The right counts of project, from the text it reads: the planes of a frustum in view space, by
     Sutherland and Hodgman."""
-
     def __init__(self, window, near, far, is_parallel):
         left, right, bottom, top = window
+
         def side(axis, limit, sign):
             # Inside where sign * (limit * scale - p[axis]) >= 0; the scale grows with the distance, unless
             # rays are parallel.
             return lambda p: sign * (limit * (1 if is_parallel else -p[2] / near) - p[axis])
+
         self.is_parallel = is_parallel
         self.planes = {
             "near": lambda p: -p[2] - near, "far": lambda p: far + p[2], "left": side(0, left, -1),
@@ -95,8 +97,8 @@ class Projected:
 class Files(ToolTest):
     def test_every_tool_writes_its_keys_in_order(self):
         data = pathlib.Path("scene.txt").read_bytes()
-        for tool, keys in (("model", ["triangles"]), ("view", ["triangles"]), ("project", PROJECT_KEYS),
-                           ("zbuf", ZBUF_KEYS)):
+        for tool, keys in (("model", ["triangles"]), ("view", [
+                "triangles"]), ("project", PROJECT_KEYS), ("zbuf", ZBUF_KEYS)):
             config = ["config.txt"] if tool == "zbuf" else []
             plain = run(tool, *config, stdin=data)
             for path in ("stats.txt", "/dev/stderr"):
@@ -136,8 +138,9 @@ class Places(ToolTest):
         done = run("project", *options, "--stats", "stats.txt", stdin=stage2)
         self.assertEqual(done.returncode, 0, done.stderr)
         told = statistics(pathlib.Path("stats.txt").read_text())
-        places = [volume.place([corner.position for corner in triangle.corners])
-                  for triangle in triangles_of(stage2, "project")]
+        places = [
+            volume.place([corner.position for corner in triangle.corners])
+            for triangle in triangles_of(stage2, "project")]
         expected = {key: str(places.count(key)) for key in PROJECT_KEYS[1:-2]}
         self.assertEqual({key: told[key] for key in expected}, expected)
         self.assertEqual((told["triangles"], told["culled"]), ("40", "0"))
@@ -210,10 +213,9 @@ def reason(triangle, fragments, config):
     x, y, z = zip(*corners)
     left, bottom = Fraction(config.left), Fraction(config.bottom)
     (ax, ay, _), (bx, by, _), (cx, cy, _) = corners
-    for key, holds in (("outside_near", max(z) < Fraction(config.front)), ("outside_far",
-                                                                           min(z) >= Fraction(config.rear)),
-                       ("outside_left", max(x) < left), ("outside_right", min(x) > -left), ("outside_below",
-                                                                                            max(y) < bottom),
+    for key, holds in (("outside_near", max(z) < Fraction(config.front)),
+                       ("outside_far", min(z) >= Fraction(config.rear)), ("outside_left", max(x) < left),
+                       ("outside_right", min(x) > -left), ("outside_below", max(y) < bottom),
                        ("outside_above", min(y) > -bottom), ("without_area",
                                                              (bx - ax) * (cy - ay) == (cx - ax) * (by - ay)),
                        ("outside_near", any(depth < config.front
@@ -266,8 +268,8 @@ class Pixels(ToolTest):
         text = self.text(random.Random(8), 3000)
         for rule in ("nearest", "center"):
             _, expected = self.told(text, "--coverage", rule)
-            for options in (["--algorithm", "scanline"], ["--threads", "4"], ["--samples",
-                                                                              "2"], ["--wireframe"]):
+            for options in (["--algorithm", "scanline"], ["--threads", "4"], ["--samples", "2"], [
+                    "--wireframe"]):
                 self.assertEqual(self.told(text, "--coverage", rule, *options)[1], expected, (rule, options))
             self.assertEqual(self.told(text, "--coverage", rule, kernel="scalar")[1], expected, rule)
 

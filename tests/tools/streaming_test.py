@@ -24,7 +24,6 @@ VERTICES = ("0.1234567 -1.2345678 -12.3456789\n1.1234567 -1.2345678 -12.3456789\
 
 class LiveTool:
     """A tool whose input is written piece by piece."""
-
     def __init__(self, tool, *options, stdout=subprocess.PIPE):
         self.process = subprocess.Popen(command(tool, *options), stdin=subprocess.PIPE, stdout=stdout,
                                         stderr=subprocess.PIPE)
@@ -205,8 +204,9 @@ class PipeSize(ToolTest):
         self.assertEqual(self.sizes_after_a_run(1 << 21), (1 << 21, 1 << 21))
 
 
-INPUTS = {"model": (CAMERA, "triangle\n" + VERTICES, "end\n"), "view": (HEADER, VERTICES + "\n", ""),
-          "project": (HEADERS["project"], VERTICES + "\n", "")}
+INPUTS = {
+    "model": (CAMERA, "triangle\n" + VERTICES, "end\n"), "view": (HEADER, VERTICES + "\n", ""),
+    "project": (HEADERS["project"], VERTICES + "\n", "")}
 
 
 def peak_memory(tool, start, repeated, count, end, *options):
@@ -246,7 +246,7 @@ class Memory(ToolTest):
         pathlib.Path("scene.txt").write_text(CAMERA + "push\n" * 5_000_000 + TRIANGLE + "push\n" * 5_000_000 +
                                              "end\n")
         done = run("cut-scene", "scene.txt", "1",
-                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, 2 * (64 * 2**20, )))
+                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, 2 * (64 * 2**20,)))
         self.assert_quiet_success(done)
         self.assertTrue(filecmp.cmp("scene.txt", "parts/1.txt", shallow=False))
 
@@ -290,7 +290,6 @@ class BufferMemory(ToolTest):
 
 class LongMemory(ToolTest):
     """Takes minutes."""
-
     def test_ten_million_triangles_stay_below_16_mebibytes(self):
         for tool, (start, triangle, end) in INPUTS.items():
             self.assertLess(peak_memory(tool, start, triangle, 10_000_000, end), 16 * MEBIBYTE, tool)

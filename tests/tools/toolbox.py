@@ -51,8 +51,9 @@ def run_with(channels, tool, *options, **settings):
 
 def run_script(name, *words, **settings):
     """The finished run of a script with these tools; its output is text."""
-    settings = {"capture_output": True, "text": True, "timeout": 300, "env": {
-        **os.environ, "BIN": str(BIN), "LANG": "C.UTF-8"}, **settings}
+    settings = {
+        "capture_output": True, "text": True, "timeout": 300,
+        "env": {**os.environ, "BIN": str(BIN), "LANG": "C.UTF-8"}, **settings}
     return subprocess.run([SOURCE / "scripts" / name, *map(str, words)], **settings)
 
 
@@ -143,8 +144,10 @@ class ToolTest(unittest.TestCase):
 def add_claims(case, rows):
     """Adds one test for each row (claim, arguments of `case.check`...)."""
     for claim, *row in rows:
+
         def test(self, row=tuple(row)):
             self.check(*row)
+
         name = "test_" + re.sub(r"\W+", "_", claim.strip())
         if hasattr(case, name):
             raise ValueError(f"two claims of the same name: {claim}")

@@ -69,8 +69,7 @@ NUMBER = r"[-+.\de]+"
 RAY = re.compile(
     rf"\d+,\d+: ( *)(\w+) weight ({NUMBER}) from ((?:{NUMBER} ?){{3}}) ?(cut)?"
     rf"(?:to (light \d+|nothing|(?:triangle|sphere) \d+)(?: (front|back) at ((?:{NUMBER} ?){{3}})| along "
-    rf"((?:{NUMBER} ?){{3}}))? ?brings ((?:{NUMBER} ?){{3}}))?$"
-)
+    rf"((?:{NUMBER} ?){{3}}))? ?brings ((?:{NUMBER} ?){{3}}))?$")
 
 
 class Ray:
@@ -222,8 +221,10 @@ class Refraction(LightTest):
         absorption = (0.3, 0.05, 1.7)
         header = MATT + "material 0 0 0 1 0 1 0\nabsorption %r %r %r\n" % absorption
         wall = (square(-40.0, 99), WHITE, 0)
+
         def slabs(*ends):
             return scene(header, wall, *((box((-9, -9, far), (9, 9, near)), BLACK, 1) for near, far in ends))
+
         one = self.rays(slabs((-5.0, -7.0)))[0].brought
         two = self.rays(slabs((-5.0, -5.5), (-10.0, -11.5)))[0].brought
         expected = tuple(255 * math.exp(-a * 2) for a in absorption)
@@ -235,17 +236,14 @@ class Refraction(LightTest):
         """A scene that is twice as large and absorbs half as much looks the same, to the byte, as does any
         power of 2."""
         pictures = set()
-        for scale in (1, 2, 2 ** -10, 2 ** 30):
+        for scale in (1, 2, 2**-10, 2**30):
             glass = turned_all(box((-2, -2, -8), (2, 1.5, -5)), 0.5, (0, 0, -6))
             header = (
                 "light %r %r %r 1 1 1\nbackground 20 30 60\nmaterial 0.2 1 0.5 9\nmaterial 1 1 1 30 0.1 1.5 "
-                "0.1\nabsorption %r 0 %r\n"
-                % (3.0 * scale, 5.0 * scale, 1.0 * scale, 0.4 / scale, 0.1 / scale))
+                "0.1\nabsorption %r 0 %r\n" %
+                (3.0 * scale, 5.0 * scale, 1.0 * scale, 0.4 / scale, 0.1 / scale))
             objects = [(square(-9.0, 4), "220 200 150", 0), (glass, "90 200 250", 1)]
-            larger = [([tuple(tuple(x * scale
-                                    for x in p)
-                              for p in t)
-                        for t in ts], color, m)
+            larger = [([tuple(tuple(x * scale for x in p) for p in t) for t in ts], color, m)
                       for ts, color, m in objects]
             pictures.add(
                 tuple(
@@ -313,7 +311,7 @@ class Mirrors(LightTest):
                     to_light = unit(minus(lamp, point))
                     half = unit(tuple(a + b for a, b in zip(to_light, to_eye)))
                     cosine = dot(half, (0.0, 0.0, -float(normal)))
-                    expected = 255 * 0.9 * cosine ** shininess
+                    expected = 255 * 0.9 * cosine**shininess
                     self.assertGreater(expected, 1)
                     with self.subTest(is_perspective=is_perspective, mirrors=len(objects) - 1, model=model):
                         [primary, *rest] = self.rays(scene(header, *objects, camera=camera), "--shading",
@@ -361,9 +359,9 @@ class Shadows(LightTest):
         # The line from (0, 0, -10) passes a ball's middle at 5 sin(a); 1.5 of its radius of 2 is beyond the
         # critical angle.
         radius, sine = 2.0, 0.3
-        ball = "sphere\n" +"".join(f"{x} {y} {z} 0 0 0 1\n" for x, y, z in ((0, 0, -5), (radius, 0, -5),
-                                                                            (0, radius, -5),
-                                                                            (0, 0, radius - 5))) + "\n"
+        ball = "sphere\n" + "".join(f"{x} {y} {z} 0 0 0 1\n"
+                                    for x, y, z in ((0, 0, -5), (radius, 0, -5), (0, radius, -5),
+                                                    (0, 0, radius - 5))) + "\n"
         beside = (9 * sine / math.sqrt(1 - sine * sine), 0.0, -1.0)
         angle_of_ball = math.asin(5 * sine / radius)
         for light, objects, more, angle, length in ((lamp, [
@@ -387,10 +385,10 @@ class Shadows(LightTest):
         text = scene("light 0 9 -1 1 1 1\nmaterial 0 1 0 1\nmaterial 0 1 0 1 0 1.5 0\n",
                      (square(-10.0, 50), WHITE, 0), (square(-5.0, 1, y=5.0), BLACK, 1))
         lit, angle = 255 * math.sqrt(0.5), math.radians(45)
-        for options, part in (((), 1 - fresnel(angle, snell(angle, 1.5))), (("--no-recursion", ), 0.0),
+        for options, part in (((), 1 - fresnel(angle, snell(angle, 1.5))), (("--no-recursion",), 0.0),
                               (("--no-recursion", "--no-shadows"), 1.0)):
             self.assertEqual(
-                self.picture(text, "--shading", "phong", *options)[40], (round(lit * part), ) * 3, options)
+                self.picture(text, "--shading", "phong", *options)[40], (round(lit * part),) * 3, options)
 
     def test_of_a_lamp_inside_of_glass_are_dimmed_on_the_way_out(self):
         """By exp(-a r) in a ball, or from the middle of a slab, and by one surface."""
@@ -398,16 +396,14 @@ class Shadows(LightTest):
         header = (
             CAMERA +
             "attributes color material\nlight 0 0 -5 1 1 1\nmaterial 0 1 0 1\nmaterial 0 1 0 1 0 1.5 0\n"
-            "absorption %r %r %r\n"
-            % absorption)
-        wall = "".join("%r %r %r 255 255 255 0\n" % p + "\n" * (i == 2)
-                       for i, p in enumerate(square(-10.0, 50)[0]))
-        ball = "sphere\n" +"".join(f"{x} {y} {z} 0 0 0 1\n" for x, y, z in ((0, 0, -5), (reach, 0, -5),
-                                                                            (0, reach, -5),
-                                                                            (0, 0, reach - 5))) + "\n"
+            "absorption %r %r %r\n" % absorption)
+        wall = "".join(
+            "%r %r %r 255 255 255 0\n" % p + "\n" * (i == 2) for i, p in enumerate(square(-10.0, 50)[0]))
+        ball = "sphere\n" + "".join(f"{x} {y} {z} 0 0 0 1\n"
+                                    for x, y, z in ((0, 0, -5), (reach, 0, -5), (0, reach, -5),
+                                                    (0, 0, reach - 5))) + "\n"
         slab = "".join("%r %r %r 0 0 0 1\n" % p + "\n" * (i == 2)
-                       for t in box((-9, -9, -5 - reach), (9, 9, -5 + reach))
-                       for i, p in enumerate(t))
+                       for t in box((-9, -9, -5 - reach), (9, 9, -5 + reach)) for i, p in enumerate(t))
         expected = tuple(0.96 * math.exp(-a * reach) for a in absorption)
         for thing in (ball, slab):
             rays = self.rays(header + wall + thing)
@@ -431,12 +427,10 @@ class Shadows(LightTest):
         rng = random.Random(2)
         for size in (1e-6, 1, 1e6):
             for bulge in (0.0, 0.02):
-                places = [[(i + rng.uniform(-0.4, 0.4), k + rng.uniform(-0.4, 0.4))
-                           for i in range(-10, 11)]
+                places = [[(i + rng.uniform(-0.4, 0.4), k + rng.uniform(-0.4, 0.4)) for i in range(-10, 11)]
                           for k in range(-10, 11)]
                 points = [[(x * size, y * size, (-30 + 0.4 * x - bulge * (x * x + y * y)) * size)
-                           for x, y in row]
-                          for row in places]
+                           for x, y in row] for row in places]
                 mesh = [
                     t for low, high in zip(points, points[1:])
                     for a, b, c, d in zip(low, low[1:], high[1:], high) for t in quad(a, b, c, d)]
@@ -449,7 +443,6 @@ class Shadows(LightTest):
 
 class Spheres(LightTest):
     """What is true of light at any surface, on one that is curved, near and far, small and large."""
-
     def sphere(self, center, *axes):
         axes = axes if len(axes) == 3 else [tuple(axes[0] * (i == k) for i in range(3)) for k in range(3)]
         points = [center, *(tuple(c + a for c, a in zip(center, axis)) for axis in axes)]
@@ -460,12 +453,11 @@ class Spheres(LightTest):
         away."""
         axes = ((2.0, 0.5, 0.1), (-0.3, 1.0, 0.2), (0.0, 0.1, 0.4))
         for size in (1e-6, 1, 1e6):
-            for center, shape in (((0.2, 0.1, -6.0), (2.0, )), ((0.2, 0.1, -6.0), axes), ((0.0, -1e5, -3.0),
-                                                                                          (1e5 - 0.5, ))):
+            for center, shape in (((0.2, 0.1, -6.0), (2.0,)), ((0.2, 0.1, -6.0), axes), ((0.0, -1e5, -3.0),
+                                                                                         (1e5 - 0.5,))):
                 lights = "light %r %r %r 1 1 1\n" * 2 % tuple(k * size for k in (9, 7, -5, -3, 1, 1))
                 header = lights + "material 0 1 0 1\nmaterial 0.1 1 0.5 7\n"
-                shape = [tuple(x * size
-                               for x in axis)
+                shape = [tuple(x * size for x in axis)
                          for axis in shape] if len(shape) == 3 else [shape[0] * size]
                 text = scene(header, camera="perspective 50 1 %r %r\n" %
                              (size, 100 * size)) + self.sphere(tuple(c * size for c in center), *shape)
@@ -494,13 +486,13 @@ class Spheres(LightTest):
                     self.assert_near(chord, 2 * radius * math.cos(bent), 1e-9)
                     self.assert_near(dot(inside.direction, (0, 0, -1)), math.cos(angle - bent), 1e-9)
                     self.assertEqual(outside.target, "nothing")
-                    reflected = fresnel(angle, bent) if part else ((index - 1) / (index + 1)) ** 2
+                    reflected = fresnel(angle, bent) if part else ((index - 1) / (index + 1))**2
                     self.assert_near(inside.weight, 1 - reflected, 1e-9)
                     self.assert_near(outside.weight, (1 - reflected)**2,
                                      1e-9)  # that of blue, which nothing absorbs
                     mirrored = [ray for ray in rays if ray.kind == "mirrored" and ray.depth == 2]
-                    self.assertTrue(all(ray.side == "back" or ray.is_cut
-                                        for ray in mirrored))  # it stays inside
+                    self.assertTrue(all(
+                        ray.side == "back" or ray.is_cut for ray in mirrored))  # it stays inside
                     red, blue = inside.brought[0], inside.brought[2]
                     self.assertLess(red, blue)
                     self.assert_near(red / math.exp(-absorption * chord), 255 * (1 - reflected), 1e-9)
@@ -534,7 +526,7 @@ class Spheres(LightTest):
         axes = [(a, 0.0, 0.0), (0.0, b, 0.0), (0.0, 0.0, c)]
         x, y = 0.6 * a, 0.48 * b
         z = 0.64 * c  # 0.36 + 0.2304 + 0.4096 = 1
-        normal = unit((x / a ** 2, y / b ** 2, z / c ** 2))
+        normal = unit((x / a**2, y / b**2, z / c**2))
         expected = tuple(d + 2 * normal[2] * n for d, n in zip((0.0, 0.0, -1.0), normal))
         for order in ((0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2)):
             text = scene(MATT + "material 1 0 0 1 1 1 1\n", camera="ortho -1 1 -1 1 1 30\n") + self.sphere(
@@ -597,7 +589,7 @@ class Energy(LightTest):
     def test_rays_out_of_colored_glass_weigh_what_its_clearest_color_leaves(self):
         text = scene("background 255 255 255\n" + GLASS + "absorption 0.5 0.3 0.9\n", (box(
             (-9, -9, -11), (9, 9, -9)), BLACK, 1))
-        weight = 0.96 ** 2 * math.exp(-0.3 * 2)
+        weight = 0.96**2 * math.exp(-0.3 * 2)
         for least, is_cut in ((0.999 * weight, False), (1.001 * weight, True)):
             outside = self.only(self.rays(text, "--min-contribution", repr(least)), "refracted", 2)
             self.assert_near(outside.weight, weight)
@@ -612,7 +604,7 @@ class Energy(LightTest):
                 found = {(ray.depth, ray.is_cut) for ray in rays if ray.kind == kind}
                 self.assertEqual(found, {(depth, depth > most) for depth in range(1, most + 2)}, (kind, most))
         # Straight through both sides; what is mirrored at the first one shows the background, too.
-        for most, expected in ((0, 0.0), (1, 0.04), (2, 0.04 + 0.96 ** 2)):
+        for most, expected in ((0, 0.0), (1, 0.04), (2, 0.04 + 0.96**2)):
             self.assert_near(self.rays(text, "--max-depth", str(most))[0].brought, (255 * expected,) * 3)
 
     def test_rays_of_a_probe_add_up(self):
@@ -677,7 +669,7 @@ class Reports(LightTest):
 
     def test_a_probe_changes_no_byte(self):
         """Not even where light is not traced."""
-        plain = CAMERA +"".join(
+        plain = CAMERA + "".join(
             "%r %r %r\n" % p
             for p in square(-5.0)[0]) + "\n-9 -9 3\n9 -9 3\n0 9 3\n\n-9 -9 3\n9 -9 -3\n0 9 3\n\n"
         for text in (plain, self.TEXT):
@@ -700,8 +692,7 @@ class Bytes(LightTest):
         rng = random.Random(6)
         for camera in ("perspective 50 1 1 100\n", "ortho -9 9 -9 9 1 100\n"):
             mesh = [
-                tuple((i + dx, k + dy, -20 - 0.02 * ((i + dx)**2 + (k + dy)**2))
-                      for dx, dy in corners)
+                tuple((i + dx, k + dy, -20 - 0.02 * ((i + dx)**2 + (k + dy)**2)) for dx, dy in corners)
                 for i in range(-6, 6) for k in range(-6, 6)
                 for corners in (((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 1), (0, 1)))]
             text = (

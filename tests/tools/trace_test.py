@@ -39,14 +39,14 @@ class Referee(ToolTest):
                      stdin=ndc.stdout)
         traced = run("trace", "config.txt", "--no-shadows", "--no-recursion", *projection, "-o", "traced.ppm",
                      *options, stdin=view_text)
-        self.assertEqual((ndc.returncode, raster.returncode), (traced.returncode, ) * 2,
+        self.assertEqual((ndc.returncode, raster.returncode), (traced.returncode,) * 2,
                          traced.stderr.decode())
         if traced.returncode != 0:
             return
         if traced.stdout != raster.stdout or pathlib.Path("raster.ppm").read_bytes() != pathlib.Path(
                 "traced.ppm").read_bytes():
-            self.fail(f"trace {config!r} {options} {projection} differs from project | zbuf on\n"
-                      + (view_text if isinstance(view_text, str) else view_text.decode())[:4000])
+            self.fail(f"trace {config!r} {options} {projection} differs from project | zbuf on\n" +
+                      (view_text if isinstance(view_text, str) else view_text.decode())[:4000])
 
     def check_window(self, triangles, config, projection="ortho -1 1 -1 1 1 3", *options):
         self.check(projection + "\n" + triangles_text(triangles), config, *options)
@@ -84,8 +84,7 @@ class Referee(ToolTest):
                                   (1.3, "frustum -0.5 0.75 -1 1 1 8")):
             for depth in ("-2", None):
                 points = [[("%.7g" % (scale * x), "%.7g" % (scale * y), depth
-                            or "%.7g" % (-2 - 0.01 * (i % 3) - 0.02 * (k % 2)))
-                           for i, x in enumerate(places)]
+                            or "%.7g" % (-2 - 0.01 * (i % 3) - 0.02 * (k % 2))) for i, x in enumerate(places)]
                           for k, y in enumerate(places)]
                 with self.subTest(projection=projection, depth=depth):
                     self.check_window(quads(points), "20 20\n", projection)
@@ -127,8 +126,7 @@ class Referee(ToolTest):
     def test_agrees_at_the_ends_of_doubles(self):
         for scale in (1e-150, 1e-30, 1e30, 1e150):
             points = [[(repr(x * scale), repr(y * scale), repr((-2 - 0.1 * x * y) * scale))
-                       for x in range(-3, 4)]
-                      for y in range(-3, 4)]
+                       for x in range(-3, 4)] for y in range(-3, 4)]
             with self.subTest(scale=scale):
                 self.check_window(
                     quads(points), "21 21\n",
@@ -140,8 +138,8 @@ class Referee(ToolTest):
 class Threads(ToolTest):
     def test_change_no_byte(self):
         view = pipe(["model"], ["view"], stdin=(SOURCE / "samples/shaded-torus/scene.txt").read_bytes())
-        for options in (["--samples", "2"], ["--sampling",
-                                             "jittered"], ["--sampling", "adaptive", "--threshold", "40"]):
+        for options in (["--samples", "2"], ["--sampling", "jittered"], [
+                "--sampling", "adaptive", "--threshold", "40"]):
             outputs = set()
             for count in ("0", "1", "2", "5"):
                 done = run("trace", "--size", "90x70", "--threads", count, "-o", "out.ppm", *options,
@@ -179,11 +177,11 @@ class Samples(ToolTest):
 
     def error(self, pixels, exact):
         """The root of the mean square of the differences."""
-        return math.sqrt(sum((a - b) ** 2 for a, b in zip(pixels, exact)) / len(exact))
+        return math.sqrt(sum((a - b)**2 for a, b in zip(pixels, exact)) / len(exact))
 
     def test_basic_is_one_ray_through_the_center(self):
         self.assertEqual(self.traced("--sampling", "basic"), self.traced())
-        self.assertEqual(self.traced()[1], self.SIZE ** 2)
+        self.assertEqual(self.traced()[1], self.SIZE**2)
 
     def test_regular_is_what_samples_alone_mean(self):
         for count in ("1", "3"):
@@ -201,23 +199,22 @@ class Samples(ToolTest):
         middle of a pixel."""
         steps = "".join(
             f"{x0} -1 -2 {c}\n{x1} -1 -2 {c}\n{x1} 3 -2 {c}\n\n{x0} -1 -2 {c}\n{x1} 3 -2 {c}\n{x0} 3 "
-            f"-2 {c}\n\n"
-            for x0, x1, c in ((-1, 0, "10 100 30"), (0, 1, "10 140 30")))
+            f"-2 {c}\n\n" for x0, x1, c in ((-1, 0, "10 100 30"), (0, 1, "10 140 30")))
         view = "ortho -1 1 -1 1 1 3\nattributes color\n" + steps
         size, count = 9, 5
         for threshold, is_refined in (("40", True), ("41", False)):
             _, rays = self.traced("--sampling", "adaptive", "--threshold", threshold, size=size, view=view)
-            self.assertEqual(rays, 5 * size ** 2 + is_refined * size * (count ** 2 - 5), threshold)
+            self.assertEqual(rays, 5 * size**2 + is_refined * size * (count**2 - 5), threshold)
 
     def test_no_ray_falls_between_triangles(self):
         """Cells whose corners are centers of pixels and of samples cover the picture, in one color."""
         places = ["%.7g" % (i / 20) for i in range(-21, 22)]
         points = [[(x, y, "-2") for x in places] for y in places]
-        view = "ortho -1 1 -1 1 1 3\nattributes color\n" +"".join("".join("%s %s %s 200 100 50\n" % vertex
-                                                                          for vertex in triangle) + "\n"
-                                                                  for triangle in quads(points))
-        for options in (["--sampling", "jittered", "--samples",
-                         "1"], ["--sampling", "jittered"], ["--sampling", "adaptive"]):
+        view = "ortho -1 1 -1 1 1 3\nattributes color\n" + "".join("".join("%s %s %s 200 100 50\n" % vertex
+                                                                           for vertex in triangle) + "\n"
+                                                                   for triangle in quads(points))
+        for options in (["--sampling", "jittered", "--samples", "1"], ["--sampling", "jittered"], [
+                "--sampling", "adaptive"]):
             pixels, _ = self.traced(*options, "--background", "00ff00", view=view, size=20)
             self.assertEqual(set(zip(pixels[::3], pixels[1::3], pixels[2::3])), {(200, 100, 50)})
 
@@ -319,6 +316,7 @@ class Memory(ToolTest):
             _, status, usage = os.wait4(pid, 0)
             self.assertEqual(status, 0)
             return usage.ru_maxrss * 1024
+
         few, many = 20_000, 150_000
         for threads in ("1", "2"):
             self.assertLess((peak(many, threads) - peak(few, threads)) / (many - few), 200, threads)

@@ -62,8 +62,7 @@ add_claims(ForgottenStages, [
     ("project is run twice where there is color", COLORED, "model view project project", f"1:12: {WITH_W}"),
     ("view comes after project", SCENE, "model view project view",
      f"1:1: expected {CAMERA_FORM}, found no eye, look or up: this text is bare, or has been through "
-     f"project already"
-     ),
+     f"project already"),
     ("view comes after project where there is light", LIT, "model view project view",
      f"1:1: expected the output of model, found 'projected': {PROJECTED}"),
     ("view comes after project where there is color", COLORED, "model view project view", f"1:12: {WITH_W}"),
@@ -88,12 +87,11 @@ add_claims(ForgottenStages, [
     ("a config goes to model", "8 8\n-1\n-1\n-1 1\n", "model",
      "1:1: expected a scene, but this looks like a config: zbuf reads those"),
     ("a short config goes to view", "8 8", "view",
-     "1:1: expected the output of model, but this looks like a config: zbuf reads those"), ])
+     "1:1: expected the output of model, but this looks like a config: zbuf reads those"),])
 
 
 class Lines(ToolTest):
     """A header line that does not belong there is found wherever it stands in the header."""
-
     def check(self, tool, options, text, message):
         done = run(tool, *options.split(), stdin=text)
         self.assert_fails(done, 1, f"{tool}: <stdin>:{message}")
@@ -127,12 +125,11 @@ add_claims(Lines, [
      "1:30: expected far, found the end of the line"),
     ("projected stands in the header", "zbuf", "config.txt",
      "0 0 0\n1 0 0\n0 1 0\n\nprojected ortho -1 1 -1 1 1 9\n",
-     "5:1: expected header lines before the first triangle, found 'projected'"), ])
+     "5:1: expected header lines before the first triangle, found 'projected'"),])
 
 
 class Recognized(ToolTest):
     """Some of what a beginning may look like, and what is no sign of anything."""
-
     def check(self, tool, text, message):
         pathlib.Path("text").write_bytes(text.encode() if isinstance(text, str) else text)
         self.assert_fails(run(tool, *OPERANDS[tool], "text"), 1, f"{tool}: text:{message}")
@@ -151,8 +148,8 @@ add_claims(Recognized, [
     ("a triangle with its vertex beside it", "view", "triangle 0 0 0\n1 0 0\n0 1 0\n", A_SCENE),
     ("triangle N is of a stage text", "view", "triangle 7\n1 0 0\n0 1 0\n0 0 1\n",
      f"1:1: expected {CAMERA_FORM}, found no eye, look or up: this text is bare, or has been through "
-     f"project already"
-     ), ("an empty text is nothing", "project", "", f"1:1: expected {PROJECTION_FORM}, found none"),
+     f"project already"),
+    ("an empty text is nothing", "project", "", f"1:1: expected {PROJECTION_FORM}, found none"),
     ("a config of nothing is none", "model", "0 0\n",
      "1:4: expected the z of the eye, found the end of the line"),
     ("a point that lacks a number makes no config", "model", "8 8\n0 0 0\n0 1 0\n60 1 1 100\n",
@@ -162,7 +159,7 @@ add_claims(Recognized, [
     ("an error line says more", "project", "eye 0 0 5\nlook 0 0 0\nerror model: no scene\n",
      "3:1: an earlier stage failed: model: no scene"),
     ("a framed text is known behind its frame", "model", "framed\neye 0 0 5\n",
-     "1:1: expected a scene, but this looks like the output of model: view reads that"), ])
+     "1:1: expected a scene, but this looks like the output of model: view reads that"),])
 
 
 class Configs(ToolTest):
@@ -179,7 +176,7 @@ add_claims(Configs, [
     ("the output of project is no config", "projected ortho -1 1 -1 1 1 9\n",
      "the output of project: is the config before it missing?"),
     ("config and input are in their order", "0 0 0.5\n1 0 0.5\n0 1 0.5\n\n0 0 0.5\n",
-     "triangles: CONFIG comes before INPUT"), ])
+     "triangles: CONFIG comes before INPUT"),])
 
 
 class Unlike(ToolTest):
@@ -189,8 +186,7 @@ class Unlike(ToolTest):
             self.assert_fails(
                 run(tool, "--scene", "stage1.txt", stdin="0 0 0\n"), 1,
                 f"{tool}: stage1.txt:1:1: expected a scene, but this looks like the output of model: view "
-                f"reads that"
-            )
+                f"reads that")
 
     def test_text_without_a_header_is_taken_as_it_reads(self):
         text = pipe(["model", "--bare"], ["view", "--bare", "--scene", "scene.txt"])

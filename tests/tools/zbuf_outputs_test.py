@@ -14,8 +14,8 @@ import unittest
 import zlib
 
 from lib.showing import pictures
-from toolbox import (
-    CAMERA, NO_TRIANGLE, ToolTest, command, pipe, pseudo_terminal, run, run_script, stage_texts)
+from toolbox import (CAMERA, NO_TRIANGLE, ToolTest, command, pipe, pseudo_terminal, run, run_script,
+                     stage_texts)
 
 # The lower left half of the screen, and all of it.
 HALF = "-1.0000000 -1.0000000 0.0000000\n1.0000000 -1.0000000 0.0000000\n-1.0000000 1.0000000 0.0000000\n\n"
@@ -139,8 +139,7 @@ class Depths(OutputTest):
         header = ast.literal_eval(data[10:10 + length].decode("latin-1"))
         self.assertEqual((header["descr"], header["fortran_order"]), (kind, False))
         return header["shape"], [
-            number
-            for number, in struct.iter_unpack({"<f8": "<d", "<i8": "<q"}[kind], data[10 + length:])]
+            number for number, in struct.iter_unpack({"<f8": "<d", "<i8": "<q"}[kind], data[10 + length:])]
 
     def test_their_array_has_all_digits(self):
         """The text is that of the numbers, and they are the ones that --fragments has."""
@@ -175,10 +174,10 @@ class Depths(OutputTest):
         """Of many, lit and not, whatever else keeps them; and none is let go of too early."""
         random_ = random.Random(7)
         text = "light 1 1 3 1 1 1\n" + "".join(
-            f"triangle {3 * i}\n" + "".join(
-                f"{x + random_.uniform(-size, size):.3f} {y + random_.uniform(-size, size):.3f} {z:.3f}\n"
-                for _ in range(3)) for i in range(20000) for x, y, z, size in
-            [[random_.uniform(-1, 1) for _ in "xyz"] + [random_.choice((.01, .02, .5))]])
+            f"triangle {3 * i}\n" +
+            "".join(f"{x + random_.uniform(-size, size):.3f} {y + random_.uniform(-size, size):.3f} {z:.3f}\n"
+                    for _ in range(3)) for i in range(20000)
+            for x, y, z, size in [[random_.uniform(-1, 1) for _ in "xyz"] + [random_.choice((.01, .02, .5))]])
         pathlib.Path("config.txt").write_text("30 20\n")
         for stage3 in (text.split("\n", 1)[1], "projected ortho -1.5 1.5 -1 1 1 9\n" + text):
             for words in ((), ("--algorithm", "scanline"), ("--seen", "seen.txt"), ("--threads", "2")):
@@ -205,9 +204,8 @@ class Depths(OutputTest):
 
     def test_their_array_has_one_sample_a_pixel(self):
         for option in ("--depth-array", "--triangle-array"):
-            self.assert_fails(
-                run("zbuf", "config.txt", option, "depths.npy", "--samples", "2", stdin=b""), 2,
-                f"zbuf: {option}: expected --samples 1 with it, found '2' (try zbuf --help)")
+            self.assert_fails(run("zbuf", "config.txt", option, "depths.npy", "--samples", "2", stdin=b""), 2,
+                              f"zbuf: {option}: expected --samples 1 with it, found '2' (try zbuf --help)")
 
 
 class Terminal(OutputTest):
@@ -275,8 +273,8 @@ class Background(OutputTest):
 class TransparentBackground(OutputTest):
     """PNGs with alpha. The triangle of CORNER covers the lower left of the picture, and the diagonal cuts
     pixels in halves."""
-    CORNER = "attributes color\n" +"".join(f"{x} {y} 0 250 120 7\n" for x, y in ((-1, -1), (1, -1),
-                                                                                 (-1, 1))) + "\n"
+    CORNER = "attributes color\n" + "".join(f"{x} {y} 0 250 120 7\n"
+                                            for x, y in ((-1, -1), (1, -1), (-1, 1))) + "\n"
 
     def setUp(self):
         super().setUp()
@@ -288,8 +286,8 @@ class TransparentBackground(OutputTest):
         data = pathlib.Path(path).read_bytes()
         width, height, *kind = struct.unpack_from(">IIBBBBB", data, 16)
         self.assertEqual(kind, [8, 6, 0, 0, 0])
-        pixels = zlib.decompress(b"".join(body for name, body in pictures.png_chunks(data)
-                                          if name == b"IDAT"))
+        pixels = zlib.decompress(b"".join(
+            body for name, body in pictures.png_chunks(data) if name == b"IDAT"))
         rows, above = [], bytes(4 * width)
         for at in range(0, len(pixels), 4 * width + 1):
             above = pictures.unfiltered(pixels[at], pixels[at + 1:at + 1 + 4 * width], above, 4)
@@ -307,13 +305,13 @@ class TransparentBackground(OutputTest):
                         expected = (250, 120, 7, 255) if column < row else (1, 2, 3, 0)
                         if column == row:  # the top-left rule gives the diagonal, a right edge, to nobody
                             share = {"1": 0, "2": 1, "4": 6}[samples]
-                            alpha = (2 * 255 * share + int(samples) ** 2) // (2 * int(samples) ** 2)
+                            alpha = (2 * 255 * share + int(samples)**2) // (2 * int(samples)**2)
                             expected = (250, 120, 7, alpha) if share else (1, 2, 3, 0)
                         self.assertEqual(rows[row][column], expected, (samples, row, column))
 
     def ways(self, text):
         """Calls of zbuf, by both algorithms and on threads, and of trace, that draw the same text."""
-        view = "ortho -1 1 -1 1 1 3\n" +"".join(
+        view = "ortho -1 1 -1 1 1 3\n" + "".join(
             line.replace(" 0 250", " -2 250") + "\n" for line in text.splitlines())
         zbuf = ["zbuf", "--size", "8x8", "--coverage", "center", "--z-buffer", "none"]
         yield lambda *words: self.assert_quiet_success(run(*zbuf, *words, stdin=text))

@@ -47,7 +47,7 @@ class Threads(ToolTest):
         rng = random.Random(2)
         counts = ((10000, 0.01), (50, 1), (10000, 0.01))
         pathlib.Path("stage3.txt").write_text("".join(
-            random_triangle(rng, (size, )) for count, size in counts for _ in range(count)))
+            random_triangle(rng, (size,)) for count, size in counts for _ in range(count)))
         pathlib.Path("config.txt").write_text("151 83\n")
         self.check("config.txt", "stage3.txt")
 
@@ -65,8 +65,7 @@ class Threads(ToolTest):
         rng = random.Random(4)
         other = ("# a comment\n", "triangle 7\n", "0 0 0.1\n1 0 .1\n0 1 1e-1\n\n", "\n\n")
         counts = (20000, 1000, 25000, 1)
-        text = "".join("".join(random_triangle(rng, (0.02, ))
-                               for _ in range(count)) + line
+        text = "".join("".join(random_triangle(rng, (0.02,)) for _ in range(count)) + line
                        for count, line in zip(counts, other))
         pathlib.Path("stage3.txt").write_text(text)
         pathlib.Path("config.txt").write_text("91 103\n")

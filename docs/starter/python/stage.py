@@ -19,6 +19,7 @@ def to_do(text):
 
 # What is yours. A point is a list of three numbers, a matrix a list of four rows.
 
+
 def transformed(matrix, command, numbers):
     """The current matrix after translate X Y Z, scale X Y Z or rotate DEGREES X Y Z."""
     to_do("transformed() in stage.py: multiply the matrix by that of the command, on its right")
@@ -44,6 +45,7 @@ def to_ndc(fov_y, aspect, near, far, p):
 
 
 # What is done.
+
 
 def write(p, count):
     """Writes a vertex, and a blank line behind every third."""

@@ -14,7 +14,6 @@ def points_of(words):
 class Calculation:
     """Matrices, and the triangle's points in each space. `clipped` and `ndc` have what is left of it, piece
     by piece."""
-
     def __init__(self, stages, triangle):
         settings, camera = stages.settings, stages.camera()
         self.model_matrix = triangle.matrix()
@@ -26,9 +25,7 @@ class Calculation:
         self.projection_matrix = self.projection.matrix()
         self.corners = [applied(self.projection_matrix, p) for p in points_of(stages.view_lossless)]
         self.clipped = clip(self.corners, self.projection, settings.clip or "auto", settings.cull)
-        self.ndc = [[tuple(x / vertex.point[3]
-                           for x in vertex.point[:3])
-                     for vertex in piece]
+        self.ndc = [[tuple(x / vertex.point[3] for x in vertex.point[:3]) for vertex in piece]
                     for piece in self.clipped.pieces]
 
 

@@ -17,14 +17,15 @@ def certainty_lines(stages, triangle, shown, number, fragments):
     z = shown.depth("center")
     near = [f"edge {edge.name} is" for edge in shown.edges if abs(edge.distance) <= edges_by]
     if shown.distance > 0:
-        near += [f"triangle {other.triangle} is" for other in fragments if other.triangle != number and
-                 abs(double(other.depth) - z) <= 2 * depth_by]
-        near += [f"the {name} limit is" for name in ("front", "rear")
-                 if abs(getattr(shown.window, name) - z) <= depth_by]
+        near += [
+            f"triangle {other.triangle} is" for other in fragments
+            if other.triangle != number and abs(double(other.depth) - z) <= 2 * depth_by]
+        near += [
+            f"the {name} limit is" for name in ("front", "rear")
+            if abs(getattr(shown.window, name) - z) <= depth_by]
     return [
         f"{INDENT}uncertain: rounding may have moved edges here by {measured(edges_by)} pixels, depths by "
-        f"{measured(depth_by)}; {f'{near[0]} as near' if near else 'other triangles are why'}"
-    ]
+        f"{measured(depth_by)}; {f'{near[0]} as near' if near else 'other triangles are why'}"]
 
 
 def reach(bounds, stages, calculation, shown):
@@ -45,7 +46,8 @@ def reach(bounds, stages, calculation, shown):
     by_pixels = [((scale + turn * abs(at)) * error / abs(w) + own) / step
                  for scale, at, step in zip(scales, place, (grid.dx, grid.dy))]
     column, row = shown.pixel
-    slopes = [abs(PixelOfTriangle(shown.window, shown.names, shown.points, pixel).depth("center") - z)
-              for pixel in ((column + 1, row), (column, row + 1))]
+    slopes = [
+        abs(PixelOfTriangle(shown.window, shown.names, shown.points, pixel).depth("center") - z)
+        for pixel in ((column + 1, row), (column, row + 1))]
     moved = sum(by * slope for by, slope in zip(by_pixels, slopes))
     return sum(by_pixels), by_distance * error + own + moved

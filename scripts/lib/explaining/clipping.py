@@ -10,16 +10,15 @@ PLANES = {
     "left": lambda p: p[3] + p[0],
     "right": lambda p: p[3] - p[0],
     "bottom": lambda p: p[3] + p[1],
-    "top": lambda p: p[3] - p[1],
-}
+    "top": lambda p: p[3] - p[1],}
 NEAREST_UNCUT = 1024  # --clip auto cuts what is nearer to the eye plane than near / 1024
 
 
 @dataclasses.dataclass
 class Vertex:
-    name: str      # 0, 1, 2 for the triangle's corners, letters for cuts
-    point: tuple   # in clip space
-    edge: str      # of the triangle, or the plane, along which the polygon goes on from here
+    name: str  # 0, 1, 2 for the triangle's corners, letters for cuts
+    point: tuple  # in clip space
+    edge: str  # of the triangle, or the plane, along which the polygon goes on from here
     cut: str = ""  # what was cut here, and by which plane
 
 
@@ -74,10 +73,8 @@ def clip(corners, projection, clip_mode, cull_mode):
     if turn and cull_mode == ("front" if turn > 0 else "back"):
         way = "counterclockwise" if turn > 0 else "clockwise"
         return Clipped(
-            "culled",
-            f"its corners run {way} as the eye sees them: it shows its {cull_mode}, which --cull "
-            f"{cull_mode} drops",
-            [])
+            "culled", f"its corners run {way} as the eye sees them: it shows its {cull_mode}, which --cull "
+            f"{cull_mode} drops", [])
     if clip_mode == "none":
         return Clipped("passed", "--clip none cuts nothing", polygon)
     if clip_mode == "auto" and (projection.is_parallel or all(NEAREST_UNCUT * p[3] >= projection.near
@@ -91,9 +88,8 @@ def clip(corners, projection, clip_mode, cull_mode):
     if whole:
         return Clipped("outside", f"dropped: all corners are outside the {whole[0]} plane", [])
     if not any(outside) or clip_mode == "reject":
-        why = ("no plane has all corners outside"
-               if clip_mode == "reject"
-               else f"no corner is outside {'a' if len(planes) > 1 else 'the near'} plane")
+        why = ("no plane has all corners outside" if clip_mode == "reject" else
+               f"no corner is outside {'a' if len(planes) > 1 else 'the near'} plane")
         return Clipped("passed", f"not cut: {why}", polygon)
     for plane in planes:
         polygon = cut_at(plane, polygon)

@@ -11,8 +11,7 @@ def pixel_section(stages, window, pieces, number, pixel):
     x, y = window.grid.x_of(pixel[0]), window.grid.y_of(pixel[1])
     lines = [
         f"PIXEL    {pixel[0]},{pixel[1]}: its center is at column {pixel[0]}, row {pixel[1]} of the window, "
-        f"at ({short(x)} {short(y)}) in NDC"
-    ]
+        f"at ({short(x)} {short(y)}) in NDC"]
     if pieces:
         is_drawn = any(fragment.triangle == number for fragment in fragments)
         pixels = [PixelOfTriangle(window, names, points, pixel) for names, points in pieces]
@@ -36,8 +35,7 @@ def depth_lines(pixel, rule):
     if pixel.single_crossing(rule) is not None:
         return [
             f"{INDENT}depth = {fixed(pixel.depth(rule), 10)}, where the row meets the triangle in a "
-            f"single point"
-        ]
+            f"single point"]
     if not pixel.has_area:
         return []
     terms = " + ".join(
@@ -76,8 +74,7 @@ def center_lines(pixel):
     on_edge = any(edge.value == 0 for edge in pixel.edges)
     return [
         f"{INDENT}covered: "
-        f"{'points on left and top edges belong to the triangle' if on_edge else 'the center is inside'}"
-    ]
+        f"{'points on left and top edges belong to the triangle' if on_edge else 'the center is inside'}"]
 
 
 def nearest_lines(pixel):
@@ -87,19 +84,15 @@ def nearest_lines(pixel):
     if exact:
         lines.append(
             f"{INDENT}row {row} crosses it from column {measured(exact.left)} to {measured(exact.right)}: "
-            f"pixels {exact.first} to {exact.last} are nearest"
-        )
+            f"pixels {exact.first} to {exact.last} are nearest")
     if in_doubles and in_doubles.ends != (exact and exact.ends):
         lines.append(
             f"{INDENT}in doubles, as zbuf calculates, from {in_doubles.left!r} to {in_doubles.right!r}: "
-            f"pixels {in_doubles.first} to {in_doubles.last}"
-        )
+            f"pixels {in_doubles.first} to {in_doubles.last}")
     if not in_doubles:
         return [
-            *lines,
-            f"{INDENT}not covered: the line through the centers of row {row} does not cross the "
-            f"triangle{' in doubles' if exact else ''}"
-        ]
+            *lines, f"{INDENT}not covered: the line through the centers of row {row} does not cross the "
+            f"triangle{' in doubles' if exact else ''}"]
     if not in_doubles.has(column):
         return [
             *lines,

@@ -16,8 +16,8 @@ from lib.text.stage_text import triangle_lines
 FRAGMENT = re.compile(r"(\d+),(\d+): triangle (\d+), depth (\S+): (.*)")
 OUTSIDE = ("lost, before the front limit", "lost, beyond the rear limit")
 MAX_NUMBERS = 3  # of a list of polygons
-MAX_SEEN = 16    # letters about the polygons seen
-NOTHING = -1     # the number of the background
+MAX_SEEN = 16  # letters about the polygons seen
+NOTHING = -1  # the number of the background
 
 
 def scan_line_lines(stages, window, name, row):
@@ -74,8 +74,9 @@ def edges_of(depths):
 
 def polygon_table(text, rows, depths):
     planes = dict(planes_of(text, depths))
-    return aligned_left([("polygon", "rows", "plane")] + [
-        (str(polygon), "{} to {}".format(*rows[polygon]), planes[polygon]) for polygon in sorted(depths)])
+    return aligned_left([("polygon", "rows", "plane")] +
+                        [(str(polygon), "{} to {}".format(*rows[polygon]), planes[polygon])
+                         for polygon in sorted(depths)])
 
 
 def planes_of(text, wanted):
@@ -91,8 +92,8 @@ def planes_of(text, wanted):
             along = (u[2] * v[1] - u[1] * v[2]) / slope, (u[0] * v[2] - u[2] * v[0]) / slope
             start = a[2] - along[0] * a[0] - along[1] * a[1]
             signs = ("-" if x < 0 else "+" for x in along)
-            yield number, f"z = {short(start)}" + "".join(
-                f" {sign} {short(abs(x))} {axis}" for sign, x, axis in zip(signs, along, "xy"))
+            yield number, f"z = {short(start)}" + "".join(f" {sign} {short(abs(x))} {axis}"
+                                                          for sign, x, axis in zip(signs, along, "xy"))
 
 
 def active_edges(edges, shown):

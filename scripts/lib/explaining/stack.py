@@ -9,7 +9,7 @@ from lib.text.scene import commands
 
 WIDTH = 79
 MAX_FACTORS = 8  # of a product that is written out
-LEFT = 34        # columns before the stack
+LEFT = 34  # columns before the stack
 
 
 def stack_lines(text, name):
@@ -36,7 +36,7 @@ def stack_lines(text, name):
             counts[keyword] += 1
             transform = f"{keyword[0].upper()}{counts[keyword]}"
             transforms.append((transform, command))
-            stack[-1] += (transform, )
+            stack[-1] += (transform,)
             words = f"{transform} = {keyword} {' '.join(command.arguments[0])}"
         lines += row(command.line, words, " | ".join(map(product_name, reversed(stack))))
     return lines + triangle_lines(drawn, stack) + matrices(transforms)

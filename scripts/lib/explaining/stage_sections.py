@@ -29,18 +29,20 @@ def model_section(stages, triangle, calculation):
     facts += [f"line {t.line}  {t.keyword} {' '.join(t.arguments[0])}"
               for t in shown] or ["no transform is in force"]
     rows = [[name, *p, "->", *world] for name, p, world in zip(CORNERS, triangle.points, stages.world)]
-    return ["MODEL    world = M p      M is the product of the transforms in force; the last one acts first",
-            *beside(facts, matrix_lines("M", calculation.model_matrix)),
-            *vertex_lines(rows, stages.world, calculation.world, stages.settings.digits)]
+    return [
+        "MODEL    world = M p      M is the product of the transforms in force; the last one acts first",
+        *beside(facts, matrix_lines("M", calculation.model_matrix)),
+        *vertex_lines(rows, stages.world, calculation.world, stages.settings.digits)]
 
 
 def view_section(stages, calculation):
     camera = stages.camera()
     facts = [f"{name:4}  {' '.join(camera[name])}" for name in ("eye", "look", "up")]
     rows = [[name, *words] for name, words in zip(CORNERS, stages.view)]
-    return ["VIEW     view = V world   V moves the eye to the origin and turns the camera to look down -z",
-            *beside(facts, matrix_lines("V", calculation.view_matrix)),
-            *vertex_lines(rows, stages.view, calculation.view, stages.settings.digits)]
+    return [
+        "VIEW     view = V world   V moves the eye to the origin and turns the camera to look down -z",
+        *beside(facts, matrix_lines("V", calculation.view_matrix)),
+        *vertex_lines(rows, stages.view, calculation.view, stages.settings.digits)]
 
 
 def projection_facts(projection):
@@ -98,15 +100,13 @@ def window_section(stages, calculation, window):
     places = [window.place(tuple(map(decimal_or_double, words))) for words in printed.values()]
     rows = [[name, *words, "->", measured(column), measured(row)]
             for (name, words), (column, row) in zip(printed.items(), places)]
-    x_scale, y_scale = (f"* {pixels} / {short(-2 * limit)}" for pixels, limit in ((window.width, window.left),
-                                                                                  (window.height,
-                                                                                   window.bottom)))
+    x_scale, y_scale = (f"* {pixels} / {short(-2 * limit)}"
+                        for pixels, limit in ((window.width, window.left), (window.height, window.bottom)))
     return [
         "DIVIDE   ndc = (x y z) / w        what is far away gets small; a smaller z is nearer",
         f"WINDOW   column = (x - {short(window.left)}) {x_scale} - 0.5, row = ({short(-window.bottom)} - y) "
-        f"{y_scale} - 0.5: centers are whole"
-        .replace("- -", "+ "), *vertex_lines(rows, printed.values(), points.values(), stages.settings.digits),
-        INDENT +
+        f"{y_scale} - 0.5: centers are whole".replace("- -", "+ "),
+        *vertex_lines(rows, printed.values(), points.values(), stages.settings.digits), INDENT +
         extent(calculation, window, places, [decimal_or_double(words[2]) for words in printed.values()])]
 
 

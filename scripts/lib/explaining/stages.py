@@ -45,7 +45,6 @@ class Settings:
 
 class Stages:
     """A scene in world space, from which a single triangle goes through the other stages."""
-
     def __init__(self, tools, scene, config, settings):
         self.tools, self.scene, self.config, self.settings = tools, scene, config, settings
         self.lossless = tools.output("model", *EXACT, scene)
@@ -119,6 +118,5 @@ def vertex_lines(data):
     not count."""
     text = data.decode()
     lines = text.split("\n")
-    return [[lines[vertex.line - 1]
-             for vertex in triangle]
+    return [[lines[vertex.line - 1] for vertex in triangle]
             for triangle in parse_stage_text(text, "stage text").triangles]

@@ -5,14 +5,13 @@ import math
 
 from lib.judging.raster import kept, spend
 
-REACH = 1.5        # pixels between one that differs and what it shows
+REACH = 1.5  # pixels between one that differs and what it shows
 DEPTH_REACH = 1.0  # pixels along which the depth of a triangle may be taken
 
 
 class Borders:
     """Triangles (raster.Triangles) in pixels: what may be seen at a pixel if its center may move by REACH.
     `work` is that of Drawing."""
-
     def __init__(self, triangles, limits, work):
         self.triangles, (self.front, self.rear), self.work = triangles, limits, work
         self.planes, self.boxes = {}, {}
@@ -102,7 +101,6 @@ class Borders:
 class BorderRule:
     """Whether the nearest of our two rules, with its Mismatch, explains all but borders. `context` is a
     pixel_comparing.Context of a picture."""
-
     def __init__(self, context, mismatch):
         self.mismatch, self.pixels = mismatch, context.shown.pixels()
         self.tolerance = context.shown.depths.tolerance if context.shown.depths else lambda z: 0.0
@@ -114,8 +112,8 @@ class BorderRule:
         # Where more differs than is drawn, these are not the borders of what there is to draw.
         mismatch = self.mismatch
         return bool(self.pixels.drawn) and not mismatch.has_rows and (
-            len(mismatch.of_shape) <= mismatch.drawn and self.shows_each_triangle and
-            all(map(self.is_within_reach, mismatch.pixels)))
+            len(mismatch.of_shape) <= mismatch.drawn and self.shows_each_triangle
+            and all(map(self.is_within_reach, mismatch.pixels)))
 
     @property
     def shows_each_triangle(self):
@@ -130,8 +128,8 @@ class BorderRule:
                     if t not in deep and self.borders.inside(t, row, column) >= REACH:
                         deep.add(t)
         small = visible.keys() - deep
-        return all(2 * agreeing[t] >= visible[t] for t in deep) and (
-            not small or any(agreeing[t] for t in small))
+        return all(2 * agreeing[t] >= visible[t] for t in deep) and (not small or any(agreeing[t]
+                                                                                      for t in small))
 
     def is_other(self, row, column, t):
         """Whether a pixel shows something else than triangle t. A triangle whose pixels have the color and

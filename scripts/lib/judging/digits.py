@@ -19,8 +19,8 @@ class Digits:
     def unit(self, x):
         """The value of one unit in the last digit of x."""
         if self.decimals is not None:
-            return 10.0 ** -self.decimals
-        return 10.0 ** (exponent_of(x) - self.significant + 1) if x else 0.0
+            return 10.0**-self.decimals
+        return 10.0**(exponent_of(x) - self.significant + 1) if x else 0.0
 
     @property
     def count(self):

@@ -13,8 +13,8 @@ from lib.maths.vectors import dot
 
 MOST_POINTS = 60
 TRIALS = 3
-WORST_SPREAD = 0.01       # of an element, against the largest one
-LEAST_DIFFERENCE = 1e-4   # of an element, against 1 and its own size
+WORST_SPREAD = 0.01  # of an element, against the largest one
+LEAST_DIFFERENCE = 1e-4  # of an element, against 1 and its own size
 # of a number that a matrix gives: against 1 and its own size, and of its last digit
 MISFIT, MISFIT_IN_UNITS = 1e-3, 20
 DECIMALS = 5
@@ -42,7 +42,6 @@ class Comparison:
 
 class NoMatrix:
     """In place of a Comparison, where no matrix comes near the points."""
-
     @staticmethod
     def lines():
         return ["  no 4 x 4 matrix gives these numbers"]
@@ -131,7 +130,7 @@ def normalizing(points):
     center = [sum(values) / len(points) for values in zip(*points)]
     size = max(max(abs(x - c) for x, c in zip(p, center)) for p in points) or 1.0
     there = tuple(
-        tuple((1 / size if i == j else 0.0) for j in range(3)) + (-center[i] / size, ) for i in range(3))
+        tuple((1 / size if i == j else 0.0) for j in range(3)) + (-center[i] / size,) for i in range(3))
     back = tuple(tuple((size if i == j else 0.0) for j in range(3)) + (center[i],) for i in range(3))
     return (*there, (0.0, 0.0, 0.0, 1.0)), (*back, (0.0, 0.0, 0.0, 1.0))
 
@@ -184,8 +183,7 @@ def scaled_like(m, ours):
 
     def agreeing(factor):
         return sum(
-            abs(factor * a - b) <= 1e-3 * max(1.0, abs(b))
-            for row, other in zip(m, ours)
+            abs(factor * a - b) <= 1e-3 * max(1.0, abs(b)) for row, other in zip(m, ours)
             for a, b in zip(row, other))
 
     factor = max(ratios, key=agreeing, default=1.0)
@@ -212,8 +210,7 @@ def compare(before, after, units, ours, is_divided):
     fits = []
     for trial in range(TRIALS + 1):
         images = [
-            tuple(x + (trial > 0) * rng.uniform(-0.5, 0.5) * u
-                  for x, u in zip(q, unit))
+            tuple(x + (trial > 0) * rng.uniform(-0.5, 0.5) * u for x, u in zip(q, unit))
             for q, unit in zip(after, units)]
         try:
             m = fit(before, images)
@@ -232,7 +229,6 @@ def compare(before, after, units, ours, is_divided):
             return None
     differing = {
         (i, j)
-        for i in range(4)
-        for j in range(4)
+        for i in range(4) for j in range(4)
         if abs(theirs[i][j] - ours[i][j]) > 4 * spread[i][j] + LEAST_DIFFERENCE * max(1.0, abs(ours[i][j]))}
     return Comparison(theirs, ours, differing)

@@ -9,10 +9,10 @@ from lib.rim.input_file import InputError, read_input
 # The kinds of files, their first name in the assignment, and what other names look like, in lower case
 # without - _ and blanks; a student's number may stand before or after the name.
 KINDS = {
-    **{f"stage{i}": (f"stage{i}.txt", re.compile(rf"\d*stage{i}\d*\.txt")) for i in (1, 2, 3)},
+    **{f"stage{i}": (f"stage{i}.txt", re.compile(rf"\d*stage{i}\d*\.txt"))
+       for i in (1, 2, 3)},
     "depths": ("z_buffer.txt", re.compile(r"\d*z(buffer|buf|out)(out|output)?\d*\.txt")),
-    "picture": ("out.bmp", re.compile(r"\d*(out|output|image)?\d*\.(bmp|png|ppm)")),
-}
+    "picture": ("out.bmp", re.compile(r"\d*(out|output|image)?\d*\.(bmp|png|ppm)")),}
 STAGE_OF = {"stage1": "model", "stage2": "view", "stage3": "project", "depths": "zbuf", "picture": "zbuf"}
 TOO_LARGE = "it is longer than {} bytes, more than the scene can need"
 

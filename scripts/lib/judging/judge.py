@@ -76,8 +76,8 @@ class HandIn:
     def readings(before, memory):
         """The possible inputs of a stage: the points of the file before it, and those in memory."""
         is_near = before is not None and is_of_this_world(before.points)
-        return ([Reading(before.points, before.units)] if is_near else []) + (
-            [Reading.exact(memory)] if memory is not None else [])
+        return ([Reading(before.points, before.units)] if is_near else []) + ([Reading.exact(memory)]
+                                                                              if memory is not None else [])
 
     def outcome(self, judge, stage, kind, theirs, readings, verdicts):
         """The Outcome of a text that can be read, after the verdicts on the stages before."""
@@ -137,8 +137,8 @@ class HandIn:
             return undecided_outcome(stage, name, "what it was to project may be out of view")
         return Outcome(
             FileVerdict(
-                stage, name, WRONG,
-                remarks=["there is no triangle in it" if self.files[kind].data.strip() else "it is empty"]))
+                stage, name, WRONG, remarks=[
+                    "there is no triangle in it" if self.files[kind].data.strip() else "it is empty"]))
 
     # reading
     def read(self, kind, parse):
@@ -189,8 +189,8 @@ class HandIn:
             stage3 = None
         readings = pixel_readings(stage3, memory, None if is_right else self.right_after("project")[-1])
         judge = PixelStage(self.ours, self.files, readings, thin, self.borders_first)
-        verdicts = self.failed | (judge.verdicts_of_exchanged(depths, exchanged) if exchanged else judge.
-                                  verdicts(depths, colors))
+        verdicts = self.failed | (judge.verdicts_of_exchanged(depths, exchanged)
+                                  if exchanged else judge.verdicts(depths, colors))
         for kind in ("depths", "picture"):
             self.add_others(kind, verdicts[kind])
         return [verdicts["depths"], verdicts["picture"]]

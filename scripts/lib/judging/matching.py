@@ -87,7 +87,7 @@ def reordered(written, right, is_same):
                     f"{', '.join(ORDINALS[i] for i in order)}")
     if len(written) > 1 and all(map(is_same, written, reversed(right))):
         return "The triangles stand in reverse order"
-    if len(written) ** 2 > MOST_COMPARED:
+    if len(written)**2 > MOST_COMPARED:
         return ""
     left, first = list(range(len(right))), None
     for number, item in enumerate(written):
@@ -96,7 +96,5 @@ def reordered(written, right, is_same):
             return ""
         left.remove(found)
         first = first or (number, found) if number != found else first
-    return (
-        f"All triangles are there, but in another order: triangle {first[0]} of the text is triangle "
-        f"{first[1]}"
-        if first else "")
+    return (f"All triangles are there, but in another order: triangle {first[0]} of the text is triangle "
+            f"{first[1]}" if first else "")

@@ -109,8 +109,8 @@ def view_matrix(eye, look, up, mistake="", spelling=0):
     turn = IDENTITY if "no-rotation" in mistakes else affine([r, u, back])
     if "rotation-transposed" in mistakes:
         turn = transposed(turn)
-    move = eye if "eye-added" in mistakes else (
-        0.0, 0.0, 0.0) if "no-translation" in mistakes else negative(eye)
+    move = eye if "eye-added" in mistakes else (0.0, 0.0,
+                                                0.0) if "no-translation" in mistakes else negative(eye)
     m = product(translation(move), turn) if "translation-after-rotation" in mistakes else product(
         turn, translation(move))
     return transposed(m) if "matrix-transposed" in mistakes else m

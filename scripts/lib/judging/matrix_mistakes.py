@@ -7,9 +7,10 @@ from lib.judging.matrices import DIVIDES_X_AND_Y, SPELLINGS, TWICE, Z_TWICE, neg
 from lib.judging.mistakes import names_of
 from lib.judging.verdict import Cause, cause_of_all
 
-DIVISIONS = {"no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
-             "depth-is-linear": DIVIDES_X_AND_Y, "depth-in-view-space": DIVIDES_X_AND_Y,
-             "depth-divided-twice": Z_TWICE}  # by w; other mistakes of project divide all three
+DIVISIONS = {
+    "no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
+    "depth-is-linear": DIVIDES_X_AND_Y, "depth-in-view-space": DIVIDES_X_AND_Y,
+    "depth-divided-twice": Z_TWICE}  # by w; other mistakes of project divide all three
 SAME = "left-handed"  # gives the numbers of l-is-eye-minus-look
 UNCHANGED = "The points are those of the stage before, unchanged"
 AXES = "xyzw"
@@ -67,8 +68,9 @@ def other_forms(stage, ours, divides):
         yield Cause("", text), tuple(ours[i] for i in order), divides
     if stage == "project":
         reversed_z = tuple((w - z) / 2 for z, w in zip(*ours[2:]))
-        yield Cause("", "The depth goes from 1 at near to 0 at far, in place of -1 to 1"), (
-            *ours[:2], reversed_z, ours[3]), divides
+        yield Cause("",
+                    "The depth goes from 1 at near to 0 at far, in place of -1 to 1"), (*ours[:2], reversed_z,
+                                                                                        ours[3]), divides
 
 
 def changed_elements(stage, ours, divides):

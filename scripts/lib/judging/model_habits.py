@@ -22,20 +22,21 @@ def by_euler_angles(order):
     def turn(radians, axis):
         about = [rotation(radians * x, row[:3]) for x, row in zip(axis, IDENTITY)]
         return functools.reduce(product, (about[i] for i in order))
+
     return turn
 
 
 @dataclasses.dataclass(frozen=True)
 class Habit:
     """How a program carries out the commands. The defaults are right."""
-    order: str = "right"            # on which side of the matrix a transform is multiplied: right, left, or
+    order: str = "right"  # on which side of the matrix a transform is multiplied: right, left, or
     #                                 left if it is a rotation
-    stack: str = "nested"           # what push and pop do
+    stack: str = "nested"  # what push and pop do
     radians: object = math.radians  # of degrees
-    axis: object = normalized       # what becomes of the axis of a rotation
-    form: object = rotation         # makes a matrix of radians and an axis
-    after: object = tuple           # what becomes of that matrix
-    offset: str = ""                # added, put: what becomes of the matrix's last column at `translate`
+    axis: object = normalized  # what becomes of the axis of a rotation
+    form: object = rotation  # makes a matrix of radians and an axis
+    after: object = tuple  # what becomes of that matrix
+    offset: str = ""  # added, put: what becomes of the matrix's last column at `translate`
 
     def turn(self, degrees, axis):
         """The matrix of a rotation."""
@@ -64,7 +65,8 @@ MODEL_MISTAKES = {
         for lost in ("adjacent lost", "every other lost", "all but first lost", "nested lost")
         for empty in ("stay", "identity")] + [Habit(stack="one count")],
     "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")],
-    "pop-takes-one-transform": [Habit(stack="one transform"), Habit(stack="one transform, push saves none")],
+    "pop-takes-one-transform": [Habit(stack="one transform"),
+                                Habit(stack="one transform, push saves none")],
     "axis-not-normalized": [Habit(axis=tuple)],
     "angle-in-radians": [Habit(radians=float)],
     "rotation-transposed": [Habit(after=transposed)],
@@ -78,14 +80,12 @@ MODEL_MISTAKES = {
                         lambda c, s: (0, 1 - c, s))],
     "rotation-on-the-left": [Habit(order="left if a rotation")],
     "rotation-by-euler-angles": [
-        Habit(form=by_euler_angles(order), axis=axis)
-        for axis in (normalized, tuple) for order in itertools.permutations(range(3))],
-}
+        Habit(form=by_euler_angles(order), axis=axis) for axis in (normalized, tuple)
+        for order in itertools.permutations(range(3))],}
 
 
 class Stack:
     """The current matrix and the saved ones, under a habit."""
-
     def __init__(self, habit):
         self.matrix, self.saved = IDENTITY, []
         # commands: any, and the last push or pop; whether that was lost

@@ -23,7 +23,6 @@ def is_another_picture(context):
 class ManyColors:
     """The pixels of a Shown that have another color than most of their triangle, where a Mismatch leaves the
     outlines right."""
-
     def __init__(self, shown, context, mismatch):
         self.count, self.mismatch, self.width = len(shown.own_colors), mismatch, context.window.width
         self.triangle_count, rule = mismatch.triangle_count, mismatch.rule
@@ -36,8 +35,8 @@ class ManyColors:
                     seen[row, column] = t
                     counts[t][pixels.colors[row][column]] += 1
         main = {t: colors.most_common(1)[0][0] for t, colors in counts.items()}
-        self.places = {(row, column): t for (row, column), t in seen.items()
-                       if pixels.colors[row][column] != main[t]}
+        self.places = {(row, column): t
+                       for (row, column), t in seen.items() if pixels.colors[row][column] != main[t]}
         self.of_triangle = {t: len(colors) for t, colors in counts.items()}
 
     @property

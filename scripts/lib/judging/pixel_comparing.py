@@ -23,8 +23,8 @@ class Mismatch:
     rule: Rule
     reading: str
     pixels: dict = dataclasses.field(default_factory=dict)
-    drawn: int = 0       # pixels with a triangle, by the rule
-    doubtful: int = 0    # pixels whose shape is that of the hand-in only as far as the rule is uncertain
+    drawn: int = 0  # pixels with a triangle, by the rule
+    doubtful: int = 0  # pixels whose shape is that of the hand-in only as far as the rule is uncertain
     areas: collections.Counter = dataclasses.field(default_factory=collections.Counter)  # these by triangle
     offsets: dict = dataclasses.field(default_factory=dict)  # of depths, at these pixels
     colors: dict = dataclasses.field(default_factory=dict)  # of each triangle, by the majority of its pixels
@@ -75,7 +75,6 @@ class Mismatch:
 class Context:
     """All that rules are compared by: `readings` are {name: (points, units)}, the numbers of the file, those
     in memory, and the right ones; `window` has the size and the limits, `shown` the hand-in's files."""
-
     def __init__(self, readings, window, shown, is_one_of_two=False, triangles=None, borders_first=False):
         self.borders_first = borders_first
         self.readings, self.window, self.shown, self.is_one_of_two = readings, window, shown, is_one_of_two
@@ -138,7 +137,6 @@ class Context:
 
 class Attempt:
     """A rule, tried on one of the readings."""
-
     def __init__(self, context, reading, rule):
         self.reading, self.rule, self.width = reading, rule, context.window.width
         self.height, self.rear, self.depths = context.window.height, context.limits[1], context.shown.depths
@@ -150,8 +148,8 @@ class Attempt:
     def has_torn_rows(self):
         """Whether the text, flipped back, has another number of depths in a row than the picture."""
         pixels = self.pixels
-        return bool(self.rule.text_flip and pixels.listed) and (
-            not any(pixels.listed) or bool(pixels.drawn) and None in pixels.depths)
+        return bool(self.rule.text_flip and pixels.listed) and (not any(pixels.listed) or bool(pixels.drawn)
+                                                                and None in pixels.depths)
 
     def could_show(self, row, column, is_drawn, z, triangles=None):
         slack = self.depths.tolerance(z) if z is not None else 0.0
@@ -203,8 +201,8 @@ class Attempt:
     def count(self, rows, most):
         """How many pixels of some rows are not explained, up to most + 1; another number of depths explains
         none of its row."""
-        unexplained = (most + 1 if column == self.width else 1
-                       for row in rows for column, _ in self.differences(row))
+        unexplained = (most + 1 if column == self.width else 1 for row in rows
+                       for column, _ in self.differences(row))
         return sum(itertools.islice(unexplained, most + 1))
 
     def mismatch(self, limit=math.inf):

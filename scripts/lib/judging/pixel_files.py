@@ -10,7 +10,6 @@ from lib.judging.raster import Rule
 class Findings:
     """The Finding of a pixel_comparing.Context: `of_all` the files given, and of one of two, which is right
     if it is so by itself, whatever the other one holds, and is else counted by its own rule."""
-
     def __init__(self, context, picture=None):
         """`picture` is the Finding of a picture that is not worth a look."""
         self.context, self.of_one = context, {"picture": picture} if picture else {}
@@ -44,8 +43,8 @@ class Findings:
         if rule.picture_flip or rule.text_flip or kind == "picture" and not rule.is_of_depths:
             return True
         other = "picture" if kind == "depths" else "depths"
-        before, after = (len(mismatch.of(other)) for mismatch in (
-            plain, self.context.compare(finding.mismatch.reading, rule)))
+        before, after = (len(mismatch.of(other))
+                         for mismatch in (plain, self.context.compare(finding.mismatch.reading, rule)))
         return 2 * after < before or before == after == 0
 
     def own_by_rule(self, kind, alone):
@@ -59,8 +58,11 @@ class Findings:
             return by_open_rule(alone, sample_rows(alone, alone.plain)) or both
         found = (exact(alone.compare(reading, rule, limit=0), alone.shown)
                  for rule in (Rule(), Rule(**CENTER)) for reading in self.context.readings)
-        return next((one for one in found  # a picture of one color may come from a mistake found
-                     if one and one.verdict == "exact"), both)
+        return next(
+            (
+                one for one in found  # a picture of one color may come from a mistake found
+                if one and one.verdict == "exact"),
+            both)
 
     def is_of_blank_files(self):
         return self.of_all.mismatch is self.context.plain and all(self.context.shown.are_blank)
@@ -91,5 +93,7 @@ def mismatch_to_show(context, finding, is_wrong):
         return found
     before = Rule(rule.left, rule.right, rule.depth, rule.clamp) if is_by_mistake else Rule()
     mismatch = context.compare(found.reading, before)
-    return dataclasses.replace(mismatch, pixels={
-        place: kind for place, kind in mismatch.pixels.items() if place not in found.pixels})
+    return dataclasses.replace(
+        mismatch, pixels={
+            place: kind
+            for place, kind in mismatch.pixels.items() if place not in found.pixels})

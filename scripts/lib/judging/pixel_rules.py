@@ -6,13 +6,12 @@ from lib.judging.raster import COLUMNS
 
 CENTER = {"left": "up", "right": "down"}
 CLOSED_ENDS = (("rounded", "rounded"), ("up", "down"))  # ours; CENTER
-OPEN_ENDS = [{}, CENTER, *(
-    {"left": left, "right": right}
-    for left, right in itertools.product(("truncated", "rounded", "down", "up"), repeat=2)
-    if (left, right) not in CLOSED_ENDS)]
-OPEN_DEPTHS = [
-    {}, {"depth": "between ends"}, {"depth": "between ends", "clamp": 1},
-    {"depth": "between ends", "clamp": 0}, {"depth": "from left"}, {"depth": "from left", "clamp": 0}]
+OPEN_ENDS = [{}, CENTER,
+             *({"left": left, "right": right}
+               for left, right in itertools.product(("truncated", "rounded", "down", "up"), repeat=2)
+               if (left, right) not in CLOSED_ENDS)]
+OPEN_DEPTHS = [{}, {"depth": "between ends"}, {"depth": "between ends", "clamp": 1}, {
+    "depth": "between ends", "clamp": 0}, {"depth": "from left"}, {"depth": "from left", "clamp": 0}]
 # mistakes that draw nothing, most of them in many scenes alone
 BLANK = ("starts-at-zero", "one-winding", "no-depth-passes", "black-picture")
 MOST_PAIRS = 4  # of mistakes that explain the same, before none is named
@@ -39,8 +38,8 @@ WAYS = {
     "one-winding": [{"winding": 1}, {"winding": -1}],
     "half-triangle": [{"half": "upper"}, {"half": "lower"}],
     "starts-at-zero": [{"starts_at_zero": True}],
-    "depths-not-sorted": [
-        {"ends_z": "as met"}, {"ends_z": "exchanged"}, {"corners": "sorted down"}, {"corners": "sorted up"}],
+    "depths-not-sorted": [{"ends_z": "as met"}, {"ends_z": "exchanged"}, {"corners": "sorted down"}, {
+        "corners": "sorted up"}],
     "window-is-one": [{"window": "one"}, {"window": "one", "is_depth_one": True}],
     "left-and-bottom-exchanged": [{"window": "exchanged"}],
     "front-limit-ignored": [{"has_front": False}],
@@ -52,20 +51,16 @@ WAYS = {
     "one-depth-a-row": [{"flat_row": flat} for flat in ("left", "right", "mean")],
     "no-depth-passes": [{"keep": "none"}],
     "black-picture": [{"keep": "none"}],
-    "upside-down": [
-        {"picture_flip": "upside down", "text_flip": "upside down"}, {"picture_flip": "upside down"}],
+    "upside-down": [{"picture_flip": "upside down", "text_flip": "upside down"}, {
+        "picture_flip": "upside down"}],
     "text-upside-down": [{"text_flip": "upside down"}],
-    "mirrored": [
-        {"picture_flip": "mirrored", "text_flip": "mirrored"}, {"picture_flip": "mirrored"},
-        {"text_flip": "mirrored"}],
-    "turned-by-180-degrees": [
-        {"picture_flip": "turned", "text_flip": "turned"}, {"picture_flip": "turned"},
-        {"text_flip": "turned"}],
-    "rows-and-columns-exchanged": [
-        {"picture_flip": "transposed", "text_flip": "transposed"}, {"picture_flip": "transposed"},
-        {"text_flip": "transposed"}],
-    "depth-limits-are-one": [{"is_depth_one": True}],
-}
+    "mirrored": [{"picture_flip": "mirrored", "text_flip": "mirrored"}, {"picture_flip": "mirrored"}, {
+        "text_flip": "mirrored"}],
+    "turned-by-180-degrees": [{"picture_flip": "turned", "text_flip": "turned"}, {"picture_flip": "turned"}, {
+        "text_flip": "turned"}],
+    "rows-and-columns-exchanged": [{"picture_flip": "transposed", "text_flip": "transposed"}, {
+        "picture_flip": "transposed"}, {"text_flip": "transposed"}],
+    "depth-limits-are-one": [{"is_depth_one": True}],}
 MISTAKES = [(tuple(names.split()), changes) for names, ways in WAYS.items() for changes in ways]
 
 
@@ -81,14 +76,12 @@ def pairs():
 def can_matter(changes, window, shown):
     """Whether a change can make a difference in this window, and to what is shown."""
     has_both = shown.colors and shown.depths
-    return not (
-        changes.get("window") == "one" and (window.left, window.bottom) == (-1, -1)
-        or changes.get("window") == "exchanged" and window.left == window.bottom
-        or changes.get("keep") == "none"
-        or changes.get("is_depth_one") and (window.front, window.rear) == (-1, 1)
-        or changes.get("starts_at_zero") and window.rear == 0
-        or "transposed" in changes.values() and window.width != window.height
-        or changes.get("text_flip", "") != changes.get("picture_flip", "") and not has_both)
+    return not (changes.get("window") == "one" and (window.left, window.bottom) == (-1, -1)
+                or changes.get("window") == "exchanged" and window.left == window.bottom
+                or changes.get("keep") == "none" or changes.get("is_depth_one") and
+                (window.front, window.rear) == (-1, 1) or changes.get("starts_at_zero") and window.rear == 0
+                or "transposed" in changes.values() and window.width != window.height
+                or changes.get("text_flip", "") != changes.get("picture_flip", "") and not has_both)
 
 
 def open_rules(window, readings, has_depths):
@@ -96,10 +89,9 @@ def open_rules(window, readings, has_depths):
     they can make a difference."""
     dx = -2 * float(window.left)
     is_beyond = any(abs(p[0]) > dx / 2 for points, _ in readings.values() for p in points)
-    depths = [rule for rule in OPEN_DEPTHS[:None if has_depths else 1]
-              if is_beyond or rule.get("clamp") is None]
-    rules = [((i > 1) + (j > 0), {**ends, **depth})
-             for i, ends in enumerate(OPEN_ENDS) for j, depth in enumerate(depths)
+    depths = [
+        rule for rule in OPEN_DEPTHS[:None if has_depths else 1] if is_beyond or rule.get("clamp") is None]
+    rules = [((i > 1) + (j > 0), {**ends, **depth}) for i, ends in enumerate(OPEN_ENDS)
+             for j, depth in enumerate(depths)
              if is_beyond or ends == CENTER or "down" not in ends.values()]  # columns are not negative then
     return sorted(rules, key=lambda pair: pair[0])
-

@@ -25,9 +25,9 @@ LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before
 @dataclasses.dataclass
 class Finding:
     """The result for stage 4, or for one of its files."""
-    verdict: str                # exact, borders, mistake, unknown
+    verdict: str  # exact, borders, mistake, unknown
     mismatch: Mismatch = None
-    rule: str = ""              # in words, if it is another one
+    rule: str = ""  # in words, if it is another one
     causes: list = dataclasses.field(default_factory=list)
     touches: tuple = ("depths", "picture")  # the files that the mistake spoils
     remarks: list = dataclasses.field(default_factory=list)
@@ -64,14 +64,15 @@ def by_mistakes(context, rows, best):
     """The Finding of one mistake, of several triangles that are missing, or of two mistakes."""
     if found := by_mistake(context, rows):
         return with_triangle(context, best, found)
-    some = filter(None, (without_triangles(context, best, len(best.pixels) // NEARLY),
-                         by_most_pixels(context, rows, best)))
+    some = filter(None, (without_triangles(context, best,
+                                           len(best.pixels) // NEARLY), by_most_pixels(context, rows, best)))
     return min(some, key=lambda one: len(one.mismatch.pixels), default=None) or by_two_mistakes(context, rows)
 
 
 def unknown(mismatch):
-    return Finding("unknown", mismatch, touches=tuple(
-        kind for kind in ("depths", "picture") if mismatch.of(kind) or not mismatch.pixels))
+    return Finding(
+        "unknown", mismatch, touches=tuple(
+            kind for kind in ("depths", "picture") if mismatch.of(kind) or not mismatch.pixels))
 
 
 def exact(mismatch, shown):
@@ -103,8 +104,9 @@ def sample_rows(context, mismatch):
     """A few rows that tell rules apart: some with differences, some others."""
     wrong = sorted({row for row, _ in mismatch.pixels})
     pixels = context.shown.pixels()
-    filled = [row for row in range(context.window.height)
-              if (any(pixels.drawn[row]) if pixels.drawn else pixels.listed[row])]
+    filled = [
+        row for row in range(context.window.height)
+        if (any(pixels.drawn[row]) if pixels.drawn else pixels.listed[row])]
     return [*spread(wrong, SAMPLE_ROWS), *spread(filled, SAMPLE_ROWS // 2)]
 
 

@@ -12,8 +12,7 @@ from lib.judging.raster import TooMuch
 from lib.judging.shown import Shown
 from lib.judging.stage_judge import undecided_outcome
 from lib.judging.stage_ways import Reading
-from lib.judging.verdict import (
-    ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
+from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
 
 TOO_MUCH = "there are too many pixels of triangles"
 PRINTED = "pixels without a triangle are printed"
@@ -37,7 +36,6 @@ def pixel_readings(stage3, memory, right_ndc):
 class PixelStage:
     """Judges depths and picture. `thin` names a stage3.txt that holds too little to judge by; `borders_first`
     is that of judge.HandIn."""
-
     def __init__(self, ours, files, readings, thin, borders_first):
         self.ours, self.files, self.readings, self.thin = ours, files, readings, thin
         self.borders_first = borders_first
@@ -48,15 +46,16 @@ class PixelStage:
         if self.ours.has_own_colors and colors is not None:
             verdicts["picture"], colors = self.verdict_of_colors(colors), None
         if depths is not None and depths.rows and depths.digits.are_too_few:
-            verdicts["depths"] = FileVerdict("zbuf", self.files["depths"].name, TOO_FEW_DIGITS,
-                                             remarks=[f"it shows {depths.digits}"])
+            verdicts["depths"] = FileVerdict("zbuf", self.files["depths"].name, TOO_FEW_DIGITS, remarks=[
+                f"it shows {depths.digits}"])
             depths = None
         given = [kind for kind, what in (("depths", depths), ("picture", colors)) if what is not None]
         if not given:
             return verdicts
         if not self.readings:
             return verdicts | {
-                kind: undecided_outcome("zbuf", self.files[kind].name).verdict for kind in given}
+                kind: undecided_outcome("zbuf", self.files[kind].name).verdict
+                for kind in given}
         shown = self.shown(colors, depths)
         context = Context(self.readings, self.ours.window, shown, borders_first=self.borders_first)
         counts = (len(points) // 3 for points, _ in self.readings.values())
@@ -65,8 +64,9 @@ class PixelStage:
             found = has_many and self.verdicts_of_many_colors(given, context)
             return verdicts | (found or self.verdicts_of_shown(given, context, Findings(context))[0])
         except TooMuch:
-            return verdicts | {kind: undecided_outcome("zbuf", self.files[kind].name, TOO_MUCH).verdict
-                               for kind in given}
+            return verdicts | {
+                kind: undecided_outcome("zbuf", self.files[kind].name, TOO_MUCH).verdict
+                for kind in given}
 
     def verdicts_of_many_colors(self, given, context):
         """The verdicts if a picture has too many colors for its triangles: that these have many, if it
@@ -135,10 +135,8 @@ class PixelStage:
             ours = self.ours.picture(text, coverage)
             if ours is None:
                 continue
-            places = [(r, i)
-                      for r, (row, line) in enumerate(zip(ours, colors))
-                      for i, color in enumerate(line)
-                      if row[3 * i:3 * i + 3] != color]
+            places = [(r, i) for r, (row, line) in enumerate(zip(ours, colors))
+                      for i, color in enumerate(line) if row[3 * i:3 * i + 3] != color]
             verdicts.append(
                 FileVerdict("zbuf", name, WRONG if places else verdict, "" if places else rule,
                             differing=len(places), compared=len(ours) * len(colors[0]), places=places,
@@ -189,8 +187,8 @@ class PixelStage:
         triangle a pixel shows is not asked: the text that it was judged by may lack some, and hold others in
         parts."""
         ours = set(generated_colors(len(self.ours.world) // 3))
-        counts = collections.Counter(color for row in shown.colors for color in row
-                                     if color != shown.background)
+        counts = collections.Counter(
+            color for row in shown.colors for color in row if color != shown.background)
         return 2 * sum(count for color, count in counts.items() if color not in ours) > sum(counts.values())
 
 

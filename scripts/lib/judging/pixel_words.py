@@ -5,8 +5,7 @@ DIFFERENCES = {
     "extra": "a pixel that no triangle covers",
     "missing": "a pixel that triangle {} covers is empty",
     "depth": "another depth than that of triangle {}",
-    "other": "another triangle than triangle {}",
-}
+    "other": "another triangle than triangle {}",}
 AT_BORDERS = "another rule at the borders"
 ENDS = {"rounded": "rounded", "truncated": "truncated", "down": "rounded down", "up": "rounded up"}
 
@@ -35,11 +34,14 @@ def border_rule_in_words(mismatch, pixels):
     """The pixels in which another rule at the borders differs."""
     kinds = collections.Counter(mismatch.pixels.values())
     shapes = kinds["extra"] + kinds["missing"]
-    others = {place for place, kind in mismatch.pixels.items()
-              if kind in ("depth", "other") and mismatch.shows_another(place, pixels)}
+    others = {
+        place
+        for place, kind in mismatch.pixels.items()
+        if kind in ("depth", "other") and mismatch.shows_another(place, pixels)}
     offsets = [offset for place, offset in mismatch.offsets.items() if place not in others]
-    parts = [f"{kinds[kind]:,} {words}" for kind, words in (("extra", "more"), ("missing", "fewer"))
-             if kinds[kind]]
+    parts = [
+        f"{kinds[kind]:,} {words}" for kind, words in (("extra", "more"), ("missing", "fewer"))
+        if kinds[kind]]
     words = []
     if shapes:
         words.append(f"{AT_BORDERS}: {counted(shapes, 'pixel')} of {mismatch.drawn:,} "

@@ -55,9 +55,9 @@ def holds_enough(points, exact):
         return True
     middle = [statistics.median(axis) for axis in zip(*exact)]
     step = statistics.median(max(abs(x - m) for x, m in zip(p, middle)) for p in exact) / 500
-    expected, found = (
-        len({tuple(x / step // 1 for x in p) for p in some}) if step else len(set(map(tuple, some)))
-        for some in (exact, points))
+    expected, found = (len({tuple(x / step // 1 for x in p)
+                            for p in some}) if step else len(set(map(tuple, some)))
+                       for some in (exact, points))
     return found >= max(expected / 4, min(expected, 3))
 
 

@@ -44,7 +44,6 @@ def input_of(stage, scene, tools, is_bare):
 class ProgramError(Exception):
     """The program did not do its job; the text says why. `errors` is its stderr, `is_asleep` tells whether it
     waited until its time was over."""
-
     def __init__(self, reason, errors=b"", is_asleep=False):
         super().__init__(reason)
         self.errors, self.is_asleep = errors, is_asleep
@@ -90,8 +89,9 @@ def hand_in(stage, output, before, folder):
     files = {} if stage == "model" else {STAGES[stage]: File("the input", before)}
     if stage != "zbuf":
         return {**files, WRITES[stage]: File("stdout", output)}
-    written = {kind: read_file(names[0] if names else KINDS[kind][0], folder, tuple(map(shown, names[1:])))
-               for kind, names in fitting_names(os.listdir(folder)).items()}
+    written = {
+        kind: read_file(names[0] if names else KINDS[kind][0], folder, tuple(map(shown, names[1:])))
+        for kind, names in fitting_names(os.listdir(folder)).items()}
     return {
         **files, "picture": written["picture"],
         "depths": written["depths"] if written["depths"].data else File("stdout", output)}

@@ -8,11 +8,11 @@ import functools
 import itertools
 import math
 
-ROUNDING = 1e-9       # of columns and rows calculated in doubles
+ROUNDING = 1e-9  # of columns and rows calculated in doubles
 MOST_SPANS = 500_000
 NARROW = 1e-12
-MOST_ON_EDGES = 8     # triangles whose edges a pixel's center lies on, that are looked at
-FAR = 1e9             # in NDC: beyond this, all is the same
+MOST_ON_EDGES = 8  # triangles whose edges a pixel's center lies on, that are looked at
+FAR = 1e9  # in NDC: beyond this, all is the same
 
 # Ends of a row of pixels, from where the row of pixel centers meets the triangle, in columns.
 ENDS = {
@@ -52,41 +52,41 @@ class Rule:
     """How spans become pixels and which pixel wins; the defaults are those of `zbuf`."""
     left: str = "rounded"
     right: str = "rounded"
-    depth: str = "plane"          # plane, between ends, from left
+    depth: str = "plane"  # plane, between ends, from left
     clamp: int = None  # between ends: how many columns beyond the picture the ends may lie; None is any
     half_x: bool = True
     half_y: bool = True
-    window: str = ""              # one: its limits are -1 and 1; exchanged: left and bottom are
-    is_depth_one: bool = False    # front and rear are -1 and 1
-    is_one_less: bool = False     # width - 1 and height - 1 in place of width and height
-    corners: str = ""             # how CORNERS changes them
-    winding: int = 0              # of triangles that are drawn: 1 counterclockwise, -1 clockwise; 0 is any
-    half: str = ""                # upper, lower: what is drawn of a triangle
-    ends_z: str = ""              # as met: edge by edge, not from left to right; exchanged
+    window: str = ""  # one: its limits are -1 and 1; exchanged: left and bottom are
+    is_depth_one: bool = False  # front and rear are -1 and 1
+    is_one_less: bool = False  # width - 1 and height - 1 in place of width and height
+    corners: str = ""  # how CORNERS changes them
+    winding: int = 0  # of triangles that are drawn: 1 counterclockwise, -1 clockwise; 0 is any
+    half: str = ""  # upper, lower: what is drawn of a triangle
+    ends_z: str = ""  # as met: edge by edge, not from left to right; exchanged
     starts_at_zero: bool = False
-    column_more: int = 0          # how many columns rows have too many at their right ends
-    columns_before: int = 0       # and at their left ends
+    column_more: int = 0  # how many columns rows have too many at their right ends
+    columns_before: int = 0  # and at their left ends
     row_short: bool = False
     row_long: bool = False
-    columns: str = ""             # one of COLUMNS, where min stands for max
-    shift: tuple = (0, 0)         # columns and rows
-    is_cut_first: bool = False    # whether spans end at the picture's borders before the shift
-    is_strict: bool = False       # whether pixels whose centers lie on an edge are left out
-    keep: str = "nearest"         # nearest, farthest, last, none
+    columns: str = ""  # one of COLUMNS, where min stands for max
+    shift: tuple = (0, 0)  # columns and rows
+    is_cut_first: bool = False  # whether spans end at the picture's borders before the shift
+    is_strict: bool = False  # whether pixels whose centers lie on an edge are left out
+    keep: str = "nearest"  # nearest, farthest, last, none
     has_front: bool = True
     has_rear: bool = True
-    flat: str = ""                # one depth for a triangle: mean, or first, second, third, least, most
-    flat_row: str = ""            # one depth for a row of a triangle: left, right, mean
+    flat: str = ""  # one depth for a triangle: mean, or first, second, third, least, most
+    flat_row: str = ""  # one depth for a row of a triangle: left, right, mean
     without: frozenset = frozenset()  # numbers of triangles that are not drawn
-    picture_flip: str = ""        # upside down, mirrored, turned, transposed
+    picture_flip: str = ""  # upside down, mirrored, turned, transposed
     text_flip: str = ""
 
     @property
     def is_of_depths(self):
         """Whether it changes which depth a pixel of a triangle has, or which of two wins."""
-        return bool(self.flat or self.flat_row or self.ends_z or self.keep != "nearest" or
-                    self.corners.startswith("sorted") or self.is_depth_one or self.starts_at_zero or not (
-                        self.has_front and self.has_rear))
+        return bool(self.flat or self.flat_row or self.ends_z or self.keep != "nearest"
+                    or self.corners.startswith("sorted") or self.is_depth_one or self.starts_at_zero
+                    or not (self.has_front and self.has_rear))
 
 
 @dataclasses.dataclass
@@ -101,15 +101,15 @@ class Span:
     slack_left: float
     slack_right: float
     slack_z: float
-    is_last: bool       # the triangle's last row
-    is_upper: bool      # above the triangle's middle corner
+    is_last: bool  # the triangle's last row
+    is_upper: bool  # above the triangle's middle corner
     is_met_from_right: bool  # by the first of its edges
-    is_certain: bool    # whether the row meets the triangle for certain, and the triangle has an area
+    is_certain: bool  # whether the row meets the triangle for certain, and the triangle has an area
 
 
 FLAT_ROW = {
-    "left": lambda span: span.z_left, "right": lambda span: span.z_right,
-    "mean": lambda span: (span.z_left + span.z_right) / 2}
+    "left": lambda span: span.z_left, "right": lambda span: span.z_right, "mean": lambda span:
+    (span.z_left + span.z_right) / 2}
 FLAT = {
     "mean": lambda zs: sum(zs) / 3, "first": lambda zs: zs[0], "second": lambda zs: zs[1],
     "third": lambda zs: zs[2], "least": min, "most": max}
@@ -121,6 +121,7 @@ def at_whole_pixels(offset):
         return [(grid.left_x + math.floor((x - grid.left) / grid.dx + offset) * grid.dx,
                  grid.top_y - math.floor((-grid.bottom - y) / grid.dy + offset) * grid.dy, z)
                 for x, y, z in corners]
+
     return moved
 
 
@@ -129,6 +130,7 @@ def without_their_depths(is_downwards):
     def moved(corners, _):
         by_height = sorted(corners, key=lambda p: p[1], reverse=is_downwards)
         return [(*p[:2], q[2]) for p, q in zip(by_height, corners)]
+
     return moved
 
 
@@ -140,7 +142,6 @@ CORNERS = {
 class Triangles:
     """Triangles in NDC over a grid, changed by one of CORNERS. `units` says how far each coordinate may be
     off."""
-
     def __init__(self, points, units, grid, change=""):
         self.grid = grid
         near = [tuple(max(-FAR, min(x, FAR)) for x in p) for p in points]
@@ -210,8 +211,7 @@ class Triangles:
             is_certain, slack_z = False, slack_z + abs(z_right - z_left)
         top_row = (grid.top_y - lowest) / grid.dy
         return Span(t, left, right, z_left, z_right, slack_left, slack_right, slack_z,
-                    row == math.floor(top_row + ROUNDING), y >= middle,
-                    met[0] != min(met), is_certain)
+                    row == math.floor(top_row + ROUNDING), y >= middle, met[0] != min(met), is_certain)
 
     def winding(self, t):
         """1 for counterclockwise, -1 for clockwise; 0 where the numbers' last digits decide."""
@@ -256,9 +256,8 @@ def bounded(x, limit, rounded=math.ceil):
 
 # What min for max, or max for min, makes of the first and the last column.
 COLUMNS = {
-    "": lambda first, last, border: (first, last),
-    "to the border": lambda first, last, border: (first, border),
-    "from the border": lambda first, last, border: (0, last),
+    "": lambda first, last, border: (first, last), "to the border": lambda first, last, border:
+    (first, border), "from the border": lambda first, last, border: (0, last),
     "at the left end": lambda first, last, border: (first, first),
     "at the right end": lambda first, last, border: (last, last)}
 
@@ -300,7 +299,6 @@ def depth_line(span, rule, width):
 class Drawing:
     """The rows of a picture under a rule. `limits` is front and rear, `work` has the number of pixels and
     spans that may yet be looked at."""
-
     def __init__(self, triangles, rule, limits, work):
         self.triangles, self.rule, self.work, self.reaches = triangles, rule, work, {}
         self.front = limits[0] if rule.has_front else -math.inf
@@ -345,17 +343,17 @@ class Drawing:
                 if keep == "nearest":
                     if front <= z < depth[column]:
                         owner[column], depth[column] = t, z
-                elif front <= z < rear and keep != "none" and (
-                        keep == "last" or owner[column] < 0 or z > depth[column]):
+                elif front <= z < rear and keep != "none" and (keep == "last" or owner[column] < 0
+                                                               or z > depth[column]):
                     owner[column], depth[column] = t, z
         return owner, depth
 
     def reach(self, row):
         """Of each span of a row: the ends that it may have, those that it has for certain, and its depths."""
         if row not in self.reaches:
-            self.reaches[row] = [(span, ends_of(span, self.rule, self.width, 1.0),
-                                  ends_of(span, self.rule, self.width, -1.0), self.line(span))
-                                 for span in self.spans(row)]
+            self.reaches[row] = [(span, ends_of(
+                span, self.rule, self.width, 1.0), ends_of(
+                    span, self.rule, self.width, -1.0), self.line(span)) for span in self.spans(row)]
         return self.reaches[row]
 
     def could_show(self, row, column, tolerance):
@@ -379,7 +377,7 @@ class Drawing:
             if self.triangles.meet_on(one[0], other[0], row - self.rule.shift[1], center):
                 if self.rule.is_strict:  # neither of them is there
                     possible = [fragment for fragment in possible if fragment not in (one, other)]
-                else:                    # one of them is
+                else:  # one of them is
                     sure.append((min(one[0], other[0]), min(one[1], other[1]), max(one[2], other[2])))
         return kept(sure, possible, self.rule.keep)
 

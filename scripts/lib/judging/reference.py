@@ -51,8 +51,8 @@ class Reference:
             older = without_old_lines(text)
             try:
                 if older is not None:
-                    model = self.tools.output("model", *EXACT,
-                                              stdin=older.encode("utf-8", errors="surrogateescape"))
+                    model = self.tools.output("model", *EXACT, stdin=older.encode(
+                        "utf-8", errors="surrogateescape"))
                     self.remarks.append(OLD_FORMAT)
                     return older, model
             except ToolFailure:

@@ -74,8 +74,8 @@ def sentence(verdict):
         return f"{words}; also wrong, by themselves: {listed_with_causes(rest)}{open_words}"
     last = [file for file in verdict.files if file.verdict not in OPEN and file not in missing][-1]
     after = verdict.files[verdict.files.index(first[-1]) + 1:]
-    given = "by the right numbers" if any(BY_THE_RIGHT in remark for file in after
-                                          for remark in file.remarks) else "given that"
+    given = "by the right numbers" if any(
+        BY_THE_RIGHT in remark for file in after for remark in file.remarks) else "given that"
     return words + (f"; what follows is right, {given}" if first[-1] is not last else "") + open_words
 
 

@@ -39,8 +39,10 @@ def causes(ways, theirs, digits, comparison):
 def touched(way, right):
     """The axes on which a Way gives other numbers than the right one."""
     (images, *_), (others, *_) = way.images(slice(None)), right.images(slice(None))
-    return {axis for (p, _), (q, _) in zip(images, others) for axis in AXES
-            if not abs(p[axis] - q[axis]) <= SAME * max(1.0, abs(q[axis]))}
+    return {
+        axis
+        for (p, _), (q, _) in zip(images, others) for axis in AXES
+        if not abs(p[axis] - q[axis]) <= SAME * max(1.0, abs(q[axis]))}
 
 
 def elements(comparison, axis):
@@ -53,11 +55,14 @@ def joined(found, wrong):
     """The fewest of {axes: Causes} that together explain all wrong axes, each once; nothing if there are more
     than MOST_PAIRS choices."""
     for count in range(2, len(wrong) + 1):
-        choices = [choice for some in itertools.combinations(found, count)
-                   if sum(map(len, some)) == len(wrong) and frozenset().union(*some) == wrong
-                   for choice in itertools.product(*(found[axes] for axes in sorted(some, key=min)))]
+        choices = [
+            choice for some in itertools.combinations(found, count)
+            if sum(map(len, some)) == len(wrong) and frozenset().union(*some) == wrong
+            for choice in itertools.product(*(found[axes] for axes in sorted(some, key=min)))]
         if choices:
-            return [Cause(" and ".join(dict.fromkeys(cause.name for cause in choice if cause.name)),
-                          "; and: ".join(cause.text.rstrip(".") for cause in choice))
-                    for choice in choices] if len(choices) <= MOST_PAIRS else []
+            return [
+                Cause(" and ".join(dict.fromkeys(cause.name for cause in choice
+                                                 if cause.name)), "; and: ".join(
+                                                     cause.text.rstrip(".") for cause in choice))
+                for choice in choices] if len(choices) <= MOST_PAIRS else []
     return []

@@ -4,9 +4,8 @@ import itertools
 import math
 
 from lib.judging import model_habits
-from lib.judging.matrices import (
-    image, negative, perspective_matrix, projection_matrix, scaling, slack, transposed, translation,
-    view_matrix)
+from lib.judging.matrices import (image, negative, perspective_matrix, projection_matrix, scaling, slack,
+                                  transposed, translation, view_matrix)
 from lib.maths.matrices import TRANSFORMS, Projection
 from lib.maths.vectors import cross, normalized
 from lib.text.scene import commands
@@ -19,7 +18,6 @@ OF_FRUSTUMS = ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z
 
 class Scene:
     """The text of a scene and the header that `model` made of it."""
-
     def __init__(self, text, header):
         self.commands = list(commands(text))
         self.header = header

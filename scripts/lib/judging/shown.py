@@ -57,7 +57,6 @@ def read_colors(data, name, window, background):
 
 class Rows:
     """A sequence whose rows are made when they are asked for: most rules fail in the first."""
-
     def __init__(self, make, count):
         self.make, self.count = functools.cache(make), count
 
@@ -80,7 +79,6 @@ class Pixels:
 class Shown:
     """A hand-in's picture (rows of colors, or None) and Depths (or None). `is_uncovered` makes rows that tell
     for each pixel whether no triangle covers it."""
-
     def __init__(self, colors, depths, width, height, rear, is_uncovered=list):
         self.colors, self.depths, self.width, self.height = colors, depths, width, height
         self.rear, self.made = rear, {}
@@ -106,8 +104,8 @@ class Shown:
         """This with one color for all pixels that show a triangle."""
         rest = copy.copy(self)
         rest.made, color = {}, bytes(255 - x for x in self.background)
-        rest.colors = [[self.background if own == self.background else color for own in row]
-                       for row in self.colors]
+        rest.colors = [
+            [self.background if own == self.background else color for own in row] for row in self.colors]
         return rest
 
     @property
@@ -141,8 +139,8 @@ class Shown:
         counts = collections.Counter(color for row in self.colors for color in row)
         black = bytes(3)
         if self.depths:
-            bare = self.counted(self.empty) if self.prints_everything else (
-                self.width * self.height - sum(map(len, self.depths.rows)))
+            bare = self.counted(self.empty) if self.prints_everything else (self.width * self.height -
+                                                                            sum(map(len, self.depths.rows)))
             fitting = [color for color in (black, *counts) if counts[color] == bare]
             if fitting:
                 return fitting[0]
@@ -163,8 +161,9 @@ class Shown:
         colors = FLIPS[picture_flip](self.colors) if self.colors else None
         drawn = colors and Rows(lambda r: [color != self.background for color in colors[r]], len(colors))
         listed = self.listed_rows(text_flip, drawn) if self.depths else None
-        return Pixels(drawn, colors, listed and Rows(
-            lambda r: self.aligned(drawn[r] if drawn else None, listed[r]), self.height), listed)
+        return Pixels(
+            drawn, colors, listed
+            and Rows(lambda r: self.aligned(drawn[r] if drawn else None, listed[r]), self.height), listed)
 
     def listed_rows(self, flip, drawn):
         rows = self.depths.rows

@@ -18,12 +18,10 @@ def causes(result, count, is_right_at, causes_at):
     counts = [sum(i % 3 == k for i in result.points) for k in wrong]
     if not 0 < len(wrong) < 3 or min(counts) < max(2, count / 2):
         return []
-    names, others = (" and ".join(NAMES[k]
-                                  for k in range(3)
-                                  if (k in wrong) == is_wrong)
+    names, others = (" and ".join(NAMES[k] for k in range(3) if (k in wrong) == is_wrong)
                      for is_wrong in (True, False))
-    text = (f"Only the {names} vertex of each triangle is wrong, the {others} are right" if len(wrong) == 1
-            else f"The {names} vertex of each triangle are wrong, the {others} is right")
+    text = (f"Only the {names} vertex of each triangle is wrong, the {others} are right"
+            if len(wrong) == 1 else f"The {names} vertex of each triangle are wrong, the {others} is right")
     inner = causes_at([VERTICES[k] for k in wrong])
     return [dataclasses.replace(cause, text=f"{text}: {cause.text}") for cause in inner] or [Cause("", text)]
 
@@ -35,5 +33,4 @@ def few_triangles(result, count):
         return []
     return [
         f"only triangle{'s'[:len(wrong) > 1]} {listed(wrong)} of {count} "
-        f"{'is' if len(wrong) == 1 else 'are'} wrong"
-    ]
+        f"{'is' if len(wrong) == 1 else 'are'} wrong"]

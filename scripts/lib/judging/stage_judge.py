@@ -10,8 +10,7 @@ from lib.judging.model_habits import ROUGH_PIS
 from lib.judging.points import described, difference, differs
 from lib.judging.scene import NO_UNITS
 from lib.judging.stage_ways import ALL, PI, MatrixWays, ModelWays
-from lib.judging.verdict import (
-    ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict)
+from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict)
 
 
 @dataclasses.dataclass
@@ -22,7 +21,6 @@ class Outcome:
 
 class StageJudge:
     """Judges the first three stages of a scene, whose exact points in world space are given."""
-
     def __init__(self, scene, exact_world):
         self.scene, self.exact_world = scene, exact_world
 
@@ -46,8 +44,8 @@ class StageJudge:
         return self.by_matrix("project", name, theirs, readings, right)
 
     def by_matrix(self, stage, name, theirs, readings, right):
-        return outcome(name, theirs, MatrixWays(stage, self.scene, readings, right)) if readings else (
-            undecided_outcome(stage, name))
+        return outcome(name, theirs, MatrixWays(stage, self.scene, readings,
+                                                right)) if readings else (undecided_outcome(stage, name))
 
 
 def outcome(name, theirs, ways):
@@ -115,11 +113,12 @@ def count_verdict(ways, name, theirs, expected, digits):
     others are right."""
     ours = [triangles_of(points) for points in expected]
     count = len(theirs) // 3
-    verdict = FileVerdict(ways.stage, name, WRONG,
-                          remarks=[f"{count} triangle{'' if count == 1 else 's'} in place of {len(ours[0])}"])
+    verdict = FileVerdict(ways.stage, name, WRONG, remarks=[
+        f"{count} triangle{'' if count == 1 else 's'} in place of {len(ours[0])}"])
     written, lines, is_same = triangles_of(theirs.points), theirs.lines[::3], same_to(digits)
-    texts = (matching.missing(written, triangles, is_same, ways.scene_lines) if count < len(triangles)
-             else matching.added(written, triangles, is_same, lines) for triangles in ours)
+    texts = (matching.missing(written, triangles, is_same, ways.scene_lines)
+             if count < len(triangles) else matching.added(written, triangles, is_same, lines)
+             for triangles in ours)
     verdict.causes = first_cause(texts)
     return verdict
 

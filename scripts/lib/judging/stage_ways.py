@@ -55,14 +55,16 @@ class ModelWays:
         with_exact_points = Way(
             right.cause, lambda part: [[(p, slacks) for p, (_, slacks) in zip(exact_world, images)][part]
                                        for images in right.images(ALL)], lambda: exact_world)
-        self.right = [with_exact_points, *(
-            self.way(Cause("", PI.format(pi)), Habit(radians=lambda degrees, pi=pi: degrees * pi / 180))
-            for pi in ROUGH_PIS)]
+        self.right = [
+            with_exact_points,
+            *(self.way(Cause("", PI.format(pi)), Habit(radians=lambda degrees, pi=pi: degrees * pi / 180))
+              for pi in ROUGH_PIS)]
 
     def way(self, cause, habit):
         def images(part):
             points = self.scene.world(habit)
             return [points if part == ALL else list(points)[part]]
+
         return Way(cause, images, lambda: [p for p, _ in self.scene.world(habit)])
 
     def has_count(self, count):
@@ -72,11 +74,12 @@ class ModelWays:
         """Lists of Ways, of which the later ones count only where none of the earlier ones will do: mistakes
         in their usual form, then in others."""
         for chosen in (slice(1), slice(1, None)):
-            yield (self.way(cause_of("model/" + name), habit)
-                   for name, habits in model_mistakes() for habit in habits[chosen])
+            yield (self.way(cause_of("model/" + name), habit) for name, habits in model_mistakes()
+                   for habit in habits[chosen])
         untouched = self.scene.untouched()
-        yield [Way(Cause("", UNTOUCHED), lambda part: [((p, NO_UNITS) for p in untouched[part])],
-                   lambda: untouched)]
+        yield [
+            Way(Cause("", UNTOUCHED), lambda part: [((p, NO_UNITS) for p in untouched[part])],
+                lambda: untouched)]
 
     def several(self):
         """(Ways, how many of them may fit before none counts)."""
@@ -84,8 +87,9 @@ class ModelWays:
         yield (self.way(cause_of_all("model", pair), habit) for pair, habit in found), MOST_PAIRS
 
     def with_details(self, causes, result):
-        return [*causes[:-1], *(dataclasses.replace(cause, detail=self.place(result) if cause.name else "")
-                                for cause in causes[-1:])]
+        return [
+            *causes[:-1], *(dataclasses.replace(cause, detail=self.place(result) if cause.name else "")
+                            for cause in causes[-1:])]
 
     def place(self, result):
         """Where the first wrong triangle stands in the scene."""
@@ -116,6 +120,7 @@ class MatrixWays:
     def way(self, cause, m, is_divided):
         def images(part):
             return [self.images(m, is_divided, reading, part) for reading in self.readings]
+
         return Way(cause, images, lambda: exact_images(m, is_divided, self.readings[-1].points))
 
     def images(self, m, is_divided, reading, part):

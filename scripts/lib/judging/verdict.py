@@ -36,27 +36,27 @@ def cause_of_all(stage, names):
     causes = [cause_of(f"{stage}/{name}") for name in names]
     if len(causes) == 1:
         return causes[0]
-    return Cause(" and ".join(cause.name for cause in causes),
-                 "; and: ".join(cause.text.rstrip(".") for cause in causes))
+    return Cause(" and ".join(cause.name for cause in causes), "; and: ".join(
+        cause.text.rstrip(".") for cause in causes))
 
 
 @dataclasses.dataclass
 class FileVerdict:
-    stage: str                # model, view, project, zbuf
-    file: str                 # as its author named it
-    verdict: str              # one of the words above
-    rule: str = ""            # the other rule, in words
+    stage: str  # model, view, project, zbuf
+    file: str  # as its author named it
+    verdict: str  # one of the words above
+    rule: str = ""  # the other rule, in words
     causes: list = dataclasses.field(
         default_factory=list)  # of Cause; more than one if the numbers cannot tell them apart
     remarks: list = dataclasses.field(default_factory=list)
-    differing: int = None     # how many numbers or pixels
+    differing: int = None  # how many numbers or pixels
     compared: int = 0
-    explained: int = 0        # how many more a cause explains
-    largest: str = ""         # the largest difference, with its location
-    first: str = ""           # the first one
-    matrices: object = None   # a lib.judging.fit.Comparison
+    explained: int = 0  # how many more a cause explains
+    largest: str = ""  # the largest difference, with its location
+    first: str = ""  # the first one
+    matrices: object = None  # a lib.judging.fit.Comparison
     places: list = dataclasses.field(default_factory=list)  # (row, column) of the pixels that differ
-    worth: float = 1.0        # what another rule earns, of the points of a right file
+    worth: float = 1.0  # what another rule earns, of the points of a right file
 
     @property
     def shown_count(self):

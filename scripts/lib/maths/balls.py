@@ -160,8 +160,8 @@ def _(degrees: Ball):
         sums[k % 4] += term
         k += 1
         term = math.trunc(Fraction(term * x, k << bits))
-    return tuple(Ball.around(total, 1 << GUARD_BITS, -bits)
-                 for total in (sums[1] - sums[3], sums[0] - sums[2]))
+    return tuple(
+        Ball.around(total, 1 << GUARD_BITS, -bits) for total in (sums[1] - sums[3], sums[0] - sums[2]))
 
 
 @functools.lru_cache(16)

@@ -57,8 +57,7 @@ def view_matrix(eye, look, up):
     right = cross(forward, up)
     camera_up = cross(right, forward)
     axes = [
-        tuple(x / root(dot(axis, axis))
-              for x in axis)
+        tuple(x / root(dot(axis, axis)) for x in axis)
         for axis in (right, camera_up, tuple(-x for x in forward))]
     return affine(axes, [-dot(axis, eye) for axis in axes])
 
@@ -66,7 +65,6 @@ def view_matrix(eye, look, up):
 class Projection:
     """A line `perspective`, `frustum` or `ortho` of the header, which may end in the aspect rule `angle` or
     `ratio`."""
-
     def __init__(self, kind, words, aspect_rule=None, number=double):
         """`number` makes numbers of words."""
         count = 4 if kind == "perspective" else 6

@@ -15,7 +15,6 @@ OWNING = ("left", "top")  # the edges whose points belong to the triangle, under
 
 class Window:
     """The window [left, -left] x [bottom, -bottom] of NDC, which becomes width x height pixels."""
-
     def __init__(self, config):
         words = [word for line in config.split("\n") for word in line.split("#")[0].split()]
         self.width, self.height = int(words[0]), int(words[1])
@@ -33,7 +32,6 @@ class Window:
 class Grid:
     """The pixel centers in NDC, in the number type of the limits: fractions, or doubles with zbuf's
     roundings."""
-
     def __init__(self, width, height, left, bottom):
         self.dx, self.dy = -2 * left / width, -2 * bottom / height
         self.left_x, self.top_y = left + self.dx / 2, -bottom - self.dy / 2
@@ -54,8 +52,8 @@ class Grid:
 @dataclasses.dataclass
 class Edge:
     name: str
-    side: str         # left, right, top or bottom: where it bounds the triangle
-    value: Fraction   # distance times length; positive inside, 0 on the edge
+    side: str  # left, right, top or bottom: where it bounds the triangle
+    value: Fraction  # distance times length; positive inside, 0 on the edge
     square: Fraction  # of its length in pixels
 
     @property
@@ -77,7 +75,6 @@ def side_of(step_right, step_down):
 
 class PixelOfTriangle:
     """A pixel's center and a triangle, given by names and points in NDC (fractions)."""
-
     def __init__(self, window, names, points, pixel):
         self.window, self.names, self.points, self.pixel = window, names, points, pixel
         corners = [window.place(p) for p in points]

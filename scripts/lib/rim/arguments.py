@@ -37,7 +37,6 @@ def files_of(name, folder):
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
     """Fits the paragraphs of a description to the terminal, and to 80 columns; those with lines that are
     indented, such as examples, stay as they are."""
-
     def __init__(self, prog):
         super().__init__(prog, width=min(80, shutil.get_terminal_size().columns))
 
@@ -67,7 +66,6 @@ class HelpAction(argparse.Action):
 class CommandParser(argparse.ArgumentParser):
     """Reports a mistake in one line, as the tools do. --help begins with the usage, the first example and the
     first paragraph of the description; the options follow, without rare ones, then the other paragraphs."""
-
     def __init__(self, **settings):
         super().__init__(formatter_class=HelpFormatter, add_help=False, **settings)
         self._positionals.title = "operands"
@@ -85,8 +83,9 @@ class CommandParser(argparse.ArgumentParser):
         for group in self._action_groups:
             formatter.start_section(group.title)
             formatter.add_text(group.description)
-            shown = [action for action in group._group_actions
-                     if has_rare or RARE.isdisjoint(action.option_strings)]
+            shown = [
+                action for action in group._group_actions
+                if has_rare or RARE.isdisjoint(action.option_strings)]
             formatter.add_arguments(sorted(shown, key=lambda action: "--help" in action.option_strings))
             formatter.end_section()
         formatter.add_text("\n\n".join(paragraphs[1:]))

@@ -27,7 +27,6 @@ class CommandFailure(Exception):
 
 class Ended(BaseException):
     """A signal asks the command to stop."""
-
     def __init__(self, signal_number):
         super().__init__(signal_number)
         self.signal_number = signal_number
@@ -71,7 +70,6 @@ def run_command(main, name, failure_status=1):
 
 class Stdout(io.FileIO):
     """Descriptor 1; its errors name stdout."""
-
     def write(self, data):
         try:
             return super().write(data)

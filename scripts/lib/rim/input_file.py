@@ -13,7 +13,6 @@ BLOCK = 1 << 20
 
 class InputError(CommandFailure):
     """A file that cannot be read; `reason` is the text without the file's name."""
-
     def __init__(self, path, reason, is_missing=False):
         super().__init__(f"cannot read {name_of(path)}: {reason}")
         self.reason = reason

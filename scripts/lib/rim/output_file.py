@@ -59,7 +59,6 @@ class OutputFile:
     is not replaced. A symbolic link stays, and the file it points at is replaced. An existing file that is
     not regular (a device, a pipe), /dev/stdout and the like are written directly.
     """
-
     def __init__(self, path):
         self.path = os.fspath(path)
         self.temporary = None  # the path it is written to; None if directly

@@ -13,7 +13,6 @@ OURS = ".pipeline-"  # so begin a mark, and what a tool that was killed may leav
 
 class WorkFolder:
     """The mark is an empty file that names the command. It stays for a retry, and goes with the folder."""
-
     def __init__(self, path, command):
         self.path, self.command = pathlib.Path(path), command
         self.mark = self.path / (OURS + command)
@@ -57,8 +56,8 @@ class WorkFolder:
         """Removes files by their paths in the folder, and folders that this leaves empty."""
         for folder, _, files in os.walk(self.path, topdown=False):
             paths = [os.path.join(folder, name) for name in files]
-            own = [path for path in paths
-                   if path != str(self.mark) and is_own(os.path.relpath(path, self.path))]
+            own = [
+                path for path in paths if path != str(self.mark) and is_own(os.path.relpath(path, self.path))]
             for path in own:
                 os.unlink(path)
             while own and folder != str(self.path):

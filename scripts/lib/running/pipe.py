@@ -75,7 +75,6 @@ def exact(rule):
 
 class Pipe:
     """A scene and a config on their way through the tools; `folder` holds the files in between."""
-
     def __init__(self, tools, scene, config, of_project, folder, of_camera=()):
         """`of_project` and `of_camera` are options of the user's for project, and for trace in its place."""
         self.tools, self.scene, self.config = tools, scene, config
@@ -87,9 +86,10 @@ class Pipe:
     def words(self, tool, setting):
         """The options of a tool."""
         has_bounds = tool == "model" and setting.certify != DEFAULT.certify
-        return [*setting.words(*OPTIONS[tool]), *["--bounds"] * has_bounds,
-                *{"project": self.of_project, "trace": self.of_camera}.get(tool, []),
-                *(self.opaque if tool in ("zbuf", "trace") else [])]
+        return [
+            *setting.words(*OPTIONS[tool]), *["--bounds"] * has_bounds,
+            *{"project": self.of_project, "trace": self.of_camera}.get(tool, []),
+            *(self.opaque if tool in ("zbuf", "trace") else [])]
 
     def text(self, setting):
         """The path of project's text, the bytes in the three pipes, and what the tools noted on the way."""
@@ -121,10 +121,9 @@ class Pipe:
         image = self.folder / "colors.ppm"
         output = ["--z-buffer", "none", "--image", image, self.config]
         if setting.is_traced:
-            self.tools.through(["model", *self.words("model", setting), self.scene],
-                               ["view", *self.words("view", setting)],
-                               ["trace", *self.words("trace", setting), "--no-shadows", "--no-recursion",
-                                *output])
+            self.tools.through(
+                ["model", *self.words("model", setting), self.scene], ["view", *self.words("view", setting)],
+                ["trace", *self.words("trace", setting), "--no-shadows", "--no-recursion", *output])
         else:
             self.tools.run("zbuf", *self.words("zbuf", setting), *output, self.text(setting)[0])
         return b"".join(read_picture(image)[2])
@@ -140,8 +139,9 @@ class Pipe:
 
     def camera(self):
         """The words of the scene's camera, line by line."""
-        return [line.split() for line in self.tools.output("model", "--digits", "exact", self.scene).decode(
-            errors="replace").split("\n", 4)[:4]]
+        return [
+            line.split() for line in self.tools.output("model", "--digits", "exact", self.scene).decode(
+                errors="replace").split("\n", 4)[:4]]
 
     def empty_scene(self):
         """The path of the scene without its triangles. What its run takes, every run takes."""

@@ -75,13 +75,11 @@ stage() {
 }
 '''
 
-
 NO_REASON = re.compile(r": note: |^\w+: \d+ triangles? in |^\d+,\d+: ")  # of --timing, and of trace's --probe
 
 
 class Done:
     """A tool that has ended: its name, its status and the lines of its stderr."""
-
     def __init__(self, name, status, stderr):
         self.name, self.status = name, status
         lines = stderr.decode(errors="replace").strip().splitlines()
@@ -99,8 +97,8 @@ def expect_success(*pipe):
     """
     has_frame = len(pipe) > 1 and not pipe[-1].status and FRAMING.get(pipe[-1].name) == ["--expect-framed"]
     failed = [tool for tool in pipe if tool.status > 0 or tool.status < 0 and not has_frame]
-    for tool in sorted(failed, key=lambda tool: (tool.status == -signal.SIGPIPE, tool.status > 0,
-                                                 not tool.reasons)):
+    for tool in sorted(failed, key=lambda tool:
+                       (tool.status == -signal.SIGPIPE, tool.status > 0, not tool.reasons)):
         if tool.status < 0:
             raise ToolKilled(f"{tool.name}: ended by {name_of_signal(-tool.status)}")
         raise ToolFailure("\n".join(tool.reasons) or f"{tool.name}: exit status {tool.status}")
@@ -115,7 +113,6 @@ def checked(done, tool):
 class Tools:
     """The tools in a folder, by default $BIN, else those that belong to the command that runs. For a command
     of many pipes, zbuf and trace draw on one thread each."""
-
     def __init__(self, folder=None, has_many_pipes=False):
         self.one_thread = ["--threads", "1"] if has_many_pipes else []
         # Absolute, since a bare name would be looked up on the PATH, where `view` is an editor.

@@ -1,9 +1,10 @@
 """The options of trace that commands pass on, and what --trace leaves without a meaning."""
 
-VALUES = {"--sampling": ("basic|regular|jittered|adaptive", "where the rays of a pixel go"),
-          "--threshold": ("N", "with --sampling adaptive, how much samples may differ"),
-          "--min-contribution": ("E", "the least part of a pixel's color that a ray is cast for"),
-          "--max-depth": ("N", "how often a ray may be mirrored or refracted")}
+VALUES = {
+    "--sampling": ("basic|regular|jittered|adaptive", "where the rays of a pixel go"),
+    "--threshold": ("N", "with --sampling adaptive, how much samples may differ"),
+    "--min-contribution": ("E", "the least part of a pixel's color that a ray is cast for"),
+    "--max-depth": ("N", "how often a ray may be mirrored or refracted")}
 FLAGS = {
     "--no-shadows": "light all that faces a lamp",
     "--no-recursion": "draw what mirrors or is clear opaque and matt"}

@@ -8,7 +8,7 @@ import zlib
 from lib.rim.command import CommandFailure
 from lib.rim.input_file import name_of, read_input
 
-MAX_SIDE = 65535          # as zbuf draws; a column of millions of rows takes gigabytes in Python
+MAX_SIDE = 65535  # as zbuf draws; a column of millions of rows takes gigabytes in Python
 MAX_PNG_PIXELS = 1 << 25  # a PNG of a few KB may claim millions, and Python is slow to filter bytes
 PPM_HEADER = re.compile(rb"P6" + rb"(?:\s|#[^\n]*\n)+(\d{1,9})" * 3 + rb"\s")
 MAX_PPM_HEADER = 4096
@@ -43,10 +43,8 @@ def read_bmp(data, size, _):
         raise PictureError("expected a BMP with a header of 54 bytes or more, and the pixels behind it")
     width, height, _, bits, compression = struct.unpack_from("<iiHHI", data, 18)
     if bits != 24 or compression != 0:
-        raise PictureError(
-            f"expected a BMP of 24 bits a pixel, not compressed, found "
-            f"{bits}{' and compressed' if compression else ''}"
-        )
+        raise PictureError(f"expected a BMP of 24 bits a pixel, not compressed, found "
+                           f"{bits}{' and compressed' if compression else ''}")
     expect_size(width, abs(height), size)
     stride = (3 * width + 3) // 4 * 4
     expect_bytes(width, abs(height), stride, len(data) - offset)
@@ -204,8 +202,7 @@ def png_of_lines(width, height, channels, lines, level=9):
     """The same of rows with their filters."""
     header = struct.pack(">IIBBBBB", width, height, 8, 6 if channels == 4 else 2, 0, 0, 0)
     pixels = zlib.compress(b"".join(lines), level)
-    return PNG_SIGNATURE + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(
-        b"IEND", b"")
+    return PNG_SIGNATURE + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(b"IEND", b"")
 
 
 def size_of(picture):

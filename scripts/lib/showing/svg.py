@@ -3,12 +3,12 @@ import html
 
 LIGHT = {
     "card": "#ffffff", "edge": "#d0d7de", "grid": "#e4e8ec", "axis": "#8c959f", "guide": "#afb8c1",
-    "band": "#f8ecdc", "ink": "#1f2328", "soft": "#59636e", "series":
-        ("#bf2045", "#b86e00", "#0a7d78", "#5b53c4")}
+    "band": "#f8ecdc", "ink": "#1f2328", "soft": "#59636e",
+    "series": ("#bf2045", "#b86e00", "#0a7d78", "#5b53c4")}
 DARK = {
     "card": "#0d1117", "edge": "#3d444d", "grid": "#262c34", "axis": "#656c76", "guide": "#4d5560",
-    "band": "#2b2214", "ink": "#e6edf3", "soft": "#9198a1", "series":
-        ("#ff7088", "#eda63a", "#45c4bc", "#a79bff")}
+    "band": "#2b2214", "ink": "#e6edf3", "soft": "#9198a1",
+    "series": ("#ff7088", "#eda63a", "#45c4bc", "#a79bff")}
 
 
 def colors(theme):
@@ -52,5 +52,5 @@ def document(width, height, title, parts, style=""):
     return "\n".join([
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
         f'height="{height}">', f"<title>{title}</title>", f"<style>{STYLE}{style}</style>",
-        f'<rect class="card" x=".5" y=".5" width="{width - 1}" height="{height - 1}" rx="8"/>',
-        *parts]) + "\n</svg>\n"
+        f'<rect class="card" x=".5" y=".5" width="{width - 1}" height="{height - 1}" rx="8"/>', *parts
+    ]) + "\n</svg>\n"

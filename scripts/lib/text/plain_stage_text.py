@@ -24,16 +24,16 @@ class StageTextError(ValueError):
 
 @dataclasses.dataclass
 class Vertex:
-    line: int       # from 1
+    line: int  # from 1
     numbers: tuple  # x, y, z and the attributes
 
 
 @dataclasses.dataclass
 class StageText:
-    header: dict     # {keyword: words}; of several lights, the last
+    header: dict  # {keyword: words}; of several lights, the last
     triangles: list  # of three vertices each
-    names: list      # the scene's number of each triangle
-    spheres: list = dataclasses.field(default_factory=list)       # of four vertices each
+    names: list  # the scene's number of each triangle
+    spheres: list = dataclasses.field(default_factory=list)  # of four vertices each
     header_lines: list = dataclasses.field(default_factory=list)  # the words of each, in order
 
     @property
@@ -57,8 +57,8 @@ def write(text, decimals=7):
             lines.append(f"triangle {name}")
         expected = name + 1
         for vertex in triangle:
-            lines.append(" ".join(f"{x:.{decimals}f}" if fixed else shortest(x)
-                                  for x, fixed in zip(vertex.numbers, is_fixed)))
+            lines.append(" ".join(
+                f"{x:.{decimals}f}" if fixed else shortest(x) for x, fixed in zip(vertex.numbers, is_fixed)))
         lines.append("")
     return "".join(line + "\n" for line in lines)
 
@@ -95,7 +95,6 @@ def read(text, name="text", may_have_spheres=False):
 
 class Reader:
     """Takes lines; its errors name no location."""
-
     def __init__(self, may_have_spheres):
         self.may_have_spheres, self.found = may_have_spheres, StageText({}, [], [])
         self.vertices, self.next_name = [], 0

@@ -9,8 +9,7 @@ from lib.maths.matrices import IDENTITY, TRANSFORMS, product
 from lib.text.projection import with_keyword
 
 CAMERA_LINES = 4
-SETTINGS = (
-    "attributes", "background", "light", "ambient", "material", "absorption", "paint", "attenuation")
+SETTINGS = ("attributes", "background", "light", "ambient", "material", "absorption", "paint", "attenuation")
 # The words of commands and their lines of arguments, as in libpipeline/scene/scene_commands.h.
 ARGUMENT_LINES = {
     "triangle": 3, "push": 0, "pop": 0, "end": 0,
@@ -30,8 +29,8 @@ class Command:
 @dataclasses.dataclass
 class SceneTriangle:
     line: int
-    points: list      # the x, y and z of three vertices, as written
-    columns: list     # how many numbers each vertex has besides
+    points: list  # the x, y and z of three vertices, as written
+    columns: list  # how many numbers each vertex has besides
     in_force: object  # the last transform and those before it: (Command, (Command, ...)), or None
 
     @property
@@ -48,8 +47,7 @@ class SceneTriangle:
 
 def filled_lines(text):
     """The number and the words of each line that has some."""
-    return ((number, words)
-            for number, line in enumerate(text.split("\n"), 1)
+    return ((number, words) for number, line in enumerate(text.split("\n"), 1)
             if (words := line.split("#")[0].split()))
 
 
@@ -84,8 +82,7 @@ def find_triangles(text):
             in_force = saved.pop()
         elif command.keyword == "triangle":
             lines = command.arguments
-            yield SceneTriangle(command.line, [words[:3] for words in lines],
-                                len(lines[0]) - 3, in_force)
+            yield SceneTriangle(command.line, [words[:3] for words in lines], len(lines[0]) - 3, in_force)
 
 
 def find_triangle(text, number):

@@ -12,8 +12,7 @@ from lib.text import plain_stage_text
 # Beginnings of lines of a scene, not of a stage text, in which the word triangle is followed by one number.
 SCENE_COMMAND = re.compile(
     rf"^[ \t]*(?:(?:{'|'.join(TRANSFORMS)}|push|pop)\b|triangle[ \t\r]*(?:#|$)|triangle[ \t]+[^\s#]+[ "
-    r"\t]+[^\s#])",
-    re.M)
+    r"\t]+[^\s#])", re.M)
 NUMBER = re.compile(r"[-+]?\.?[0-9]")
 
 

@@ -81,8 +81,9 @@ def drawing(columns, rows, depths):
     colors = {pixel: None for picture in pictures for row in picture for pixel in row if pixel != BLACK}
     letters = {BLACK: ".", **dict(zip(colors, LETTERS))}
     lines = ["  ".join("".join(map(letters.get, row)) for row in line) for line in zip(*pictures)]
-    legend = ["{} = {} {} {}".format(letters[color], *color) + f" at {depths.get(color)}" * (color in depths)
-              for color in colors]
+    legend = [
+        "{} = {} {} {}".format(letters[color], *color) + f" at {depths.get(color)}" * (color in depths)
+        for color in colors]
     lines += ["  ".join(legend[at:at + 3]) for at in range(0, len(legend), 3)]
     return "\n".join(["-- " + "  ".join(" = ".join(names) for names in columns), *lines, ""])
 

@@ -16,22 +16,20 @@ from conform_parts.pages import files_of, read_fields, read_page  # noqa: E402
 
 OTHER_FORMULAS = "zbuf/other-formulas"  # a habit with which a program must not fail, either
 # And habits; the pack has the pictures of the center rule, too.
-MISTAKES = {stage: [None, *(name for name in read_mistakes(stage) if name != "zbuf/center")]
-            for stage in STAGES}
+MISTAKES = {
+    stage: [None, *(name for name in read_mistakes(stage) if name != "zbuf/center")]
+    for stage in STAGES}
 # Cases that also hold what comes out with each mistake that they catch: a text, or a picture where that alone
 # is wrong. A flat depth is most often a corner's, or the mean of them; FLAT has a triangle where these are
 # one.
 FLAT = "depth-slopes-both-ways"
 WITNESSES = {
-    "model": (
-        "arm-of-three-joints", "axis-1-2-3", "order-scale-rotate-translate", "stack-pops-in-a-row",
-        "stack-pushes-in-a-row-twice", "stack-siblings-of-siblings"),
+    "model": ("arm-of-three-joints", "axis-1-2-3", "order-scale-rotate-translate", "stack-pops-in-a-row",
+              "stack-pushes-in-a-row-twice", "stack-siblings-of-siblings"),
     "view": ("octant-ppm-past-the-origin", "rolled-by-30-tilted", "up-leans-all"),
     "project": ("fov-45-aspect-1-25", "fov-60-aspect-0-5"),
-    "zbuf": (
-        "crossing-one-way", "limits-across-both-with-another-behind", "three-middle-far-near", "window-half",
-        FLAT),
-}
+    "zbuf": ("crossing-one-way", "limits-across-both-with-another-behind", "three-middle-far-near",
+             "window-half", FLAT),}
 # The student's program (tests/conformance/student).
 STUDENT = os.environ.get("STUDENT", SOURCE / "build/release/tests/baselines/student")
 
@@ -81,9 +79,10 @@ class Case:
 
     def fields(self, caught):
         needs = {*self.needs.split(), *["options"] * bool(self.options), *["refusals"] * bool(self.refused)}
-        fields = {"why": self.why, "paragraphs": self.paragraphs, "tier": self.tier,
-                  "needs": " ".join(sorted(needs)), "open": self.open, "open-nearest": self.open_nearest,
-                  "refused": str(self.refused or ""), "options": self.options, "catches": " ".join(caught)}
+        fields = {
+            "why": self.why, "paragraphs": self.paragraphs, "tier": self.tier, "needs": " ".join(
+                sorted(needs)), "open": self.open, "open-nearest": self.open_nearest, "refused": str(
+                    self.refused or ""), "options": self.options, "catches": " ".join(caught)}
         return {key: value for key, value in fields.items() if value}
 
     def expected(self):
@@ -103,8 +102,9 @@ class Case:
         with tempfile.TemporaryDirectory() as name:
             config, image = pathlib.Path(name, "config.txt"), pathlib.Path(name, "out.bmp")
             config.write_bytes(self.config.encode("latin-1"))
-            depths = answer("zbuf", self.text, [str(config), "--image", str(image), "--coverage", rule,
-                                                *self.options.split()])
+            depths = answer("zbuf", self.text,
+                            [str(config), "--image",
+                             str(image), "--coverage", rule, *self.options.split()])
             return depths, image.read_bytes()
 
     def expect_refusal(self):
@@ -131,8 +131,9 @@ class Case:
     def is_failed_with(self, mistake, files):
         found, *picture = self.mistaken(mistake)
         if self.stage == "zbuf":
-            return bool(same_digits(files["depths-nearest.txt"], found, is_stage_text=False)
-                        or same_picture(files["picture-nearest.bmp"], *picture, has_free_colors=True))
+            return bool(
+                same_digits(files["depths-nearest.txt"], found, is_stage_text=False)
+                or same_picture(files["picture-nearest.bmp"], *picture, has_free_colors=True))
         return bool(same_digits(without_header(files["expected.txt"]), found))
 
     def mistaken(self, mistake):

@@ -26,11 +26,11 @@ class Option:
 @dataclasses.dataclass
 class Help:
     name: str
-    summary: str      # one sentence
-    usage: list       # lines
+    summary: str  # one sentence
+    usage: list  # lines
     paragraphs: list  # each a list of lines
-    groups: list      # pairs of a title and Options
-    examples: list    # command lines
+    groups: list  # pairs of a title and Options
+    examples: list  # command lines
     exit_status: str
 
     @property
@@ -45,8 +45,9 @@ def help_of(program, name):
     if is_in_python:
         return parse(python_help(program, name), name)
     words = [program, "--help" if name == "pipeline" else "--help-fields"]
-    return parse(subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                                check=True).stdout, name)
+    return parse(
+        subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True).stdout,
+        name)
 
 
 def python_help(program, name):

@@ -26,12 +26,10 @@ def wrapped(text):
 
 class Page:
     """Lines of roff, from the heading on."""
-
     def __init__(self, name, section, date, version):
         self.lines = [
             f'.TH {escaped(name).upper()} {section} {date} "pipeline {version}" "The raster graphics '
-            f'pipeline"'
-        ]
+            f'pipeline"']
 
     def section(self, title):
         self.lines.append(f".SH {escaped(title)}")

@@ -19,8 +19,8 @@ from parts.extremes_truth import reference, true_owners, true_vertices
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tests/reference"))
 import leeway  # noqa: E402
 
-ROUNDED = [Setting(digits)
-           for digits in ("5", "7", "9", "12", "exact")]  # digits are promised to be right, or noted
+ROUNDED = [
+    Setting(digits) for digits in ("5", "7", "9", "12", "exact")]  # digits are promised to be right, or noted
 SETTINGS = [*ROUNDED, Setting(precision="double"), Setting("exact", "double")]
 MOST_DIGITS = 17
 STAGES = ("model", "view", "project")
@@ -45,15 +45,10 @@ def measured(job):
         pipe = Pipe(Tools(bin_dir, has_many_pipes=True), scene, config, [], folder)
         lossless = list(pipe.owners(centered(Setting("exact"))))
         return [{
-            "axis":
-                case.axis, "value":
-                    f"{case.value:g}", "setting":
-                        str(setting), "covered":
-                            sum(mark != NOBODY
-                                for mark in marks),
-            **losses(pipe, centered(setting), truth, marks, lossless), "wrong_without_note":
-                wrong_without_note(pipe.tools, text, setting.digits) if setting in ROUNDED else ""}
-                for setting in SETTINGS]
+            "axis": case.axis, "value": f"{case.value:g}",
+            "setting": str(setting), "covered": sum(mark != NOBODY for mark in marks), **losses(
+                pipe, centered(setting), truth, marks, lossless), "wrong_without_note": wrong_without_note(
+                pipe.tools, text, setting.digits) if setting in ROUNDED else ""} for setting in SETTINGS]
 
 
 def losses(pipe, setting, truth, marks, lossless):
@@ -66,8 +61,8 @@ def losses(pipe, setting, truth, marks, lossless):
     notes += done.stderr.decode().splitlines()
     return {
         "digits_right": f"{digits_right(path, truth):.2f}", "wrong_pixels": len(wrong),
-        "pixels_unlike_lossless": sum(map(operator.ne, picture, lossless)),
-        "note": shortened(notes[0]) if notes else "",
+        "pixels_unlike_lossless": sum(map(operator.ne, picture,
+                                          lossless)), "note": shortened(notes[0]) if notes else "",
         "uncertain_pixels": "refused" if uncertain is None else len(uncertain),
         "wrong_though_certain": "" if uncertain is None else len(wrong - uncertain)}
 
@@ -79,8 +74,8 @@ def uncertain_pixels(pipe, setting):
         path, _, _ = pipe.text(certified)
     except ToolFailure:
         return None
-    report = pipe.tools.output("zbuf", *pipe.words("zbuf", certified), "--image",
-                               pipe.folder / "out.ppm", pipe.config, path).split()[4:]
+    report = pipe.tools.output("zbuf", *pipe.words("zbuf", certified), "--image", pipe.folder / "out.ppm",
+                               pipe.config, path).split()[4:]
     return {int(row) * SIZE + int(column) for row, column in zip(report[::2], report[1::2])}
 
 
@@ -97,11 +92,7 @@ def digits_right(path, truth):
     """How many digits of the vertices in NDC are right, relative to the scene's extent along the axis where
     the fewest are; none if triangles are missing."""
     extents = [
-        max(p[i]
-            for triangle in truth
-            for p in triangle) - min(p[i]
-                                     for triangle in truth
-                                     for p in triangle)
+        max(p[i] for triangle in truth for p in triangle) - min(p[i] for triangle in truth for p in triangle)
         for i in range(3)]
     errors, missing = [Fraction(0)] * 3, set(range(len(truth)))
     with open(path, "rb") as file:

@@ -19,7 +19,6 @@ def short(value):
 
 class Results:
     """The rows of extremes.csv, read by csv.DictReader."""
-
     def __init__(self, rows):
         self.rows = rows
         self.settings = list(dict.fromkeys(row["setting"] for row in rows))
@@ -57,8 +56,9 @@ class Results:
             for row in [row for row in known if int(row[column])][:1]:
                 wrong = f"{int(row['wrong_pixels']):,} of " if int(row["wrong_pixels"]) else ""
                 counts[short(row["value"])] = f"({wrong}{int(row['uncertain_pixels']):,})"
-        return ", ".join([*map(" ".join, counts.items()),
-                          *(f"{short(row['value'])} refused" for row in rows if row not in known)])
+        return ", ".join([
+            *map(" ".join, counts.items()),
+            *(f"{short(row['value'])} refused" for row in rows if row not in known)])
 
 
 def code(setting):

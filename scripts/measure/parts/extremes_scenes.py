@@ -6,11 +6,11 @@ import dataclasses
 import math
 
 CELLS = 8
-SIZE = 96          # columns and rows of the picture
-GAP = 0.02         # between the layers
+SIZE = 96  # columns and rows of the picture
+GAP = 0.02  # between the layers
 FACING = (2 / 7, 3 / 7, 6 / 7)
 TURN = ("rotate", "31.002719133874 -3 2 0")  # from the z axis to there: by acos(6/7)
-MARGIN = 1.15      # of the picture around the patch
+MARGIN = 1.15  # of the picture around the patch
 
 AXES = {  # title, unit, values
     "distance": ("the eye and the object, of size 1, far from the origin", "distance from the origin",
@@ -33,8 +33,7 @@ class Case:
 
 def cases(is_quick):
     return [
-        Case(axis, value)
-        for axis, (_, _, values) in AXES.items()
+        Case(axis, value) for axis, (_, _, values) in AXES.items()
         for value in (QUICK[axis] if is_quick else values)]
 
 
@@ -50,9 +49,9 @@ def patch(width, height):
     """Triangles of three points: the hidden layer, then the one above it, of half that width and with bumps
     of that height."""
     dice = noise()
-    corners = [[
-        ((2 * (k + 0.4 * next(dice)) / CELLS - 1) * width, (2 * (i + 0.4 * next(dice)) / CELLS - 1) * width,
-         next(dice) * height) for k in range(CELLS + 1)] for i in range(CELLS + 1)]
+    corners = [[((2 * (k + 0.4 * next(dice)) / CELLS - 1) * width,
+                 (2 * (i + 0.4 * next(dice)) / CELLS - 1) * width, next(dice) * height)
+                for k in range(CELLS + 1)] for i in range(CELLS + 1)]
     for lift in (-GAP * height, 0):
         for i in range(CELLS):
             for k in range(CELLS):

@@ -12,7 +12,6 @@ LIGHTS = "ambient 0.1 0.1 0.1\nmaterial 1 0.8 0.6 30\nlight -3 2.5 -1 1 0.6 0.5\
 
 class Integers:
     """The linear congruential generator of D. E. Knuth's MMIX, without its 24 low bits."""
-
     def __init__(self):
         self.state = 1
 
@@ -111,8 +110,9 @@ end_header
 def model_file(form, side):
     """A terrain of two triangles for each of side x side squares, as the text of a model file."""
     integers, across = Integers(), side + 1
-    points = [" ".join(map(decimal, (x * UNIT, integers.within(UNIT), y * UNIT))) + "\n"
-              for y in range(across) for x in range(across)]
+    points = [
+        " ".join(map(decimal, (x * UNIT, integers.within(UNIT), y * UNIT))) + "\n" for y in range(across)
+        for x in range(across)]
     corners = [y * across + x for y in range(side) for x in range(side)]
     faces = [face for i in corners for face in ((i, i + across, i + 1), (i + 1, i + across, i + across + 1))]
     if form == "stl":
@@ -120,10 +120,11 @@ def model_file(form, side):
         around = "facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n".format
         return "solid terrain\n" + "".join(map(around, facets)) + "endsolid terrain\n"
     if form == "obj":
-        return "".join(f"v {point}" for point in points) + "".join(
-            "f {} {} {}\n".format(*(i + 1 for i in face)) for face in faces)
-    return PLY.format(len(points), len(faces)) + "".join(points) + "".join(
-        "3 {} {} {}\n".format(*face) for face in faces)
+        return "".join(f"v {point}" for point in points) + "".join("f {} {} {}\n".format(*(i + 1
+                                                                                           for i in face))
+                                                                   for face in faces)
+    return PLY.format(len(points), len(faces)) + "".join(points) + "".join("3 {} {} {}\n".format(*face)
+                                                                           for face in faces)
 
 
 def scene(stage_text, before_each="", after_each="", columns=(), head=""):
@@ -136,9 +137,8 @@ def scene(stage_text, before_each="", after_each="", columns=(), head=""):
 
 def odd_numbers(stage_text):
     """The same vertices with exponents and up to 16 digits."""
-    return "\n".join(" ".join(f"{number}123456e-1"
-                              for number in line.split())
-                     for line in stage_text.split("\n"))
+    return "\n".join(
+        " ".join(f"{number}123456e-1" for number in line.split()) for line in stage_text.split("\n"))
 
 
 def with_materials(count, repeats):
@@ -164,8 +164,8 @@ TEXTS = {
     "turned-scene.txt": lambda: scene(in_world(600), TURNED + TURNED, "pop\npop\n"),
     "far-off-scene.txt": far_off,
     "odd-scene.txt": lambda: scene(odd_numbers(in_world(2000)) * 3),
-    "lit-scene.txt":
-        lambda: scene(in_world(2000, columns=("color", "normal")) * 4, columns=("color", "normal")),
+    "lit-scene.txt": lambda: scene(
+        in_world(2000, columns=("color", "normal")) * 4, columns=("color", "normal")),
     "world.txt": lambda: header("world", ()) + in_world(2000) * 25,
     "lit-world.txt": lambda: lit("world", in_world, 2000, 6),
     "short-world.txt": lambda: header("world", ()) + in_world(2000) * 10,
@@ -184,8 +184,7 @@ TEXTS = {
     "small-lit-screen.txt": lambda: lit("screen", in_world, 2000),
     "config.txt": lambda: "500 500\n",
     "narrow.txt": lambda: "300 300\n",
-    "tiny.txt": lambda: "4 4\n",
-}
+    "tiny.txt": lambda: "4 4\n",}
 
 TEXTS |= {
     "one-color-scene.txt": lambda: scene(in_world(2000) * 8, head="color 200 190 170\n" + LIGHTS),
@@ -193,10 +192,10 @@ TEXTS |= {
     "one-color-view.txt": lambda: lit("view", in_view, 2000, 8, ("color",)),
     "one-color-screen.txt": lambda: small_and_lit("color"),
     "colored-screen.txt": lambda: small_and_lit("color", "normal"),
-    **{f"terrain.{form}": lambda form=form: model_file(form, 60) for form in ("obj", "stl", "ply")},
+    **{f"terrain.{form}": lambda form=form: model_file(form, 60)
+       for form in ("obj", "stl", "ply")},
     "material-world.txt": lambda: with_materials(2000, 6),
-    "crlf-world.txt": lambda: TEXTS["short-world.txt"]().replace("\n", "\r\n"),
-}
+    "crlf-world.txt": lambda: TEXTS["short-world.txt"]().replace("\n", "\r\n"),}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -229,9 +228,9 @@ ROWS = [
     Row("project: one color and light", "project one-color-view.txt"),
     Row("zbuf: one color and light", f"zbuf config.txt one-color-screen.txt {NO_IMAGE}"),
     Row("zbuf: normals and colors", f"zbuf config.txt colored-screen.txt {NO_IMAGE}"),
-    *(Row(f"mesh2scene: {form.upper()}", f"mesh2scene terrain.{form}")
-      for form in ("obj", "stl", "ply")),
-    Row("pipe: PLY, 3 x 3 samples", "mesh2scene terrain.ply | model | view | project | "
+    *(Row(f"mesh2scene: {form.upper()}", f"mesh2scene terrain.{form}") for form in ("obj", "stl", "ply")),
+    Row(
+        "pipe: PLY, 3 x 3 samples", "mesh2scene terrain.ply | model | view | project | "
         f"zbuf narrow.txt {NO_IMAGE} --samples 3 --threads 1"),
     Row("model: lit", "model lit-scene.txt"),
     Row("view: lit", "view lit-world.txt"),
@@ -276,5 +275,4 @@ ROWS = [
     Row("zbuf: 24-bit depths", f"zbuf config.txt large.txt {NO_IMAGE} --depth u24"),
     Row("zbuf: depths into a file", f"zbuf config.txt large.txt {NO_IMAGE} --z-buffer depths.txt"),
     Row("zbuf: PNG", "zbuf narrow.txt small.txt --image image.png"),
-    Row("zbuf: wireframe", f"zbuf config.txt few-large.txt {NO_IMAGE} --wireframe"),
-]
+    Row("zbuf: wireframe", f"zbuf config.txt few-large.txt {NO_IMAGE} --wireframe"),]

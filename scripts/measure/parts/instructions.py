@@ -59,8 +59,8 @@ def callgrind_count(words, folder, stdin=subprocess.DEVNULL, stdout=subprocess.D
     the caller's."""
     done = subprocess.run(
         [shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", *words], cwd=folder,
-        env={"PATH": "/usr/bin:/bin", "LC_ALL": "C", **environment}, stdin=stdin, stdout=stdout,
-        stderr=subprocess.PIPE, text=True, errors="replace")
+        env={"PATH": "/usr/bin:/bin", "LC_ALL": "C",
+             **environment}, stdin=stdin, stdout=stdout, stderr=subprocess.PIPE, text=True, errors="replace")
     collected = re.search(r"Collected : (\d+)", done.stderr)
     if done.returncode != 0 or not collected:
         own = [line for line in done.stderr.splitlines() if line and not line.startswith("==")]
@@ -106,7 +106,6 @@ def committed_counts(path):
 
 class Comparison:
     """One run over the rows: the counts and the results."""
-
     def __init__(self, committed, accept):
         self.committed, self.accept = committed, accept
         self.counted = {}  # {(row, kernel): Committed}

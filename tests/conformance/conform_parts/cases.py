@@ -27,8 +27,7 @@ NEEDS = {
     "alpha": "`background R G B A`: an alpha, which only PNG holds",
     "bounds": "texts with the header line `bounds`",
     "exactness": "more digits than plain doubles give",
-    "refusals": "wrong input is refused, with its line",
-}
+    "refusals": "wrong input is refused, with its line",}
 # What cases ask for, in the order of reports: the first is the assignment, the others go beyond it.
 ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS = ("what the assignment asks for", "text to the byte",
                                                   "refusals of wrong input", "colors and lights",
@@ -100,8 +99,9 @@ class Case:
 def read_cases(stage, folder=ROOT / "cases"):
     """The cases of a stage, in the order of their names."""
     pages = [path.read_text("ascii") for path in (folder / stage).glob("*.cases")]
-    cases = [Case(stage, name, read_fields(fields, stage), sections)
-             for page in pages for name, fields, sections in read_page(page)]
+    cases = [
+        Case(stage, name, read_fields(fields, stage), sections) for page in pages
+        for name, fields, sections in read_page(page)]
     return sorted(cases, key=lambda case: case.short_name)
 
 

@@ -31,8 +31,9 @@ MOST_ERRORS = MEBIBYTE  # of stderr that is kept, the last ones
 INTERVAL = 0.03  # seconds between two looks at what a program uses
 NO_NAMESPACES = ("--unshare-user", "--disable-userns")  # of the program's own; bubblewrap knows it since 0.8
 PASSED_ON = ("PATH", "LANG", "LC_ALL")
-HINTS = {errno.EACCES: "; chmod +x makes a file a program",
-         errno.ENOEXEC: "; a script begins with a line like #!/usr/bin/env python3"}
+HINTS = {
+    errno.EACCES: "; chmod +x makes a file a program",
+    errno.ENOEXEC: "; a script begins with a line like #!/usr/bin/env python3"}
 
 NO_END = "does not end within"
 # seconds of processors; MiB of resident memory and a number of processes, of all that the program starts
@@ -70,8 +71,8 @@ def limits_of(options, seconds):
     """The Limits of the options; raises a Refused."""
     if not 0 < seconds < math.inf or min(options.memory, options.processes, options.address_space or 1) < 1:
         raise Refused("expected limits of time, memory and processes above 0")
-    return Limits(seconds, options.memory, options.processes, options.address_space,
-                  clock=getattr(options, "clock", 1))
+    return Limits(seconds, options.memory, options.processes, options.address_space, clock=getattr(
+        options, "clock", 1))
 
 
 def program_path(word):

@@ -33,7 +33,6 @@ def same_bytes(expected, found):
 class Digits:
     """How many digits some numbers show: all as many decimals, or all as many significant digits as the
     longest."""
-
     def __init__(self, words, may_be_fixed=True):
         decimals = {len(word.partition(".")[2]) if "e" not in word.lower() else -1 for word in words}
         self.is_fixed = may_be_fixed and len(decimals) == 1 and min(decimals) >= 2
@@ -45,7 +44,7 @@ class Digits:
         place = number.as_tuple().exponent
         if not self.is_fixed:
             place = min(place, number.adjusted() - self.significant + 1)
-        return min(Fraction(10) ** place / 2, COARSEST * max(1, abs(Fraction(word))))
+        return min(Fraction(10)**place / 2, COARSEST * max(1, abs(Fraction(word))))
 
 
 def group_of(line, column, is_stage_text):
@@ -125,11 +124,12 @@ def read_bmp(data):
 
 
 # Of a BMP file (T24): where each field begins, and its name.
-FIELDS = {0: "the letters BM", 2: "the file's size", 6: "reserved", 10: "where the pixels begin",
-          14: "the size of the second header", 18: "the width", 22: "the height", 26: "the planes",
-          28: "the bits a pixel", 30: "the compression", 34: "the size of the pixels",
-          38: "pixels a meter in x", 42: "pixels a meter in y", 46: "the colors used",
-          50: "the important colors", 54: "the pixels, or their filling"}
+FIELDS = {
+    0: "the letters BM", 2: "the file's size", 6: "reserved", 10: "where the pixels begin",
+    14: "the size of the second header", 18: "the width", 22: "the height", 26: "the planes",
+    28: "the bits a pixel", 30: "the compression", 34: "the size of the pixels", 38: "pixels a meter in x",
+    42: "pixels a meter in y", 46: "the colors used", 50: "the important colors",
+    54: "the pixels, or their filling"}
 
 
 def different_field(expected, found):
@@ -150,8 +150,9 @@ def drawn(rows, background):
     """A picture as text, a line a row: a point for the background, and a letter for each color in the order
     in which they appear."""
     names = {background: "."}
-    return ["".join(names.setdefault(pixel, LETTERS[(len(names) - 1) % len(LETTERS)]) for pixel in row)
-            for row in rows]
+    return [
+        "".join(names.setdefault(pixel, LETTERS[(len(names) - 1) % len(LETTERS)]) for pixel in row)
+        for row in rows]
 
 
 def same_owners(expected, found):

@@ -12,7 +12,6 @@ from . import confined
 class ResultFile:
     """An open device or pipe, or a path without links: opened before a program can replace it. `option` and
     `name` are as the caller has typed them."""
-
     def __init__(self, option, name):
         self.option, self.name, self.stream = option, name, None
         with self.errors():

@@ -55,9 +55,10 @@ def labels_of(comment, order):
 def carried_out(text, order):
     """(name, first line, last line, labels) of the functions of the reference; `order` is a tuple."""
     lines = text.splitlines()
-    return [(node.name, node.lineno, node.end_lineno,
-             labels_of(lines[node.lineno - 1].partition("  # ")[2], order))
-            for node in ast.walk(ast.parse(text)) if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
+    return [
+        (node.name, node.lineno, node.end_lineno, labels_of(lines[node.lineno - 1].partition("  # ")[2],
+                                                            order)) for node in ast.walk(ast.parse(text))
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
 
 
 def mistakes_of(label):
@@ -83,8 +84,8 @@ def case_lines(label, text):
     own = re.search(rf"\(`((?:{'|'.join(STAGES)})/[\w-]+)`\)", text)
     first_with = {case.why: case.name for case in cases[::-1]}
     cases.sort(key=lambda case: case.name != (own and own[1]))
-    shown_cases = [case for i, case in enumerate(cases) if not i
-                   or first_with[case.why] == case.name][:MOST_CASES]
+    shown_cases = [
+        case for i, case in enumerate(cases) if not i or first_with[case.why] == case.name][:MOST_CASES]
     lines = [f"  {case.name}: {case.why}" for case in shown_cases]
     if len(cases) > len(shown_cases):
         lines.append(f"  and {len(cases) - len(shown_cases)} more: pipeline conform --list --only {label}")
@@ -125,13 +126,15 @@ def described(label):
     if label not in paragraphs:
         return None
     page, text = paragraphs[label]
-    body = [line for block in text.split("\n\n")
-            for line in [*(block.splitlines() if block[0] in "|-"
-                           else textwrap.wrap(block, WIDTH, break_on_hyphens=False)), ""]]
+    body = [
+        line for block in text.split("\n\n") for line in [
+            *(block.splitlines() if block[0] in "|-" else textwrap.wrap(block, WIDTH, break_on_hyphens=False)
+              ), ""]]
     lines = [f"{label}, docs/{page}.md", "", *body, "cases:", *case_lines(label, text)]
-    for heading, found in (("known mistakes:", ["  " + line for line in mistakes_of(label)]),
-                           ("in the reference:", reference_lines(label, (*paragraphs,))),
-                           ("in the sources:",
-                            [f"  {where}: {code}" for labels, where, code in marks() if label in labels])):
+    for heading, found in (("known mistakes:", [
+            "  " + line
+            for line in mistakes_of(label)]), ("in the reference:", reference_lines(
+                label, (*paragraphs,))), ("in the sources:", [
+                    f"  {where}: {code}" for labels, where, code in marks() if label in labels])):
         lines += ["", heading, *found] if found else []
     return lines

@@ -12,7 +12,7 @@ GROUPS = (ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS)
 # why); group: one of GROUPS
 Result = namedtuple("Result", "case state difference reason group", defaults=(None, None, ASSIGNMENT))
 Heading = namedtuple("Heading", "names results title",
-                     defaults=("no mistake of the list", ))  # mistakes that cannot be told apart, or none
+                     defaults=("no mistake of the list",))  # mistakes that cannot be told apart, or none
 MOST_NAMES = 3  # that are named together: more say nothing
 MOST_OTHERS = 2  # cases that are named beside the first
 LEAST_LIKE = 0.4  # of the cases that fail or catch a mistake, those that do both, if it is named as a guess
@@ -52,8 +52,10 @@ def headings(results):
     failing = {result.case.name: result for result in judged if result.state == "wrong"}
     caught_by = cases_by_mistake(judged)
     excused = {mistake for result in failing.values() for mistake in result.difference.excuses}
-    suspects = {mistake: cases for mistake, cases in caught_by.items()
-                if mistake not in excused and len(cases - failing.keys()) <= len(cases) // 20}
+    suspects = {
+        mistake: cases
+        for mistake, cases in caught_by.items()
+        if mistake not in excused and len(cases - failing.keys()) <= len(cases) // 20}
     left, found = set(failing), [Heading([], failed, "the program failed")] if failed else []
     while len(failing) < len(judged) or len(judged) == 1:
         most = max((len(cases & left) for cases in suspects.values()), default=0)
@@ -86,8 +88,9 @@ def cases_by_mistake(results):
 
 def without_a_mistake(results):
     """Those whose wrong output no mistake explains; no refusals, whose messages may name folders."""
-    return [result for heading in headings(results) if not heading.names for result in heading.results
-            if not result.difference.is_failure and result.case.refused_line is None]
+    return [
+        result for heading in headings(results) if not heading.names for result in heading.results
+        if not result.difference.is_failure and result.case.refused_line is None]
 
 
 def most_like(heading, results):
@@ -97,8 +100,9 @@ def most_like(heading, results):
         return []
     failing = {result.case.name for result in heading.results}
     judged = [result for result in results if result.state in ("right", "wrong")]
-    likeness = {mistake: len(cases & failing) / len(cases | failing)
-                for mistake, cases in cases_by_mistake(judged).items()}
+    likeness = {
+        mistake: len(cases & failing) / len(cases | failing)
+        for mistake, cases in cases_by_mistake(judged).items()}
     most = max(likeness.values(), default=0)
     names = [name for name in likeness if likeness[name] == most >= LEAST_LIKE]
     return names if len(names) <= MOST_NAMES and len(failing) > 1 else []
@@ -126,16 +130,18 @@ def table(results, mistakes, chance):
         lines += ["#   " + mistakes[name] for name in heading.names]
         names = [] if chance else most_like(heading, results)
         lines += [f"#   most like {name}: {mistakes[name]}" for name in names]
-        lines += [f"#   first, by length: {first.case.name}", paragraph_line(first.case),
-                  f"#   why: {first.case.why}", *difference_lines(first.difference),
-                  *other_lines(heading.results, first)]
+        lines += [
+            f"#   first, by length: {first.case.name}",
+            paragraph_line(first.case), f"#   why: {first.case.why}", *difference_lines(first.difference),
+            *other_lines(heading.results, first)]
     return lines
 
 
 def other_lines(results, first):
     """The cases beside the first, each with its paragraph."""
-    others = [f"{result.case.name} ({result.case.words('paragraphs')[0]})" for result in results
-              if result is not first]
+    others = [
+        f"{result.case.name} ({result.case.words('paragraphs')[0]})" for result in results
+        if result is not first]
     rest = [f"and {len(others) - MOST_OTHERS} more (--tap shows each)"] if len(others) > MOST_OTHERS else []
     return ["#   so do " + ", ".join(others[:MOST_OTHERS] + rest)] if others else []
 
@@ -147,8 +153,9 @@ def group_lines(results):
     rows = [(group, count(members, "right"), count(members, "wrong")) for group, members in found if members]
     if [group for group, _, _ in rows] in ([], [ASSIGNMENT]):
         return []
-    return ["#", f"# {'':30} right  wrong",
-            *(f"# {group:30} {right:5}  {wrong:5}" for group, right, wrong in rows)]
+    return [
+        "#", f"# {'':30} right  wrong",
+        *(f"# {group:30} {right:5}  {wrong:5}" for group, right, wrong in rows)]
 
 
 def count(results, state):
@@ -187,22 +194,31 @@ def for_people(results, mistakes, chance, note):
 def as_json(results, terms, mistakes):
     def entry(result):
         case, difference = result.case, result.difference
-        return {"name": case.name, "state": result.state, "group": result.group, "why": case.why,
-                "paragraphs": case.words("paragraphs"), "catches": case.words("catches"),
-                **({"reason": result.reason} if result.reason else {}),
-                **({"difference": {key: getattr(difference, key) for key in ("message", "expected", "found")}}
-                   if difference else {})}
+        return {
+            "name": case.name, "state": result.state, "group": result.group, "why": case.why,
+            "paragraphs": case.words("paragraphs"), "catches": case.words("catches"),
+            **({"reason": result.reason} if result.reason else {}),
+            **({"difference": {key: getattr(difference, key)
+                               for key in ("message", "expected", "found")}} if difference else {})}
 
-    groups = {group: {state: sum(result.state == state for result in results if result.group == group)
-                      for state in ("right", "wrong")} for group in GROUPS}
-    named = [{"names": heading.names, "sentences": [mistakes[name] for name in heading.names],
-              "most like": most_like(heading, results),
-              "cases": [result.case.name for result in heading.results]} for heading in headings(results)]
-    return json.dumps({
-        "command": terms.command, "rule": terms.rule, "sandbox": not terms.box.reason,
-        "counts": {state: count(results, state) for state in ("right", "wrong", "open", "left out")},
-        "shared": shared_by_most(results), "groups": groups, "mistakes": named,
-        "cases": [entry(result) for result in results]}, indent=1) + "\n"
+    groups = {
+        group: {
+            state: sum(result.state == state for result in results if result.group == group)
+            for state in ("right", "wrong")}
+        for group in GROUPS}
+    named = [{
+        "names": heading.names, "sentences": [mistakes[name]
+                                              for name in heading.names], "most like": most_like(
+                                                  heading, results), "cases": [
+                                                      result.case.name for result in heading.results]}
+             for heading in headings(results)]
+    return json.dumps(
+        {
+            "command": terms.command, "rule": terms.rule, "sandbox": not terms.box.reason, "counts": {
+                state: count(results, state)
+                for state in ("right", "wrong", "open", "left out")}, "shared": shared_by_most(results),
+            "groups": groups, "mistakes": named, "cases": [entry(result)
+                                                           for result in results]}, indent=1) + "\n"
 
 
 def as_junit(results, stage):
@@ -213,14 +229,16 @@ def as_junit(results, stage):
         return re.sub("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]", "?", text)
 
     wrong, skipped = count(results, "wrong"), count(results, "open") + count(results, "left out")
-    lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>",
-             f'<testsuite name="{stage}" tests="{len(results)}" failures="{wrong}" errors="0" '
-             f'skipped="{skipped}">']
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>",
+        f'<testsuite name="{stage}" tests="{len(results)}" failures="{wrong}" errors="0" '
+        f'skipped="{skipped}">']
     for result in results:
         case, end = result.case, ""
         if result.state == "wrong":
-            text = "\n".join([f"{case.why} ({', '.join(case.words('paragraphs'))})",
-                              *(line[4:] for line in difference_lines(result.difference))])
+            text = "\n".join([
+                f"{case.why} ({', '.join(case.words('paragraphs'))})",
+                *(line[4:] for line in difference_lines(result.difference))])
             end = (f"<failure message={quoteattr(legal(result.difference.message))}>{escape(legal(text))}"
                    "</failure>")
         elif result.state != "right":

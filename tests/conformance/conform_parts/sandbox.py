@@ -22,13 +22,13 @@ def words_for(command, paths, hidden):
         words += ["--ro-bind", path, path]
     hidden = [os.path.realpath(path) for path in hidden if path.is_dir()]
     names = [(path, os.path.relpath(each, os.path.realpath(path))) for path in paths for each in hidden]
-    below = [os.path.join(path, name)
-             for path, name in names
-             if not name.startswith("..")]  # through links, too
+    below = [
+        os.path.join(path, name) for path, name in names if not name.startswith("..")]  # through links, too
     for path in without_those_inside({*hidden, *below}):  # bubblewrap makes none in what is hidden
         words += ["--tmpfs", path, "--remount-ro", path]
-    folders = [each for each in os.get_exec_path()
-               if not any(is_below(os.path.realpath(each), path) for path in hidden)]
+    folders = [
+        each for each in os.get_exec_path()
+        if not any(is_below(os.path.realpath(each), path) for path in hidden)]
     return [*words, "--setenv", "PATH", os.pathsep.join(folders)]
 
 
@@ -37,8 +37,9 @@ def folders_of_tools(command=None, read=()):
     beside the pack and those on the PATH, and where links in them lead. None that holds the system's
     programs, or that a command for the sandbox names, or what it may read: it calls them on purpose."""
     top = pathlib.Path(__file__).resolve().parents[3]
-    folders = [os.environ.get("BIN") or "/nowhere", os.path.dirname(sys.argv[0]), top / "build/release/bin",
-               top.parent / "libexec/pipeline"]
+    folders = [
+        os.environ.get("BIN") or "/nowhere",
+        os.path.dirname(sys.argv[0]), top / "build/release/bin", top.parent / "libexec/pipeline"]
     folders += [each for each in os.get_exec_path() if os.path.exists(os.path.join(each, "trace"))]
     found = set()
     for folder in folders:
@@ -67,8 +68,9 @@ def words_of_folder(folder, words):
     """These, with the folder that the program may write, also where libraries share memory."""
     uses_memory = any(str(word).startswith("/dev/shm/") for word in (folder, *words))
     shared = [] if uses_memory else ["--bind", folder, "/dev/shm"]
-    return [*words, *shared, "--bind", folder, folder, "--remount-ro", "/dev", "--remount-ro", "/",
-            "--chdir", folder, "--"]
+    return [
+        *words, *shared, "--bind", folder, folder, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir",
+        folder, "--"]
 
 
 def system_words():
@@ -108,7 +110,9 @@ def needed(command):
         folder = path if os.path.isdir(path) else os.path.dirname(path)
         if os.path.exists(path):
             paths.add(path if is_shared(folder) else folder)
-    paths |= {beside for path in paths if os.path.basename(path) == "bin" for name in BESIDE_BIN
-              if os.path.exists(beside := os.path.join(os.path.dirname(path), name))}
+    paths |= {
+        beside
+        for path in paths if os.path.basename(path) == "bin" for name in BESIDE_BIN
+        if os.path.exists(beside := os.path.join(os.path.dirname(path), name))}
     there = re.compile(rf"({'|'.join(SYSTEM)}|/dev(?!/shm)|/proc)(/|$)")
     return without_those_inside({path for path in paths if not is_shared(path) and not there.match(path)})

@@ -48,22 +48,23 @@ def guesses(axis, axes, wrong):
 def sentence(points):
     """A sentence on what three of four wrong numbers share: "87 of 89 wrong numbers: x and z are negated";
     empty if nothing."""
-    axes = AXES if points and len(points[0][0]) == 3 else ("the depths", )
+    axes = AXES if points and len(points[0][0]) == 3 else ("the depths",)
     found, total, explained = {}, 0, 0
     for axis, name in enumerate(axes):
         wrong = [(want, got[axis]) for want, got in points if not is_close(want[axis], got[axis])]
         total += len(wrong)
         if wrong:
-            tried = [(sum(test(*pair) for pair in wrong), words) for words,
-                     test in guesses(axis, axes, wrong)]
+            tried = [
+                (sum(test(*pair) for pair in wrong), words) for words, test in guesses(axis, axes, wrong)]
             hits, words = max(tried, key=lambda item: item[0])
             if 2 * hits > len(wrong):
                 explained += hits
                 found.setdefault(words, []).append(name)
     if total < FEWEST or 4 * explained < 3 * total:
         return ""
-    parts = [f"{listed(names)} {'are' if names != names[:1] or axes != AXES else 'is'} {words}"
-             for words, names in found.items()]
+    parts = [
+        f"{listed(names)} {'are' if names != names[:1] or axes != AXES else 'is'} {words}"
+        for words, names in found.items()]
     return f"{explained} of {total} wrong numbers: {', '.join(parts)}"
 
 

@@ -112,8 +112,8 @@ def try_case(case, terms):
 
 
 def run_and_judge(case, terms):
-    with confined.temporary_folder("case.",
-                                   terms.folder) as top, confined.opened_folder(top / "work") as opened:
+    with confined.temporary_folder("case.", terms.folder) as top, confined.opened_folder(
+            top / "work") as opened:
         folder, text, given = top / "work", case.read("input.txt"), given_text(case, terms)
         (folder / "config.txt").write_bytes(case.read("config.txt") if case.has("config.txt") else CONFIG)
         (folder / "scene.txt").write_bytes(scene_of(case))
@@ -128,7 +128,6 @@ def run_and_judge(case, terms):
 class Outputs:
     """The output of the program: `text`, on stdout or in {depths}, and `image`, each None if it is not
     there."""
-
     def __init__(self, ending, descriptor, terms):
         self.ending, self.descriptor, self.limit = ending, descriptor, terms.limits.output
         self.is_in_file = any("{depths}" in word for word in terms.command)
@@ -160,8 +159,8 @@ def judge_ending(case, terms, ending, outputs):
     try:
         difference = judge_outputs(case, terms, outputs)
         return difference and difference._replace(excuses=excuses(case, terms, outputs),
-                                                  other_rule=other_rule(case, terms, outputs),
-                                                  points=points(case, terms, outputs))
+                                                  other_rule=other_rule(case, terms, outputs), points=points(
+                                                      case, terms, outputs))
     except confined.Refused as error:
         return Difference(str(error), is_failure=True)
 
@@ -210,8 +209,9 @@ def points(case, terms, outputs):
 def is_excused(case, terms, outputs, name):
     found, is_stage_text = outputs.text, case.stage != "zbuf"
     if case.has(name + ".txt") and found is not None and terms.judges_depths:
-        return bool(same_digits(case.read(name + ".txt"), without_header(found) if is_stage_text else found,
-                                is_stage_text))
+        return bool(
+            same_digits(case.read(name + ".txt"),
+                        without_header(found) if is_stage_text else found, is_stage_text))
     if case.has(name + ".bmp") and terms.judges_picture and outputs.image is not None:
         return bool(same_picture(case.read(name + ".bmp"), outputs.image, has_free_colors=True))
     return False

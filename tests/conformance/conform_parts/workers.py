@@ -68,7 +68,6 @@ def end_all(keep=()):
 class Worker:
     """A process that answers a number by task(number), as JSON: a program that gets hold of the connection
     can send data alone."""
-
     def __init__(self, task, others):
         self.connection, theirs = Pipe()
         self.pid = os.fork()
