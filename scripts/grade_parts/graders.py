@@ -26,7 +26,7 @@ from lib.judging.program import end_all
 from lib.judging.reference import kinds_of
 from lib.judging.verdict import OPEN, UNDECIDED, WRONG, FileVerdict, Verdict
 from lib.rim.child import adopt_orphans
-from lib.running.pipe_tools import ToolKilled
+from lib.running.pipe_tools import ToolCrash
 
 ENDED = "It could not be judged: its judge was ended, perhaps for lack of memory."
 LARGEST_FILE = 1 << 30  # that a tool may write for a hand-in
@@ -195,9 +195,10 @@ def work(connection, path, tests, level, limits, scratch, pipe):
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
         graded = grade(path, tests, level, limits, connection.send)
-    except (MemoryError, ToolKilled):  # a tool without memory is ended by a signal
-        graded = failed(tests,
-                        f"It could not be judged: that needs more than {limits.mebibytes} MiB of memory.")
+    except (MemoryError, ToolCrash) as error:  # a tool without memory is ended by a signal
+        reason = f"{error}, perhaps as it" if isinstance(error, ToolCrash) else "that"
+        graded = failed(
+            tests, f"It could not be judged: {reason} needs more than {limits.mebibytes} MiB of memory.")
     except Unusable as error:
         graded = failed(tests, f"It could not be judged: {error}.")
     except Exception as error:  # an error of ours: it costs this hand-in its verdict, and must be seen

@@ -811,6 +811,17 @@ class Hostile(ClassTest):
         # The other one may be done before anybody looks.
         self.assertIn("takes longer than 0.01 s", {row["hand-in"]: row["remarks"]
                                                    for row in self.rows()}["a"])
+        os.mkdir("bin")
+        for tool in TOOLS:
+            os.symlink(BIN / tool, f"bin/{tool}")
+        os.unlink("bin/project")
+        for end, reason in (("exit 1", "exit status 1"), ("kill -9 $$", "ended by SIGKILL")):
+            pathlib.Path("bin/project").write_text(  # its first run is for what is right
+                f'#!/bin/sh\n[ ! -e {end[0]} ] || {end}\n: > {end[0]}\nexec {BIN}/project "$@"\n')
+            os.chmod("bin/project", 0o755)
+            done = run_script("grade", "hand-ins", "tests", env={**os.environ, "BIN": os.path.abspath("bin")})
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"It could not be judged: project: {reason}, perhaps", self.rows()[0]["remarks"])
         self.grade("--memory-limit", "1", status=1)
         self.assertIn("needs more than 1 MiB of memory", self.rows()[0]["remarks"])
 

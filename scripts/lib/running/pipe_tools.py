@@ -19,8 +19,9 @@ class ToolFailure(CommandFailure):
     """A tool ended with a status other than 0; the text is its message."""
 
 
-class ToolKilled(CommandFailure):
-    """A signal ended a tool. No ToolFailure, since the input is not to blame."""
+class ToolCrash(CommandFailure):
+    """A signal ended a tool, or it failed without a message. No ToolFailure, since the input is not to
+    blame."""
 
 
 def default_folder():
@@ -100,8 +101,10 @@ def expect_success(*pipe):
     for tool in sorted(failed, key=lambda tool:
                        (tool.status == -signal.SIGPIPE, tool.status > 0, not tool.reasons)):
         if tool.status < 0:
-            raise ToolKilled(f"{tool.name}: ended by {name_of_signal(-tool.status)}")
-        raise ToolFailure("\n".join(tool.reasons) or f"{tool.name}: exit status {tool.status}")
+            raise ToolCrash(f"{tool.name}: ended by {name_of_signal(-tool.status)}")
+        if not tool.reasons:
+            raise ToolCrash(f"{tool.name}: exit status {tool.status}")
+        raise ToolFailure("\n".join(tool.reasons))
 
 
 def checked(done, tool):
