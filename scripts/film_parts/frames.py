@@ -5,15 +5,16 @@ import os
 import pathlib
 import shlex
 import subprocess
+import tempfile
 
 from film_parts.scene import number
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import read_input
-from lib.rim.output_file import OutputFile
+from lib.rim.output_file import OutputFile, write_file
 from lib.rim.parallel import Job, run_parallel
 from lib.rim.work_folder import WorkFolder
 from lib.running.pipe_tools import STAGE_IN_SHELL
-from lib.showing.pictures import PNG_SIGNATURE, png_chunk, png_chunks
+from lib.showing.pictures import PNG_SIGNATURE, png, png_chunk, png_chunks
 
 FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999
@@ -48,6 +49,29 @@ def is_whole(path):
 
 def words_of(vector):
     return " ".join(map(number, vector))
+
+
+def encode(folder, film, fps, frame_count):
+    """Makes a film of the frames in a folder. Those of an odd size get a column or a row more, which the
+    pixel format asks for. Pictures of the user behind the last frame are not taken."""
+    words = [
+        "ffmpeg", "-loglevel", "error", "-y", "-framerate",
+        number(fps), "-i", "%05d.png", "-frames:v",
+        str(frame_count)]
+    if not film.lower().endswith(".gif"):
+        words += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
+    done = subprocess.run([*words, film], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
+                          text=True)
+    if done.returncode != 0:
+        reasons = done.stderr.strip().splitlines() or [f"status {done.returncode}"]
+        raise CommandFailure(f"ffmpeg: {reasons[-1]}")
+
+
+def expect_encoder(film, fps):
+    """Raises the CommandFailure of an ffmpeg that makes no such film, before there is any work."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_file(os.path.join(folder, "00000.png"), png(16, 16, [bytes(48)] * 16))
+        encode(folder, "film" + pathlib.Path(film).suffix, fps, 1)
 
 
 class Frames:
@@ -116,21 +140,9 @@ class Frames:
             raise CommandFailure(f"parallel ended with status {status}, though all frames are there")
 
     def make_film(self, path, fps):
-        """Frames of an odd size get a column or a row more, which the pixel format asks for. Pictures of the
-        user behind the last frame are not taken."""
         made = "film" + pathlib.Path(path).suffix
         self.folder.remove_others(made.__eq__)
-        words = [
-            "ffmpeg", "-loglevel", "error", "-y", "-framerate",
-            number(fps), "-i", "%05d.png", "-frames:v",
-            str(len(self.names))]
-        if not path.lower().endswith(".gif"):
-            words += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
-        done = subprocess.run([*words, made], cwd=self.folder.path, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True)
-        if done.returncode != 0:
-            raise CommandFailure("ffmpeg: " +
-                                 (done.stderr.strip().splitlines() or [f"status {done.returncode}"])[-1])
+        encode(self.folder.path, made, fps, len(self.names))
         with OutputFile(path) as film, open(self.folder / made, "rb") as file:
             film.copy(file)
             film.commit()

@@ -12,6 +12,7 @@ import signal
 import subprocess
 import time
 import unittest
+from unittest import mock
 
 from ssh_server import SshServer
 from toolbox import BIN, SOURCE, ToolTest, pipe, run
@@ -272,6 +273,14 @@ class Outputs(FilmTest):
         self.make(*words, "-o", "turn.mp4")
         self.assert_film("turn.mp4", "50,40,2/1,2")
         self.assertEqual(list(frames("turn.mp4.frames")), ["00002.png"])  # the user's
+
+    def test_an_ffmpeg_without_the_encoder_is_found_before_the_first_frame(self):
+        pathlib.Path("ffmpeg").write_text("#!/bin/sh\necho Unknown encoder >&2\nexit 1\n")
+        os.chmod("ffmpeg", 0o755)
+        with mock.patch.dict(ENVIRONMENT, PATH=f"{os.getcwd()}:{os.environ['PATH']}"):
+            done = film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "turn.mp4")
+        self.assertEqual((done.returncode, done.stderr), (1, "film: ffmpeg: Unknown encoder\n"))
+        self.assertFalse(os.path.exists("turn.mp4.frames"))
 
     def test_other_machines(self):
         """Over a real sshd on this machine, under two names; bytes as without."""
