@@ -8,6 +8,9 @@
 namespace pipeline {
 namespace {
 
+// Below it, products of doubles lose digits.
+constexpr double kLeastDoubt = 0x1p-900;
+
 /// Twice the signed area that p and q make with a pixel's center, which is no double, exactly but for one
 /// rounding; times the count of pixels. `are_divided`: by w, so x and y are in NDC.
 Ball exact_area(const Vec3& p, const Vec3& q, const PixelGrid& grid, int row, int column, bool are_divided) {
@@ -49,19 +52,24 @@ CornerWeights::CornerWeights(const PixelGrid& grid, const ClipTriangle& corners,
   for (std::size_t v = 0; v < 3; ++v)
     corners_[v] = {corners[v].position.x, corners[v].position.y, corners[v].w};
   const auto& [a, b, c] = scaled_;
-  doubt_ = are_divided && are_plain(grid) ? -1 : terms(a, b, grid) + terms(b, c, grid) + terms(c, a, grid);
+  doubt_ = are_divided && are_plain(grid)
+               ? -1
+               : terms(a, b, grid) + terms(b, c, grid) + terms(c, a, grid) + kLeastDoubt;
 }
 
 /// The error of an area is within 2^-48 of its two w times the largest coordinate times the length of an
-/// edge; the sum is at least the area in NDC times the two smaller w.
+/// edge; the sum is at least the area in NDC times the two smaller w. Near the ends of a double's range,
+/// either may overflow or vanish.
 bool CornerWeights::are_plain(const PixelGrid& grid) const {
+  const auto is_usual = [](double x) { return x > 0x1p-300 && x < 0x1p300; };
   const auto& [a, b, c] = corners_;
   const auto [least_w, largest_w] = std::minmax({a.z, b.z, c.z});
   const Vec3 ab = difference(b, a), ac = difference(c, a);
   const double length = std::max({std::fabs(ab.x), std::fabs(ab.y), std::fabs(ac.x), std::fabs(ac.y)}) +
                         std::max(grid.dx, grid.dy);
   const double reach = std::max({grid.half_width, grid.half_height, std::fabs(a.x), std::fabs(a.y)}) + length;
-  return reach * length * largest_w <= 0x1p13 * std::fabs(ab.x * ac.y - ab.y * ac.x) * least_w;
+  return is_usual(reach) && is_usual(largest_w) &&
+         reach * length * largest_w <= 0x1p13 * std::fabs(ab.x * ac.y - ab.y * ac.x) * least_w;
 }
 
 // L3
