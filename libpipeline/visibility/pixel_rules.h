@@ -54,6 +54,9 @@ class AnyDepth {
         },
         format_);
   }
+  [[nodiscard]] double separation(double size) const {
+    return std::visit([size](const auto& format) { return format.separation(size); }, format_);
+  }
 
  private:
   AnyOf<DepthFormats> format_;

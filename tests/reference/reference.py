@@ -398,26 +398,25 @@ def edge_pixels(triangle, edges, config, width):  # T24a: (row, column, depth); 
             for across in inside(middle[1 - axis] - Fraction(width, 2), math.ceil(middle[1 - axis] + Fraction(width, 2)) - 1, config[1 - axis]):
                 yield (along, across, middle[2]) if axis else (across, along, middle[2])
 
-def farthest(triangle, z, config, width):  # T24c: the depth beyond which it hides where its own is z
+def is_hidden(z, triangle, seen_z, config, width):  # T24c: an edge of depth z where the triangle is seen with that depth
     (a, b, c), sizes = (corner.position for corner in triangle.corners), (-2 * config.left / config.width, -2 * config.bottom / config.height)
     normal = cross(minus(b, a), minus(c, a))
     reach = sum(abs(normal[axis] / normal[2]) * sizes[axis] * width * Fraction(501, 1000) for axis in (0, 1)) if normal[2] else LARGEST
-    return min(z + reach, max(a[2], b[2], c[2]))
+    return z > min(seen_z + reach, max(a[2], b[2], c[2]))
 
-def wireframe(triangles, config, coverage, width, is_lit, shows_hidden):  # T24c: for each pixel the triangle that it shows, or None
-    shown, hidden_from = {}, {}
+def wireframe(triangles, config, width, is_lit, surfaces):  # T24c: for each pixel the triangle that it shows, or None; without surfaces none hides
+    shown = {}
     for order, (triangle, edges) in enumerate(zip(triangles, edges_of(triangles, is_lit))):
         a, b, c = (corner.position for corner in triangle.corners)
         is_clockwise = cross(minus(b, a), minus(c, a))[2] <= 0
         for row, column, z in edge_pixels(triangle, edges, config, width):
             if config.front <= z < config.rear:
                 shown[row, column] = min(shown.get((row, column), (config.rear,)), (z, is_clockwise, order))
-        for row, column, z in () if shows_hidden else (center if coverage == "center" else nearest)(triangle, config):
-            if config.front <= z < config.rear:
-                hidden_from[row, column] = min(hidden_from.get((row, column), LARGEST), farthest(triangle, z, config, width))
     seen = [[None] * config.width for _ in range(config.height)]
     for (row, column), (z, _, order) in shown.items():
-        seen[row][column] = triangles[order] if z <= hidden_from.get((row, column), LARGEST) else None
+        surface = surfaces and surfaces[1][row][column]
+        if not (surface and is_hidden(z, surface, surfaces[0][row][column], config, width)):
+            seen[row][column] = triangles[order]
     return seen
 
 def bmp(rows):  # T24: the file; a row is a list of (red, green, blue)
@@ -798,10 +797,10 @@ def zbuf(data, options):  # Z1 to Z13, L1 to L7, T15, T23 to T24c, T30: the z-bu
     rules = options["--coverage"], Fraction(float(options["--depth-epsilon"]))
     depths, seen = draw(triangles, config, *rules)
     samples = config._replace(width=config.width * count, height=config.height * count)
+    surfaces = (depths, seen) if count == 1 else draw(triangles, samples, *rules)
+    seen = surfaces[1]
     if "--wireframe" in options:
-        seen = wireframe(triangles, samples, rules[0], count, "light" in stage.header, options["--wireframe"] == "all")
-    else:
-        seen = seen if count == 1 else draw(triangles, samples, *rules)[1]
+        seen = wireframe(triangles, samples, count, "light" in stage.header, options["--wireframe"] != "all" and surfaces)
     with decimal.localcontext(SHADING):
         image = [[rounded(color) for color in row] for row in shade(seen, stage.header, samples, model_name)]
         image = image if count == 1 else mean_of_samples(image, count)

@@ -22,14 +22,15 @@ ColoredRows::ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& sha
   if (shader) shader->set_workers(pool_.size());
 }
 
-void ColoredRows::add(std::span<const PixelTag> tags) {
+void ColoredRows::add(const VisibleRow& seen) {
+  std::span<const PixelTag> tags = seen.tags;
   if (!shader_) {
     colors_.resize(tags.size());
     store_.color(tags, colors_);
     return outputs_.write_colors(colors_);
   }
   const int row = row_ + static_cast<int>(count_);
-  if (wireframe_ != nullptr) tags = wireframe_->row(row);
+  if (wireframe_ != nullptr) tags = wireframe_->row(row, seen);
   waiting_[count_].tags.assign(tags.begin(), tags.end());
   if (++count_ == waiting_.size()) color();
 }

@@ -22,7 +22,7 @@ class ColoredRows {
               int thread_count, PictureOutputs& outputs);
 
   /// Takes the next row.
-  void add(std::span<const PixelTag> tags);
+  void add(const VisibleRow& seen);
   /// Colors and writes the rows that wait.
   void finish();
 

@@ -150,17 +150,17 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
-    if (drawing.samples() == nullptr && outputs.wants_colors()) colors.add(row.tags);
+    if (drawing.samples() == nullptr && outputs.wants_colors()) colors.add(row);
   });
   if (drawing.samples() != nullptr) {
     drawing.samples()->for_each_row([&](const VisibleRow& row) {
       mark(row.tags);
-      if (outputs.wants_colors()) colors.add(row.tags);
+      if (outputs.wants_colors()) colors.add(row);
     });
   }
   colors.finish();
   if (wireframe != nullptr && seen_text != nullptr)
-    wireframe->for_each_needed([&](PixelTag id) { seen.keep(id); });
+    wireframe->for_each_id([&](PixelTag id) { seen.keep(id); });
   if (seen_text != nullptr) store.write_seen(*seen_text, reader, seen);
   if (certainty) certainty_text->append(certainty->report());
   outputs.finish(covered_count);

@@ -93,6 +93,7 @@ void TriangleStore::let_go(KeptIds& kept) {
   capacity_ = std::max(2 * count, min_capacity_);
   next_id_ = static_cast<KeptIds::Id>(count);
   if (shader_) shader_->keep(kept);
+  if (setup_.wireframe != nullptr) setup_.wireframe->keep(kept);
   keep_texts(kept);
   are_needed_.keep(kept);
   if (keeps_numbers()) numbers_.keep(kept);

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libpipeline/coverage/span.h"
-#include "libpipeline/numbers/vec_math.h"
-#include "libpipeline/visibility/raster.h"
+#include "libpipeline/numbers/exact_sum.h"
 
 namespace pipeline {
 namespace {
@@ -20,14 +18,17 @@ bool is_in_clip_plane(const Vec3& p, const Vec3& q) {
   return is_on_limit(p.x, q.x) || is_on_limit(p.y, q.y) || is_on_limit(p.z, q.z);
 }
 
-/// Calculated at the corner between the two shorter edges: far away from another, differences vanish.
-Vec3 plane_normal(const Triangle& p) {
-  const std::array<Vec3, 3> edges = {difference(p[1], p[0]), difference(p[2], p[1]), difference(p[0], p[2])};
-  const auto is_shorter = [](const Vec3& a, const Vec3& b) {
-    return std::max(std::fabs(a.x), std::fabs(a.y)) < std::max(std::fabs(b.x), std::fabs(b.y));
+/// Exactly but for its rounding where balls lose too much.
+BallVec3 plane_normal(const Triangle& p) {
+  constexpr double kCertain = 0x1p-50;
+  const Vec3 &a = p[0], &b = p[1], &c = p[2];
+  const BallVec3 start = to_balls(a), normal = cross(to_balls(b) - start, to_balls(c) - start);
+  if (normal.z.error() <= kCertain * std::fabs(normal.z.value().hi)) return normal;
+  const auto area = [&](double Vec3::*u, double Vec3::*v) {
+    return exact_sum(
+        {{a.*u, b.*v}, {-(a.*v), b.*u}, {b.*u, c.*v}, {-(b.*v), c.*u}, {c.*u, a.*v}, {-(c.*v), a.*u}});
   };
-  const auto longest = static_cast<std::size_t>(std::ranges::max_element(edges, is_shorter) - edges.begin());
-  return cross(edges[(longest + 1) % 3], edges[(longest + 2) % 3]);
+  return {area(&Vec3::y, &Vec3::z), area(&Vec3::z, &Vec3::x), area(&Vec3::x, &Vec3::y)};
 }
 
 }  // namespace
@@ -35,10 +36,9 @@ Vec3 plane_normal(const Triangle& p) {
 Wireframe::Wireframe(const PixelRules& rules, const Viewport& screen, const Setup& setup)
     : setup_(setup),
       screen_(screen),
+      depth_(rules, screen),
       grid_(screen),
-      coverage_(rules, screen),
       edges_(screen.drawn_rows(), screen.columns, {screen.rear}),
-      covers_(setup.shows_hidden ? RowRange{0, 0} : screen.drawn_rows(), screen.columns, {}),
       ids_(static_cast<std::size_t>(screen.columns)) {}
 
 // T24b
@@ -53,31 +53,21 @@ void Wireframe::add(const TriangleBatch& p_ndc, std::size_t index, PixelTag id) 
   if (last_ && last_->number == next.number && last_->p_ndc[0] == p[0] && last_->p_ndc[2] == p[1])
     next.is_drawn[0] = last_->is_drawn[2] = false;
   draw_last();
+  surfaces_.push_back(surface(p));
   last_ = next;
-  if (!setup_.shows_hidden) cover(triangle, id);
 }
 
-// T24c
-void Wireframe::cover(const ExactTriangle& triangle, PixelTag id) {
-  const auto& [a, b, c] = triangle.p_ndc;
-  const double most = std::max({a.z, b.z, c.z});
-  const Vec3 normal = plane_normal(triangle.p_ndc);
-  const double slopes =
-      std::fabs(normal.x / normal.z) * screen_.dx() + std::fabs(normal.y / normal.z) * screen_.dy();
-  const double reach = kReach * setup_.samples_per_pixel * slopes +
-                       kDepthError * std::max({std::fabs(a.z), std::fabs(b.z), std::fabs(c.z)});
-  const auto cover_span = [&](const Span& span) {
-    const std::span<Cover> row = covers_.row(span.row);
-    for (int column = span.first_column; column <= span.last_column; ++column) {
-      const double z = span.depth(column);
-      if (!(z >= screen_.front && z < screen_.rear)) continue;
-      const double farthest = z + reach < most ? z + reach : most;  // not where it is no number
-      Cover& cover = row[static_cast<std::size_t>(column)];
-      if (farthest < cover.farthest) cover = {farthest, id};
-    }
+Wireframe::Surface Wireframe::surface(const Triangle& p) const {
+  const BallVec3 normal = plane_normal(p);
+  const auto [least, most] = std::minmax({p[0].z, p[1].z, p[2].z});
+  if (normal.z.sign() == 0) return {most, std::numeric_limits<double>::infinity(), false};
+  const auto slope = [&](const Ball& part, double step) {
+    return (part * Ball(step) / normal.z).magnitude();
   };
-  coverage_.visit(
-      [&](const auto& rule) { for_each_span(rule.rows(triangle), covers_.row_range(), cover_span); });
+  const double slopes = slope(normal.x, screen_.dx()) + slope(normal.y, screen_.dy());
+  const double size = std::max(std::fabs(least), std::fabs(most));
+  const double error = kDepthError * size + depth_.separation(size);
+  return {most, kReach * setup_.samples_per_pixel * slopes + error, normal.z.sign() > 0};
 }
 
 void Wireframe::draw_last() {
@@ -85,7 +75,7 @@ void Wireframe::draw_last() {
   pixels_.clear();
   add_edge_pixels(grid_, {last_->p_ndc, &last_->low_parts, last_->decimal_marks}, last_->is_drawn,
                   setup_.samples_per_pixel, edges_.row_range(), pixels_);
-  const bool is_front = plane_normal(last_->p_ndc).z > 0;
+  const bool is_front = surfaces_[last_->id].is_front;
   for (const EdgePixel& pixel : pixels_) {
     if (!(pixel.depth >= screen_.front)) continue;
     Edge& seen = edges_.row(pixel.row)[static_cast<std::size_t>(pixel.column)];
@@ -95,14 +85,17 @@ void Wireframe::draw_last() {
   last_.reset();
 }
 
-std::span<const PixelTag> Wireframe::row(int row) {
+// T24c
+std::span<const PixelTag> Wireframe::row(int row, const VisibleRow& surfaces) {
   draw_last();
   const std::span<const Edge> edges = edges_.row(row);
-  const std::span<const Cover> hiding = covers(row);
-  for (std::size_t i = 0; i < ids_.size(); ++i) {
-    const bool is_hidden = !hiding.empty() && edges[i].depth > hiding[i].farthest;
-    ids_[i] = is_hidden ? kNone : edges[i].id;
-  }
+  const auto is_hidden = [&](std::size_t i) {
+    const PixelTag id = surfaces.tags[i];
+    if (setup_.shows_hidden || id == kNone || edges[i].id == kNone) return false;
+    const Surface& surface = surfaces_[id];
+    return edges[i].depth > std::min(surface.most, surfaces.depths[i] + surface.reach);
+  };
+  for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = is_hidden(i) ? kNone : edges[i].id;
   return ids_;
 }
 

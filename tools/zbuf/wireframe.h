@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,28 +28,21 @@ class Wireframe {
   /// For a screen of pixels or of samples.
   Wireframe(const PixelRules& rules, const Viewport& screen, const Setup& setup);
 
-  /// Takes the next triangle, under its id. Its edges are drawn with the next call of any function, as the
-  /// next triangle may be a piece that shares one.
+  /// Takes the next triangle, under its id, which counts them. Its edges are drawn with the next call of any
+  /// function, as the next triangle may be a piece that shares one.
   void add(const TriangleBatch& p_ndc, std::size_t index, PixelTag id);
-  /// The ids shown in a row; after the last triangle.
-  std::span<const PixelTag> row(int row);
-  /// Calls `visit(id)` for every triangle without which the picture would be another one.
-  template <typename Visitor>
-  void for_each_needed(Visitor&& visit) {
-    for (int row = edges_.row_range().first; row < edges_.row_range().end; ++row) {
-      for (const PixelTag id : this->row(row)) visit(id);
-      for (const Cover& cover : covers(row)) visit(cover.id);
-    }
-  }
-  /// Calls `visit(id)`, which may change it, for every triangle that a later one may leave needed.
+  /// The ids shown in a row where these surfaces are seen; after the last triangle.
+  std::span<const PixelTag> row(int row, const VisibleRow& surfaces);
+  /// Calls `visit(id)`, which may change it, for every triangle that the picture may need besides the
+  /// surfaces seen, now or after more triangles.
   template <typename Visitor>
   void for_each_id(Visitor&& visit) {
-    for (int row = edges_.row_range().first; row < edges_.row_range().end; ++row) {
+    for (int row = edges_.row_range().first; row < edges_.row_range().end; ++row)
       for (Edge& edge : edges_.row(row)) visit(edge.id);
-      for (Cover& cover : covers(row)) visit(cover.id);
-    }
     if (last_) visit(last_->id);
   }
+  /// Lets go of the triangles that are not kept.
+  void keep(const KeptIds& kept) { surfaces_.keep(kept); }
 
  private:
   static constexpr PixelTag kNone = KeptIds::kNoTriangle;
@@ -60,10 +52,10 @@ class Wireframe {
     PixelTag id = kNone;
     bool is_front = true;  // the triangle's corners run counterclockwise
   };
-  /// The triangle that hides most at a pixel: all that is farther than `farthest`.
-  struct Cover {
-    double farthest = std::numeric_limits<double>::infinity();
-    PixelTag id = kNone;
+  /// A triangle hides all that is farther than all its corners, or by more than `reach` than itself.
+  struct Surface {
+    double most, reach;
+    bool is_front;
   };
   struct Last {
     Triangle p_ndc, low_parts;
@@ -73,18 +65,15 @@ class Wireframe {
     std::array<bool, 3> is_drawn = {true, true, true};
   };
 
-  [[nodiscard]] std::span<Cover> covers(int row) {
-    return setup_.shows_hidden ? std::span<Cover>() : covers_.row(row);
-  }
-  void cover(const ExactTriangle& triangle, PixelTag id);
+  [[nodiscard]] Surface surface(const Triangle& p_ndc) const;
   void draw_last();
 
   Setup setup_;
   Viewport screen_;
+  AnyDepth depth_;
   ExactGrid grid_;
-  AnyCoverage coverage_;
   Raster<Edge> edges_;
-  Raster<Cover> covers_;  // empty if hidden edges are shown
+  ChunkedArray<Surface> surfaces_;  // by the ids of their triangles
   std::optional<Last> last_;
   std::vector<EdgePixel> pixels_;
   std::vector<PixelTag> ids_;
