@@ -12,7 +12,7 @@ from lib.judging.program import STAGES, input_of, without_comments
 from lib.judging.reference import JudgeError, Reference, kinds_of
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import InputError, read_input
-from lib.running.pipe_tools import ToolFailure, Tools
+from lib.running.pipe_tools import ToolFailure, ToolOutOfMemory, Tools
 
 SETTINGS = "assignment.txt"
 KIND_OF = {name: kind for kind, (name, _) in KINDS.items()}
@@ -223,5 +223,7 @@ def right_picture(reference):
     """None where our project refuses the scene, as for a vertex too near to the eye."""
     try:
         return reference.picture(reference.stage3)
+    except ToolOutOfMemory:
+        raise
     except ToolFailure:
         return None

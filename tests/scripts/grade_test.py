@@ -815,13 +815,16 @@ class Hostile(ClassTest):
         for tool in TOOLS:
             os.symlink(BIN / tool, f"bin/{tool}")
         os.unlink("bin/project")
-        for end, reason in (("exit 1", "exit status 1"), ("kill -9 $$", "ended by SIGKILL")):
+        for end, reason in (("exit 1", "project: exit status 1, perhaps as it"),
+                            ("kill -9 $$", "project: ended by SIGKILL, perhaps as it"),
+                            ("echo project: not enough memory >&2; exit 1", "that")):
             pathlib.Path("bin/project").write_text(  # its first run is for what is right
-                f'#!/bin/sh\n[ ! -e {end[0]} ] || {end}\n: > {end[0]}\nexec {BIN}/project "$@"\n')
+                f'#!/bin/sh\nif rmdir first; then exec {BIN}/project "$@"; fi 2> /dev/null\n{end}\n')
+            os.mkdir("first")
             os.chmod("bin/project", 0o755)
             done = run_script("grade", "hand-ins", "tests", env={**os.environ, "BIN": os.path.abspath("bin")})
             self.assertEqual(done.returncode, 1)
-            self.assertIn(f"It could not be judged: project: {reason}, perhaps", self.rows()[0]["remarks"])
+            self.assertIn(f"It could not be judged: {reason} needs more than", self.rows()[0]["remarks"])
         self.grade("--memory-limit", "1", status=1)
         self.assertIn("needs more than 1 MiB of memory", self.rows()[0]["remarks"])
 

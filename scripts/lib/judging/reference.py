@@ -9,7 +9,7 @@ from lib.judging.old_format import without_old_lines
 from lib.judging.scene import Scene
 from lib.maths.window import Window
 from lib.rim.command import CommandFailure
-from lib.running.pipe_tools import ToolFailure, Tools, opaque_background
+from lib.running.pipe_tools import ToolFailure, ToolOutOfMemory, Tools, opaque_background
 from lib.showing.pictures import read_picture
 from lib.text.stage_text import parse_stage_text, text_of
 
@@ -122,6 +122,8 @@ class Reference:
                 self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image",
                                f"ppm:{image}", *opaque_background(stage3), stdin=stage3)
                 return read_picture(image)[2]
+        except ToolOutOfMemory:
+            raise
         except ToolFailure:
             return None
 
@@ -133,6 +135,8 @@ class Reference:
                 return parse_stage_text(
                     self.tools.output("project", "--scene", path, *EXACT, stdin=lines.encode()).decode(),
                     "project").points
+        except ToolOutOfMemory:
+            raise
         except ToolFailure:
             return None
 

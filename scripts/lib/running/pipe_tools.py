@@ -19,6 +19,10 @@ class ToolFailure(CommandFailure):
     """A tool ended with a status other than 0; the text is its message."""
 
 
+class ToolOutOfMemory(ToolFailure, MemoryError):
+    """One for which a limit is to blame, or the machine."""
+
+
 class ToolCrash(CommandFailure):
     """A signal ended a tool, or it failed without a message. No ToolFailure, since the input is not to
     blame."""
@@ -104,7 +108,8 @@ def expect_success(*pipe):
             raise ToolCrash(f"{tool.name}: ended by {name_of_signal(-tool.status)}")
         if not tool.reasons:
             raise ToolCrash(f"{tool.name}: exit status {tool.status}")
-        raise ToolFailure("\n".join(tool.reasons))
+        is_out = tool.reasons[-1] == f"{tool.name}: not enough memory"
+        raise (ToolOutOfMemory if is_out else ToolFailure)("\n".join(tool.reasons))
 
 
 def checked(done, tool):
