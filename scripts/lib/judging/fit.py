@@ -17,6 +17,7 @@ WORST_SPREAD = 0.01  # of an element, against the largest one
 LEAST_DIFFERENCE = 1e-4  # of an element, against 1 and its own size
 # of a number that a matrix gives: against 1 and its own size, and of its last digit
 MISFIT, MISFIT_IN_UNITS = 1e-3, 20
+LEAST_LAST = 1e-6  # of a unit vector: points in a plane determine no matrix
 DECIMALS = 5
 
 
@@ -151,8 +152,6 @@ def projective(before, after):
             row[4 * axis:4 * axis + 4] = column
             row[12:] = [-q[axis] * x for x in column]
             rows.append(row)
-    if len(rows) < 16:
-        return None
     m = null_vector(rows)
     return product(product(back, [tuple(m[4 * i:4 * i + 4]) for i in range(4)]), there)
 
@@ -163,16 +162,11 @@ def affine_of(before, after):
     images, back = normalizing(after)
     m = []
     for axis in range(3):
-        rows = [(*p, 1.0, q[axis]) for p, q in zip(moved(there, before), moved(images, after))]
-        if len(rows) < 5:
+        rows = [(*p, 1.0, -q[axis]) for p, q in zip(moved(there, before), moved(images, after))]
+        *row, last = null_vector(rows)
+        if abs(last) < LEAST_LAST:
             return None
-        r = triangular(rows)
-        x = [0.0] * 4
-        for k in reversed(range(4)):
-            if abs(r[k][k]) < 1e-9 * len(rows):
-                return None
-            x[k] = (r[k][4] - sum(r[k][j] * x[j] for j in range(k + 1, 4))) / r[k][k]
-        m.append(tuple(x))
+        m.append(tuple(x / last for x in row))
     return product(product(back, [*m, (0.0, 0.0, 0.0, 1.0)]), there)
 
 
@@ -204,7 +198,7 @@ def compare(before, after, units, ours, is_divided):
     chosen = [i for i in range(0, len(before), step) if all(map(math.isfinite, after[i]))]
     before, after, units = ([values[i] for i in chosen] for values in (before, after, units))
     fit = projective if is_divided else affine_of
-    if len(before) < 5:
+    if len(before) < 6:
         return None
     rng = random.Random(1)
     fits = []
