@@ -422,14 +422,15 @@ class Wrong(HandIn):
             pathlib.Path("z_buffer.txt").unlink()
             file = self.verdict().files[4]
             self.assertEqual((file.verdict, file.rule), ("right by another rule", f"ends of rows {words}"))
-        for end in min, max:
+        for end, words in (min, "the left one"), (max, "the right one"):
             self.hand_in()
             pixels = Pixels()
             for row, depths in enumerate(pixels.depths):
                 if drawn := [column for column, z in enumerate(depths) if z is not None]:
                     pixels.clear(row, end(drawn))
             pixels.write()
-            self.assertEqual([cause.name for cause in self.verdict().files[4].causes], ["zbuf/column-short"])
+            self.assertEqual([(cause.name, cause.detail) for cause in self.verdict().files[4].causes],
+                             [("zbuf/column-short", words)])
 
     def test_a_search_that_is_given_up_costs_no_points(self):
         with mock.patch.object(pixel_comparing, "MOST_WORK", 0):

@@ -8,7 +8,7 @@ from lib.judging.borders import BorderRule
 from lib.judging.matching import named
 from lib.judging.pixel_comparing import Attempt, Mismatch
 from lib.judging.pixel_rules import BLANK, CENTER, MISTAKES, MOST_PAIRS, can_matter, pairs
-from lib.judging.pixel_words import border_rule_in_words, rule_in_words
+from lib.judging.pixel_words import border_rule_in_words, end_in_words, rule_in_words
 from lib.judging.raster import Rule, TooMuch
 from lib.judging.verdict import cause_of, cause_of_all
 
@@ -214,9 +214,11 @@ def mistake(context, found):
     """The Finding of {names: Mismatch}."""
     if any(len(names) == 1 for names in found):  # several at once only if no single one will do
         found = {names: mismatch for names, mismatch in found.items() if len(names) == 1}
-    mismatch = next(iter(found.values()))
-    return Finding("mistake", mismatch, rule_in_words(mismatch.rule),
-                   [cause_of_all("zbuf", names) for names in found], files_spoiled(context, mismatch))
+    first = next(iter(found.values()))
+    causes = [
+        dataclasses.replace(cause_of_all("zbuf", names), detail=end_in_words(one.rule))
+        for names, one in found.items()]
+    return Finding("mistake", first, rule_in_words(first.rule), causes, files_spoiled(context, first))
 
 
 def files_spoiled(context, mismatch):

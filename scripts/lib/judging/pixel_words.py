@@ -30,6 +30,11 @@ def rule_in_words(rule):
     return ", ".join(words)
 
 
+def end_in_words(rule):
+    """The end at which rows have another number of columns."""
+    return "the left one" if rule.columns_before else "the right one" if rule.column_more else ""
+
+
 def border_rule_in_words(mismatch, pixels):
     """The pixels in which another rule at the borders differs."""
     kinds = collections.Counter(mismatch.pixels.values())
