@@ -1,7 +1,6 @@
 #include "libpipeline/coverage/edge_pixels.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "libpipeline/numbers/fixed_int.h"
 

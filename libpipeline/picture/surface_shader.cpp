@@ -1,7 +1,6 @@
 #include "libpipeline/picture/surface_shader.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 

@@ -11,7 +11,6 @@
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
-#include "libpipeline/visibility/raster.h"
 #include "libpipeline/visibility/scanline.h"
 #include "libpipeline/visibility/zbuffer.h"
 

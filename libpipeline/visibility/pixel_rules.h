@@ -1,6 +1,5 @@
 #pragma once
 
-#include <type_traits>
 #include <variant>
 
 #include "libpipeline/coverage/rules.h"

@@ -4,7 +4,6 @@
 #include <bit>
 #include <limits>
 
-#include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/viewport.h"
 

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/coverage/exact_grid.h"
-#include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/stream/triangle_batch.h"

@@ -3,7 +3,6 @@
 #include <cstddef>
 
 #include "libpipeline/coverage/exact_grid.h"
-#include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"

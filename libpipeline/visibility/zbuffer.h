@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/depth_format.h"

@@ -8,7 +8,6 @@
 #include "libpipeline/picture/image_file.h"
 #include "tools/rim/statistics.h"
 #include "tools/rim/tool.h"
-#include "tools/stages/stage_options.h"
 #include "tools/trace/rendering.h"
 #include "tools/trace/trace_options.h"
 #include "tools/zbuf/screen.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "libpipeline/raytracing/traced_triangles.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/stage_reader.h"
