@@ -14,6 +14,9 @@
 
 namespace pipeline {
 
+/// Two doubles, calculated with at a time where the processor can.
+typedef double TwoDoubles __attribute__((vector_size(16)));
+
 /// A box around a primitive, rounded outward.
 struct FloatBox {
   FloatBox() = default;
@@ -76,10 +79,10 @@ class Bvh {
   struct BoxRay {
     explicit BoxRay(const Ray& ray);
     /// Which children of a node it enters, 1 and 2 or both, between two distances; `entry` gets where.
-    unsigned entered(const Node& node, double first, double limit, std::array<double, 2>& entry) const;
+    unsigned entered(const Node& node, double first, double limit, TwoDoubles& entry) const;
 
-    std::array<double, 3> origin, inverse;  // by axis
-    std::array<std::size_t, 3> entrance;    // the side where it enters a box
+    std::array<TwoDoubles, 3> origin, inverse;  // by axis, twice
+    std::array<std::size_t, 3> entrance;        // the side where it enters a box
   };
 
   std::unique_ptr<Node[]> nodes_;  // room for the most there may be, of which the rest is never touched
@@ -89,28 +92,27 @@ class Bvh {
 };
 
 inline Bvh::BoxRay::BoxRay(const Ray& ray) {
+  const std::array<double, 3> origins = {ray.origin.x, ray.origin.y, ray.origin.z};
   const std::array<double, 3> directions = {ray.direction.x, ray.direction.y, ray.direction.z};
-  origin = {ray.origin.x, ray.origin.y, ray.origin.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    inverse[axis] = 1 / directions[axis];
+    origin[axis] = TwoDoubles{origins[axis], origins[axis]};
+    inverse[axis] = 1 / TwoDoubles{directions[axis], directions[axis]};
     entrance[axis] = std::size_t{std::signbit(directions[axis])};
   }
 }
 
-inline unsigned Bvh::BoxRay::entered(const Node& node, double first, double limit,
-                                     std::array<double, 2>& entry) const {
-  std::array<double, 2> leave = {limit, limit};
-  entry = {first, first};
+inline unsigned Bvh::BoxRay::entered(const Node& node, double first, double limit, TwoDoubles& entry) const {
+  TwoDoubles leave = {limit, limit};
+  entry = TwoDoubles{first, first};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto& in = node.sides[axis][entrance[axis]];
-    const auto& out = node.sides[axis][1 - entrance[axis]];
-    for (std::size_t child = 0; child < 2; ++child) {
-      // 0 times infinity, on a side of a box, leaves them as they are.
-      const double in_at = (in[child] - origin[axis]) * inverse[axis];
-      const double out_at = (out[child] - origin[axis]) * inverse[axis];
-      entry[child] = in_at > entry[child] ? in_at : entry[child];
-      leave[child] = out_at < leave[child] ? out_at : leave[child];
-    }
+    const auto distance = [&](std::size_t side) {
+      const auto& [of_one, of_other] = node.sides[axis][side];
+      return (TwoDoubles{of_one, of_other} - origin[axis]) * inverse[axis];
+    };
+    const TwoDoubles in = distance(entrance[axis]), out = distance(1 - entrance[axis]);
+    // 0 times infinity, on a side of a box, leaves them as they are.
+    entry = in > entry ? in : entry;
+    leave = out < leave ? out : leave;
   }
   return (entry[0] <= leave[0] ? 1u : 0u) | (entry[1] <= leave[1] ? 2u : 0u);
 }
@@ -133,7 +135,7 @@ void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, 
       for (std::uint32_t i = begin; i < end; ++i) test(ids_[i]);
     } else {
       const Node& node = nodes_[current];
-      std::array<double, 2> entry;
+      TwoDoubles entry;
       const unsigned entered = box_ray.entered(node, first, limit, entry);
       if (entered == 3) {
         const std::size_t nearer = entry[1] < entry[0] ? 1 : 0;

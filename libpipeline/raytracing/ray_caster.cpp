@@ -89,21 +89,24 @@ std::optional<RayCaster::Seen> RayCaster::sphere_at(TracedTriangles::Id id, cons
 
 /// The triangle's pixels in a row.
 const std::optional<Span>& RayCaster::span_of(TracedTriangles::Id id, int row) {
-  CachedSpan& cached = cache_[id % kCached];
+  const std::size_t slot = id % kCached;
+  CachedRows& cached = cache_[slot];
+  CachedSpan* const spans = &spans_[slot * static_cast<std::size_t>(row_count_)];
   if (cached.id != id) {
     const TriangleBatch& p_ndc = triangles_.p_ndc();
     cached.id = id;
-    cached.row = -1;
+    for (int i = 0; i < row_count_; ++i) spans[i].row = -1;
     cached.rows.emplace(
         grid_, ExactTriangle{p_ndc.triangles[id], p_ndc.low_parts.empty() ? nullptr : &p_ndc.low_parts[id],
                              p_ndc.decimal_marks[id]});
   }
-  if (cached.row != row) {
+  CachedSpan& found = spans[row % row_count_];
+  if (found.row != row) {
     const bool is_in_rows = row >= cached.rows->first_row() && row <= cached.rows->last_row();
-    cached.row = row;
-    cached.span = is_in_rows ? cached.rows->span(row) : std::nullopt;
+    found.row = row;
+    found.span = is_in_rows ? cached.rows->span(row) : std::nullopt;
   }
-  return cached.span;
+  return found.span;
 }
 
 }  // namespace pipeline

@@ -33,15 +33,16 @@ std::vector<Bvh::Primitive> boxes_of(const TracedTriangles& triangles, const Pix
 /// thread.
 class RayCaster {
  public:
-  /// The visible triangle and its depth. Or a sphere, whose depth is that of the ray's hit, and whose id says
+  /// The visible triangle and its depth; or a sphere, with the depth of the ray's hit and an id that says
   /// which side is seen (TracedTriangles::kFromWithin).
   struct Seen {
     TracedTriangles::Id id;
     double depth;
   };
 
+  /// `row_count`: rows between which calls go back and forth.
   RayCaster(const TracedTriangles& triangles, const Bvh& bvh, const ProjectionTransform& projection,
-            const Viewport& screen)
+            const Viewport& screen, int row_count = 1)
       : triangles_(triangles),
         bvh_(bvh),
         screen_(screen),
@@ -49,7 +50,9 @@ class RayCaster {
         depth_(projection),
         pixels_(screen),
         grid_(screen),
-        cache_(kCached) {}
+        row_count_(row_count),
+        cache_(kCached),
+        spans_(kCached * static_cast<std::size_t>(row_count)) {}
 
   /// The triangle seen at a pixel, between the depth limits; none if there is none. Of equal depths the
   /// earlier triangle is seen.
@@ -58,9 +61,11 @@ class RayCaster {
  private:
   // Neighboring pixels show the same few triangles.
   static constexpr std::size_t kCached = 1024;
-  struct CachedSpan {
+  struct CachedRows {
     std::optional<TracedTriangles::Id> id;
     std::optional<CenterRows> rows;
+  };
+  struct CachedSpan {
     int row = -1;
     std::optional<Span> span;
   };
@@ -80,7 +85,9 @@ class RayCaster {
   NdcDepth depth_;
   PixelGrid pixels_;
   ExactGrid grid_;
-  std::vector<CachedSpan> cache_;
+  int row_count_;
+  std::vector<CachedRows> cache_;
+  std::vector<CachedSpan> spans_;  // of each triangle in the cache, row_count_
 };
 
 }  // namespace pipeline

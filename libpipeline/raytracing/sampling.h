@@ -24,7 +24,7 @@ constexpr bool is_random(Sampling sampling) {
 }
 
 /// The places of samples: pixels of a finer screen, so that the centers of its pixels are decided exactly by
-/// the same rule as those of the picture. A regular sample is the only pixel of its cell, a jittered one any
+/// the picture's own rule. A regular sample is the only pixel of its cell, a jittered one any
 /// of 256 x 256.
 ///
 /// Which one depends on the pixel and the sample's number alone, by a hash of them: no order and no thread

@@ -116,7 +116,8 @@ class PixelTracer {
         order_(rays.sample_count),
         colors_(scene, bvh, PixelRays(scene.projection(), places_.screen()), colors),
         centers_(triangles_, bvh, scene.projection(), rays.screen),
-        samples_(triangles_, bvh, scene.projection(), places_.screen()) {}
+        samples_(triangles_, bvh, scene.projection(), places_.screen(),
+                 is_random(rays.sampling) ? 1 : rays.sample_count) {}
 
   void trace(int row, int column, std::size_t pixel, TracedPicture& picture) {
     const bool has_one_sample = rays_.sample_count == 1 && !is_random(rays_.sampling);
