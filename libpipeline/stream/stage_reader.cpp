@@ -54,6 +54,8 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
     if (!line_is_pending_) (header_text_ += line_.rest()) += '\n';
   }
   has_body_ = line_is_pending_;
+  if (const std::string_view first = line_.peek(); begins_like_number(first))
+    first_decimals_ = static_cast<int>(first.substr(std::min(first.find('.'), first.size() - 1) + 1).size());
   check_camera(header_.camera);
   const std::size_t material_count = std::max<std::size_t>(header_.appearance.materials.size(), 1);
   triangles_.emplace(text_, header_.appearance.columns(), material_count, marks_decimals);

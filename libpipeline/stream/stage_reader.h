@@ -24,6 +24,8 @@ class StageReader {
   [[nodiscard]] const SourceLocation& header_end() const { return header_end_; }
   /// False if the text ends with its header.
   [[nodiscard]] bool has_body() const { return has_body_; }
+  /// The count of decimals of the first number of the body; none if that begins with a word.
+  [[nodiscard]] std::optional<int> first_decimals() const { return first_decimals_; }
   /// The header's lines as they stand in the text, without comments and the blanks around them.
   [[nodiscard]] const std::string& header_text() const { return header_text_; }
   /// From now on, batches get the text of their triangles, too.
@@ -60,6 +62,7 @@ class StageReader {
   std::optional<TriangleReader> triangles_;  // made when the header is read
   bool line_is_pending_ = false;             // line_ is read but not yet used
   bool has_body_ = false;
+  std::optional<int> first_decimals_;
   bool done_ = false;
   bool accepts_clipped_ = false;
   bool accepts_spheres_ = false;

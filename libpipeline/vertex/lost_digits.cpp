@@ -18,10 +18,11 @@ namespace {
 // so little that it is less than a hundredth of the instructions of `project`. A unit is about ten.
 constexpr std::size_t kSmallestScene = 256, kSmallScene = 1024, kLeastRows = 2, kLeastColumns = 27;
 constexpr std::size_t kMostWork = 60'000, kWorkForLarge = 500;
-constexpr unsigned kTrialCount = 8;
+constexpr unsigned kTrialCount = 5;
 constexpr std::size_t kAskedForDecimals = 8;
 constexpr int kMostDecimals = 12;       // more cost as much as all digits
 constexpr int kFewestDecimals = 6;      // numbers with fewer were typed, unless those written have as few
+constexpr double kFewUnits = 2000;      // over the window's height: a last decimal is half a row
 constexpr double kLeastShare = 0.005;   // below it, nothing is found
 constexpr double kNoPixel = 5e-7;       // a share
 constexpr double kDoubleError = 1e-14;  // of a depth
@@ -66,12 +67,14 @@ LostDigits::Plane::Plane(const Triangle& p_ndc) : corner(p_ndc[0]), z(corner.z) 
   z_y = ((b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z)) / area;
 }
 
-LostDigits::LostDigits(const ProjectionTransform& projection, std::optional<int> decimals)
+LostDigits::LostDigits(const ProjectionTransform& projection, std::optional<int> decimals,
+                       std::optional<int> decimals_read)
     : projection_(projection),
       view_from_clip_(projection),
       x_scale_(std::fabs(projection.x_scale.nearest_double())),
       y_scale_(std::fabs(projection.y_scale.nearest_double())),
-      decimals_(decimals) {}
+      decimals_(decimals),
+      decimals_read_(decimals_read.value_or(decimals.value_or(kMostDecimals + 1))) {}
 
 LostDigits::Steps::Steps(std::size_t step_count) : count(step_count) {
   constexpr double kOdd = 0.13;  // so that no grid of vertices meets them
@@ -83,27 +86,25 @@ std::size_t LostDigits::Steps::from(double value) const {
   return static_cast<std::size_t>(std::ceil(std::clamp(index, 0.0, static_cast<double>(count))));
 }
 
-/// The most decimals that a quarter of some coordinates have. Where all have fewer, or are written with more,
-/// the text has lost nothing.
+/// Whether a stage has rounded the first numbers that were read, and they have lost digits: many do not end
+/// in 0.
 void LostDigits::look_for_decimals() {
-  std::array<std::size_t, kMostDecimals + 2> counts = {};
+  half_.written = decimals_ ? 0.5 / power_of_ten(*decimals_) : 0;
+  if (decimals_read_ > kMostDecimals || (decimals_read_ < kFewestDecimals && decimals_read_ != decimals_))
+    return;
+  std::size_t count = 0;
   for (const Triangle& triangle : first_read_)
     for (const Vec3& p : triangle)
       for (const double number : {p.x, p.y, p.z}) {
-        int decimals = 0;
-        while (decimals <= kMostDecimals && rounded(number, decimals) != number) ++decimals;
-        ++counts[static_cast<std::size_t>(decimals)];
+        if (rounded(number, decimals_read_) != number) return;
+        if (std::fmod(std::nearbyint(number * power_of_ten(decimals_read_)), 10) != 0) ++count;
       }
-  const std::size_t few = first_read_.size() * 9 / 4;
-  decimals_read_ = kMostDecimals + 1;
-  while (decimals_read_ > 0 && counts[static_cast<std::size_t>(decimals_read_)] < few) --decimals_read_;
-  half_ = half_units(0);
+  unit_read_ = 1 / power_of_ten(decimals_read_);
+  if (count >= first_read_.size() * 9 / 4) half_.read = unit_read_ / 2;
 }
 
 LostDigits::HalfUnits LostDigits::half_units(int more_decimals) const {
-  const bool is_exact = decimals_read_ > kMostDecimals ||
-                        (decimals_read_ < kFewestDecimals && decimals_read_ != decimals_.value_or(-1));
-  return {is_exact ? 0 : 0.5 / power_of_ten(decimals_read_ + more_decimals),
+  return {half_.read / power_of_ten(more_decimals),
           decimals_ ? 0.5 / power_of_ten(*decimals_ + more_decimals) : 0};
 }
 
@@ -121,7 +122,7 @@ void LostDigits::add(const TriangleBatch& p_view, const TriangleBatch& p_ndc) {
   };
   const std::size_t count_before = triangle_count_;
   triangle_count_ += p_ndc.size();
-  std::size_t i = next_;
+  std::size_t i = 0;
   if (rows_.empty()) {
     if (p_ndc.size() > 1) kept_.reserve(kSmallScene + 1);
     for (; i < p_ndc.size() && kept_.size() <= kSmallScene; ++i)
@@ -130,13 +131,34 @@ void LostDigits::add(const TriangleBatch& p_view, const TriangleBatch& p_ndc) {
     look_at_kept();
   }
   const std::span<const Triangle> triangles = p_ndc.triangles;
-  for (; i < triangles.size(); i += stride_) {
-    i += count_between_rows(triangles.subspan(i));
-    if (i >= triangles.size()) break;
+  const auto look_at_next = [&] {
     look_at({triangles[i], read(i)});
     thin_out_over(kWorkForLarge + (count_before + i) / 2);
+  };
+  for (std::size_t due = std::max(i, next_);; ++i) {
+    for (; i < std::min(due, triangles.size()) && may_be_in_front(count_before + i); ++i)
+      if (is_in_front(triangles[i])) look_at_next();
+    i = std::max(i, due);
+    if (i < triangles.size()) i += count_between_rows(triangles.subspan(i));
+    next_ = i - std::min(i, triangles.size());
+    if (i >= triangles.size()) break;
+    look_at_next();
+    due = i + stride_;
   }
-  next_ = i - p_ndc.size();
+}
+
+/// True while few triangles were looked at because they are in front, however many others are skipped.
+bool LostDigits::may_be_in_front(std::size_t triangle_count) const {
+  constexpr std::size_t kFew = 6, kToOne = 1024;
+  return in_front_count_ < kFew + triangle_count / kToOne;
+}
+
+/// True for a triangle on a row that is nearer than some place.
+bool LostDigits::is_in_front(const Triangle& p_ndc) {
+  const auto& [a, b, c] = p_ndc;
+  if (!(std::max({a.z, b.z, c.z}) < farthest_) || count_between_rows({&p_ndc, 1}) > 0) return false;
+  ++in_front_count_;
+  return true;
 }
 
 /// How many triangles to skip, as those that would be looked at lie between two rows.
@@ -144,7 +166,7 @@ std::size_t LostDigits::count_between_rows(std::span<const Triangle> p_ndc) cons
   constexpr double kToWhole = 0x1.8p52;  // added and rounded; rows lie halfway between whole numbers
   const double per_unit = ys_.per_unit;
   std::size_t i = 0;
-  for (const std::size_t size = p_ndc.size(), stride = stride_; i < size; i += stride) {
+  for (const std::size_t size = p_ndc.size(); i < size; ++i) {
     const auto& [a, b, c] = p_ndc[i];
     const double strip = a.y * per_unit + kToWhole;
     if (strip != b.y * per_unit + kToWhole || strip != c.y * per_unit + kToWhole) break;
@@ -326,6 +348,9 @@ double LostDigits::wrong_share(const Place& place, double x, double y) const {
     return with_numbers(seen.p_ndc, [&](double number) { return rounded(number, *decimals_); });
   };
   const bool is_printed_nearer = is_second_nearer(printed(a), printed(b));
+  // Where numbers are as coarse as pixels, surfaces printed in one plane were probably layers.
+  const double w = projection_.is_perspective ? view_from_clip_.w_of({0, 0, place.z}) : 1;
+  if (place.gap <= kDoubleError && unit_read_ * y_scale_ / w > 2 / kFewUnits) return 0.5;
   unsigned wrong_count = 0;
   for (unsigned trial = 0; trial < kTrialCount; ++trial)
     if (is_second_nearer(possible_truth(a, trial), possible_truth(b, trial)) != is_printed_nearer)

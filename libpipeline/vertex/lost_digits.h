@@ -30,8 +30,9 @@ class LostDigits {
     bool near_helps = false;        // a larger one would lose fewer digits and hide nothing
   };
 
-  /// `decimals` of the text that is written; none if it is exact.
-  LostDigits(const ProjectionTransform& projection, std::optional<int> decimals);
+  /// `decimals` of the text that is written, none if it is exact, and of the first number that was read.
+  LostDigits(const ProjectionTransform& projection, std::optional<int> decimals,
+             std::optional<int> decimals_read);
 
   /// Adds triangles as they were read and as they are before they are printed.
   void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc);
@@ -116,6 +117,8 @@ class LostDigits {
   [[nodiscard]] HalfUnits half_units(int more_decimals) const;
   void look_at_kept();
   [[nodiscard]] std::size_t count_between_rows(std::span<const Triangle> p_ndc) const;
+  [[nodiscard]] bool may_be_in_front(std::size_t triangle_count) const;
+  [[nodiscard]] bool is_in_front(const Triangle& p_ndc);
   void look_at(Look look);
   void look_along(Row& row, double y, Look& look);
   void look_at(Place& place, double z, Look& look);
@@ -135,13 +138,14 @@ class LostDigits {
   ViewFromClip view_from_clip_;
   double x_scale_, y_scale_;
   std::optional<int> decimals_;  // of the text written
-  int decimals_read_ = 0;
+  int decimals_read_;
+  double unit_read_ = 0;  // a last decimal of the text read, if a stage has rounded its numbers
   HalfUnits half_;
 
   std::vector<Triangle> first_read_;  // and some later ones
   std::size_t next_read_ = 0;         // of them, an index of the next batch
   std::vector<Seen> kept_;            // all triangles, while they are few
-  std::size_t triangle_count_ = 0, work_ = 0;
+  std::size_t triangle_count_ = 0, in_front_count_ = 0, work_ = 0;
   std::size_t stride_ = 1, next_ = 0;  // the next that is looked at, in the next batch
   Steps ys_{kRows}, columns_{kColumns};
   double farthest_ = 2;     // of all rows

@@ -25,8 +25,8 @@ TriangleBatch part_of(const TriangleBatch& batch, std::size_t begin, std::size_t
 
 std::optional<LostDigits::Found> found(TriangleBatch p_view, std::optional<int> decimals = 7,
                                        const ProjectionTransform& projection = kDeep,
-                                       std::size_t batch_size = 2048) {
-  LostDigits lost_digits(projection, decimals);
+                                       std::size_t batch_size = 2048, std::optional<int> decimals_read = 7) {
+  LostDigits lost_digits(projection, decimals, decimals_read);
   for (std::size_t i = 0; i < p_view.size(); i += batch_size) {
     const TriangleBatch part = part_of(p_view, i, std::min(i + batch_size, p_view.size()));
     lost_digits.add(part, projected(part, projection, ClipMode::none).p_ndc);
@@ -85,6 +85,32 @@ TEST(LostDigits, AreNotThoseOfSurfacesInOnePlaneThatFacesTheEye) {
   EXPECT_FALSE(found(walls));
 }
 
+TEST(LostDigits, OfSurfacesInOnePlaneAreFoundWhereNumbersAreAsCoarseAsPixels) {
+  TriangleBatch layers;
+  add_wall(layers, 0.005, 0.004);
+  add_wall(layers, 0.005, 0.002);
+  const ProjectionTransform projection = {true, 1, 0, 1, 0, 0.001, 1};
+  const auto lost = found(layers, 5, projection, 2048, 5);
+  ASSERT_TRUE(lost);
+  EXPECT_TRUE(lost->may_be_one_plane);
+  EXPECT_NEAR(lost->share, 0.25 / 2, 0.03);
+  EXPECT_FALSE(found(layers, 7, projection, 2048, 7));
+}
+
+TEST(LostDigits, InFrontOfManyLargeTrianglesAreFound) {
+  RandomNumbers random(3);
+  TriangleBatch p_view;
+  for (int i = 0; i < 4000; ++i) {
+    const auto corner = [&] {
+      return Vec3{random.between(-900, 900), random.between(-900, 900), -random.between(200, 900)};
+    };
+    p_view.add({corner(), corner(), corner()}, p_view.size(), {});
+  }
+  add_wall(p_view, 100.1, 75);
+  add_wall(p_view, 100, 50);
+  EXPECT_TRUE(found(p_view));
+}
+
 TEST(LostDigits, OfSurfacesInATiltedPlaneAreNeverEnough) {
   TriangleBatch p_view;
   const Vec3 a = {-3, -2, -4}, b = {3, -2, -6}, c = {0, 3, -7};
@@ -124,6 +150,12 @@ TEST(LostDigits, OfEdgesInASmallSceneAreFound) {
   EXPECT_TRUE(lost->is_of_edges);
   EXPECT_NEAR(lost->share, 0.01, 0.006);  // three edges, each off by some 4e-8 of 1e-5
   EXPECT_FALSE(found(fine_grid(1.03e-3), 7, projection));
+}
+
+TEST(LostDigits, OfATextWithZerosAtItsEndsAreNotFound) {
+  const ProjectionTransform projection = {true, 4, 0, 4, 0, 1e-5, 1};
+  EXPECT_TRUE(found(fine_grid(1.03e-5), 12, projection, 2048, 7));
+  EXPECT_FALSE(found(fine_grid(1.03e-5), 12, projection, 2048, 9));
 }
 
 /// Triangles up to half as large as they are far away, at distances up to a tenth of `far`.

@@ -79,7 +79,7 @@ void add_rounding(Bounds& bounds, const ProjectOptions& chosen, CoordinateRounde
 
 std::string lost_digits_note(const LostDigits::Found& found) {
   std::array<char, 32> percent = {};
-  std::snprintf(percent.data(), percent.size(), "%.2g", 100 * found.share);
+  std::snprintf(percent.data(), percent.size(), found.share < 0.1 ? "%.2g" : "%.0f", 100 * found.share);
   const std::string digits = std::to_string(found.decimals) + " digits ";
   const std::string enough = found.enough ? std::to_string(*found.enough) : "exact";
   return std::string("in ") + percent.data() + " % of what is drawn, " + digits +
@@ -114,7 +114,8 @@ void project(Tool& tool, const ProjectOptions& chosen, Statistics& statistics) {
   ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
   report.suspect_radians(given);
   const NumberFormat format = chosen.numbers.format();
-  LostDigits lost_digits(projection, format.shortest ? std::nullopt : std::optional(format.decimals));
+  LostDigits lost_digits(projection, format.shortest ? std::nullopt : std::optional(format.decimals),
+                         reader.first_decimals());
   TriangleBatch p_view;
   const auto transform = [&](TriangleBatch& batch) {
     std::swap(batch, p_view);
