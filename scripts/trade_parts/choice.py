@@ -44,6 +44,8 @@ class Choice:
     row: object
     ties: tuple = ()  # rows that cost the same, as far as anybody notices
     untold: tuple = ()  # rows that may be cheaper: the times do not decide
+    lucky: tuple = ()  # rows that are wrong with the eye moved, and by how many pixels
+    uncertain: int = None  # pixels of the row; None if nobody can tell
 
 
 def least_wrong(rows, limits):
@@ -76,6 +78,19 @@ def cheapest(rows, verdict):
     return Choice(
         best, ties=tuple(
             row for row in rows if row is not best and verdict(row.setting, best.setting) == TIE))
+
+
+def steady(rows, verdict, limits, wrong_if_moved):
+    """The Choice among `rows` that meets the limits with the eye moved a little, too; None if none does."""
+    rows, lucky = list(rows), []
+    while rows:
+        choice = cheapest(rows, verdict)
+        wrong = wrong_if_moved(choice.row.setting)
+        if limits.percent_wrong is None or 100 * wrong / choice.row.covered <= limits.percent_wrong:
+            return dataclasses.replace(choice, lucky=tuple(lucky))
+        lucky.append((choice.row, wrong))
+        rows.remove(choice.row)
+    return None
 
 
 def nearest(rows, limits):

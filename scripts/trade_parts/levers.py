@@ -9,6 +9,7 @@ LEVERS = (
     {"clip": "frustum"},
     {"clip": "reject"},
     {"cull": "back"},
+    {"clip": "reject", "cull": "back"},
     {"depth": "f32"},
     {"depth": "u24"},
     {"depth_epsilon": "1e-6"},

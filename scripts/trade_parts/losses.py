@@ -14,6 +14,7 @@ from lib.text.projection import KEYWORDS, window_of
 from lib.text.stage_text import triangle_lines
 
 SAMPLES_OF_TRUTH = "8"
+MOVES_AHEAD, MOVES_ASIDE = (-0.0002, 0.02), (0.003, -0.02)  # of the distance to the point looked at
 
 
 @dataclasses.dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Loss:
     wrong: int  # pixels that show another triangle, or none; None with trace, which draws no marks
     gap: float  # between layers, in the scene's units; None with trace, which has no text of project
     levels: float  # of 256, the mean over the channels of the pixels covered; None if none was asked for
+    notes: tuple = ()  # of the stages
 
 
 class Layers:
@@ -71,6 +73,47 @@ class Truth:
                                  (line for _, corners in triangle_lines(text) for line in corners))
         self.smooth = {"samples": SAMPLES_OF_TRUTH} if is_smooth else {}
         self.colors = {}  # by whether trace draws
+        self.felt = {}  # by setting
+        self.moved = None  # pipes with the eye moved a little, and their exact marks
+
+    def moved_pictures(self):
+        if self.moved is None:
+            eye, look, up = (tuple(map(float, line[-3:])) for line in self.pipe.camera()[:3])
+            ahead = [q - p for p, q in zip(eye, look)]
+            aside = [ahead[i - 2] * up[i - 1] - ahead[i - 1] * up[i - 2] for i in range(3)]
+            length, width = math.hypot(*ahead), math.hypot(*aside)
+            steps = [[x * part for x in ahead]
+                     for part in MOVES_AHEAD] + [[x / width * length * part for x in aside]
+                                                 for part in MOVES_ASIDE]
+            self.moved = []
+            for i, step in enumerate(steps):
+                moved = [p + d for p, d in zip(eye, step)]
+                pipe = self.pipe.with_eye(moved, self.pipe.folder / f"eye {i}")
+                self.moved.append((pipe, pipe.owners(self.setting)))
+                pipe.forget_texts(self.setting.of_texts)
+        return self.moved
+
+    def wrong_if_moved(self, setting):
+        """The most wrong pixels of the pictures with the eye moved a little: with some digits all pixels may
+        be right by luck."""
+        most = 0
+        for pipe, marks in self.moved_pictures():
+            most = max(most, sum(map(operator.ne, pipe.owners(setting), marks)))
+            pipe.forget_texts(setting.of_texts)
+        return most
+
+    def uncertain(self, setting):
+        """How many pixels `zbuf --certify` does not call certain; None where it is refused."""
+        path = self.pipe.folder / "uncertain.txt"
+        certified, bounded = (dataclasses.replace(setting, certify=word) for word in (str(path), "-"))
+        self.pipe.forget_texts(bounded.of_texts)
+        try:
+            text = self.pipe.text(bounded)[0]
+            self.pipe.tools.run("zbuf", *self.pipe.words("zbuf", certified), "--image",
+                                self.pipe.folder / "out.ppm", "--z-buffer", "none", self.pipe.config, text)
+        except ToolFailure:
+            return None
+        return int(dict(line.split()[:2] for line in path.read_text().splitlines())["uncertain"])
 
     def levels(self, setting):
         if setting.is_traced not in self.colors:
@@ -81,6 +124,16 @@ class Truth:
         return sum(map(abs, map(operator.sub, self.pipe.colors(setting), true))) / (3 * self.covered)
 
     def feels(self, setting):
+        """As changes() has it, and both of two levers."""
+        if setting not in self.felt:
+            base = dataclasses.replace(self.base, digits=setting.digits)
+            single = [
+                dataclasses.replace(base, clip=setting.clip),
+                dataclasses.replace(base, cull=setting.cull)]
+            self.felt[setting] = all(map(self.feels, single)) if base not in single else self.changes(setting)
+        return self.felt[setting]
+
+    def changes(self, setting):
         """Whether the picture or the text changes with the lever that is not the default's: of clipping,
         culling, an epsilon or shading; others it feels, unless the tools refuse them."""
         try:
@@ -103,7 +156,8 @@ class Truth:
         if setting.is_traced:
             return Loss(None, None, levels)
         wrong = sum(map(operator.ne, self.pipe.owners(setting), self.marks))
-        return Loss(wrong, self.layers.gap(setting), levels)
+        notes = tuple(without_inner_location(note, self.pipe.folder) for note in self.pipe.text(setting)[2])
+        return Loss(wrong, self.layers.gap(setting), levels, notes)
 
 
 def losses(truth, settings, progress):

@@ -1,8 +1,10 @@
 """The table and the sentences of trade."""
 import math
+import textwrap
 
 from lib.showing.figures import number
 from lib.showing.table import table
+from trade_parts.timing import CPU_TIME
 
 HEADER = ("net", "CPU", "wrong pixels", "gap", "levels")
 
@@ -31,18 +33,21 @@ def pixels(row):
     return f"{row.loss.wrong} ({percent(row.percent_wrong)})" if row.loss.wrong else "0"
 
 
-def cells(row):
+def cells(row, unit):
     """As in HEADER; the last one only if colors were compared."""
     gap, levels = row.loss.gap, row.loss.levels
     return [
         str(row.setting.under_default_coverage), "-" if math.isnan(row.net) else f"{row.net:.2f}",
-        seconds(row.seconds.median),
+        seconds(row.seconds.median) if unit == CPU_TIME else f"{row.ratio:.2f}",
         pixels(row), "-" if gap is None else number(gap), *([] if levels is None else [f"{levels:.2f}"])]
 
 
 def about_times(times):
     """How far the times can be trusted."""
     share = min(1, times.start_up / times.seconds_of_default)
+    if times.unit != CPU_TIME:
+        return (f"Times tell nothing here, where programs hardly run: {times.unit} are counted,\n"
+                "over the default's, in all and (net) without those of an empty picture.")
     words = (
         f"CPU: medians of {times.rounds} round{'s' * (times.rounds != 1)}. {seconds(times.start_up)} of "
         f"each, {100 * share:.0f} % of the default's, starts four\nprograms and writes an empty picture: net "
@@ -58,13 +63,21 @@ def asked(limits):
     return " and ".join(words)
 
 
-def summary(row):
-    return (f"{row.setting}: {row.ratio:.2f} times the default's CPU time, {size(row.size)} in the pipes,\n"
+def summary(row, unit):
+    return (f"{row.setting}: {row.ratio:.2f} times the default's {unit}, {size(row.size)} in the pipes,\n"
             f"{pixels(row)} wrong pixel{'s' * (row.loss.wrong != 1)}")
 
 
 def names(rows):
     return "".join(f"\n    {row.setting}" for row in rows)
+
+
+def about_pixels(choice):
+    """How far the pixels of the chosen row can be relied on."""
+    lines = [f"\n{row.setting}: {wrong} wrong with the eye moved a little" for row, wrong in choice.lucky]
+    if choice.uncertain is not None:
+        lines.append(f"\n{choice.uncertain} of its pixels are not certain (zbuf --certify)")
+    return "".join(lines)
 
 
 def about_ties(choice):
@@ -79,20 +92,36 @@ def about_ties(choice):
     return ""
 
 
-def answer(choice, is_met, limits, command_line):
+def answer(choice, is_met, limits, command_line, times):
     first = f"No setting has {asked(limits)}. The nearest is"
     if is_met:
-        first = f"The {'simplest' if choice.untold else 'cheapest'} with {asked(limits)}:"
-    return f"{first}\n{summary(choice.row)}{about_ties(choice)}\n\n    {command_line}"
+        is_told = not choice.untold and not times.are_too_few
+        first = f"The {'cheapest' if is_told else 'simplest'} with {asked(limits)}:"
+    return (f"{first}\n{summary(choice.row, times.unit)}{about_pixels(choice)}{about_ties(choice)}\n\n"
+            f"    {command_line}")
+
+
+def notes(rows):
+    """What the stages note, each once after the settings with which they do."""
+    found = {}
+    for row in rows:
+        for note in row.loss.notes:
+            found.setdefault(note, []).append(str(row.setting))
+    for note, settings in found.items():
+        yield from textwrap.wrap(f"{', '.join(settings)}: {note}", 80, subsequent_indent="    ",
+                                 break_on_hyphens=False)
+    yield from [""] * bool(found)
 
 
 def report(rows, times):
     """A table for each coverage rule and for trace, and what the times are worth."""
-    lines, width = [], len(cells(rows[0]))
+    header = HEADER if times.unit == CPU_TIME else ("net", times.unit, *HEADER[2:])
+    lines, width = [], len(cells(rows[0], times.unit))
     for title in dict.fromkeys(map(title_of, rows)):
-        own = [cells(row) for row in rows if title_of(row) == title]
-        lines += [*table((title, *HEADER)[:width], own), ""]
-    return "\n".join([*lines, f"The exact picture covers {rows[0].covered} pixels.", about_times(times)])
+        own = [cells(row, times.unit) for row in rows if title_of(row) == title]
+        lines += [*table((title, *header)[:width], own), ""]
+    covered = f"The exact picture covers {rows[0].covered} pixels."
+    return "\n".join([*lines, *notes(rows), covered, about_times(times)])
 
 
 def title_of(row):

@@ -1,6 +1,7 @@
 """The CPU time of the pipe with each setting."""
 import math
 import random
+import shutil
 import statistics
 import time
 
@@ -12,6 +13,7 @@ LEAST_ROUNDS, MOST_ROUNDS = 8, 25
 ROUNDS_OF_DEAR = 3  # settings that cost several times the default
 EMPTY, AGAIN = "empty", "again"  # the scene without triangles; the default once more, which shows the noise
 CHEAPER, TIE, DEARER, UNTOLD = "cheaper", "tie", "dearer", "untold"
+CPU_TIME = "CPU time"
 NOTICED = 0.9  # who saves less than a tenth of the CPU time saves nothing
 CHANCE = 0.01  # that a median lies outside its interval
 
@@ -29,6 +31,8 @@ def median_interval(values):
 
 class Times:
     """Of each setting and of the empty scene, round by round."""
+    unit = CPU_TIME
+
     def __init__(self, runs):
         self.runs, self.rounds = runs, len(runs[DEFAULT])
         self.start_up = statistics.median(runs[EMPTY])
@@ -36,12 +40,14 @@ class Times:
             setting: quartiles(values)
             for setting, values in runs.items() if setting not in (EMPTY, AGAIN)}
         self.seconds_of_default = self.seconds[DEFAULT].median
-        low, high = median_interval(self.ratios(AGAIN, DEFAULT))
-        self.noise = max(high, 1 / low if low else math.inf)  # at least 1
 
     @property
     def are_too_short(self):
         return self.seconds_of_default - self.start_up <= self.start_up / 4
+
+    @property
+    def are_too_few(self):
+        return median_interval(self.runs[DEFAULT])[1] == math.inf
 
     def ratios(self, setting, other):
         """Round by round, since other load on the machine slows all runs of a round; as many as both have."""
@@ -58,13 +64,43 @@ class Times:
                    self.seconds[setting].median - self.start_up) / (self.seconds_of_default - self.start_up)
 
     def verdict(self, setting, other):
-        """The CPU time of a setting relative to another, by the rounds: the interval of their
-        ratio, widened by as much as the default differs from itself, lies on one side of what is noticed."""
-        low, high = median_interval(self.ratios(setting, other))
-        low, high = low / self.noise, high * self.noise
-        if high < NOTICED:
+        """The CPU time of a setting relative to another, by the rounds, which pair them: by a sign test it is
+        less, and the median saves what is noticed."""
+        ratios = self.ratios(setting, other)
+        low, high = median_interval(ratios)
+        median = statistics.median(ratios)
+        if high < 1 and median < NOTICED:
             return CHEAPER
-        return UNTOLD if low < NOTICED else TIE if low <= 1 else DEARER
+        return UNTOLD if low < NOTICED and median < 1 else TIE if low <= 1 else DEARER
+
+
+class Counts(Times):
+    """Instructions or bytes of each setting and of the empty scene, in place of times: the same in every run.
+    """
+    def __init__(self, counts, unit):
+        super().__init__({setting: [count] for setting, count in counts.items()})
+        self.unit = unit
+
+    are_too_short = are_too_few = False
+
+    def verdict(self, setting, other):
+        ratio = self.ratios(setting, other)[0]
+        return CHEAPER if ratio < NOTICED else TIE if ratio <= 1 else DEARER
+
+
+def counted(pipe, turns, progress):
+    """The Counts of instructions if valgrind is there and the bytes of the three texts if not."""
+    if shutil.which("valgrind") is None:
+        return Counts(
+            {
+                name: pipe.text(setting)[1] if name != EMPTY else 0
+                for name, setting, _ in turns if name == EMPTY or not setting.is_traced}, "bytes")
+    counts = {}
+    for name, setting, scene in turns:
+        if not setting.is_traced:
+            progress(f"the instructions of {setting}")
+            counts[name] = pipe.instructions(setting, scene)
+    return Counts(counts, "instructions")
 
 
 def measured(pipe, settings, rounds, progress):
@@ -76,8 +112,10 @@ def measured(pipe, settings, rounds, progress):
     runs = {name: [] for name, _, _ in turns}
     cheap = [turn for turn in turns if turn[0] in (EMPTY, AGAIN) or not turn[0].is_dear]
     begin = time.monotonic()
-    for _, *turn in cheap:  # to warm the caches, and to see how long a round takes
-        pipe.cpu_seconds(*turn)
+    first = {name: [pipe.cpu_seconds(*turn)] for name, *turn in cheap}  # warms the caches, and shows how long
+    most = 2 if shutil.which("valgrind") else 1.25
+    if not rounds and min(first[DEFAULT], first[AGAIN]) <= [most * seconds for seconds in first[EMPTY]]:
+        return counted(pipe, [turn for turn in turns if turn[0] != AGAIN], progress)
     rounds = rounds or max(LEAST_ROUNDS, min(round(SECONDS / (time.monotonic() - begin)), MOST_ROUNDS))
     for i in range(rounds):
         progress(f"round {i + 1} of {rounds}")

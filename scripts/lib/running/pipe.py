@@ -1,14 +1,17 @@
 """The settings of the pipe, and the pipe itself on one scene."""
 import dataclasses
+import os
 import pathlib
+import re
 import shlex
 import subprocess
 
 from lib.running.owners import owners, write_marked
-from lib.running.pipe_tools import opaque_background
+from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.showing.pictures import read_picture
 
 TOOLS = ("model", "view", "project", "zbuf")
+CALLGRIND = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null")
 TRACING_TOOLS = ("model", "view", "trace")
 
 
@@ -75,10 +78,10 @@ def exact(rule):
 
 class Pipe:
     """A scene and a config on their way through the tools; `folder` holds the files in between."""
-    def __init__(self, tools, scene, config, of_project, folder, of_camera=()):
+    def __init__(self, tools, scene, config, of_project, folder, of_camera=(), of_view=()):
         """`of_project` and `of_camera` are options of the user's for project, and for trace in its place."""
         self.tools, self.scene, self.config = tools, scene, config
-        self.of_project, self.of_camera = of_project, of_camera
+        self.of_project, self.of_camera, self.of_view = of_project, of_camera, of_view
         self.folder = pathlib.Path(folder)
         self.texts = {}  # by Setting.of_texts: (the path of project's text, bytes in the pipes, notes)
         self.opaque = []  # words for zbuf to write a BMP of a background with an alpha; of the first text()
@@ -88,7 +91,7 @@ class Pipe:
         has_bounds = tool == "model" and setting.certify != DEFAULT.certify
         return [
             *setting.words(*OPTIONS[tool]), *["--bounds"] * has_bounds,
-            *{"project": self.of_project, "trace": self.of_camera}.get(tool, []),
+            *{"view": self.of_view, "project": self.of_project, "trace": self.of_camera}.get(tool, []),
             *(self.opaque if tool in ("zbuf", "trace") else [])]
 
     def text(self, setting):
@@ -137,6 +140,12 @@ class Pipe:
             self.texts[setting][0].unlink()
         self.marked(setting).unlink(missing_ok=True)
 
+    def forget_texts(self, setting):
+        """The same, so that text() makes them anew."""
+        if setting in self.texts:
+            self.texts.pop(setting)[0].unlink(missing_ok=True)
+        self.marked(setting).unlink(missing_ok=True)
+
     def camera(self):
         """The words of the scene's camera, line by line."""
         return [
@@ -158,6 +167,27 @@ class Pipe:
         tools = TRACING_TOOLS if setting.is_traced else TOOLS
         calls = ([tool, *self.words(tool, setting), *files.get(tool, [])] for tool in tools)
         return sum(done.seconds for done in self.tools.pipe(*calls, stdout=subprocess.DEVNULL))
+
+    def with_eye(self, eye, folder):
+        """The same pipe with the eye elsewhere; its files in a new folder."""
+        os.mkdir(folder)
+        return Pipe(self.tools, self.scene, self.config, self.of_project, folder, self.of_camera,
+                    ["--eye", *map(repr, eye)])
+
+    def instructions(self, setting, scene=None):
+        """What callgrind counts in a run of the whole pipe, tool by tool."""
+        source, count = None, 0
+        for tool in TOOLS:
+            target, words = self.folder / f"counted {tool}", self.words(tool, setting)
+            output = ["--image", self.folder / "out.bmp", self.config] if tool == "zbuf" else []
+            command = self.tools.command(tool, [*words, *output, source or scene or self.scene])
+            with open(target, "wb") as file:
+                done = subprocess.run([*CALLGRIND, *command], stdout=file, stderr=subprocess.PIPE)
+            found = re.search(rb"Collected : (\d+)", done.stderr)
+            if done.returncode or not found:
+                raise ToolFailure(f"{tool}: valgrind counts nothing (status {done.returncode})")
+            source, count = target, count + int(found[1])
+        return count
 
     def command_line(self, setting, scene, config):
         """The command line of a setting, with the files as the user named them."""
