@@ -44,7 +44,7 @@ class Instructions(unittest.TestCase):
                                                   self.folder / "instructions.csv")
         for name in ("tools", "path"):
             (self.folder / name).mkdir()
-        for tool in ("model", "view", "project", "zbuf"):
+        for tool in ("model", "view", "project", "zbuf", "trace"):
             (self.tools / tool).write_text("GCC: (Debian 12.2.0-14+deb12u1) 12.2.0\0")
             self.take(tool, 1_000_000)
         self.valgrind.write_text(VALGRIND)

@@ -275,4 +275,6 @@ ROWS = [
     Row("zbuf: 24-bit depths", f"zbuf config.txt large.txt {NO_IMAGE} --depth u24"),
     Row("zbuf: depths into a file", f"zbuf config.txt large.txt {NO_IMAGE} --z-buffer depths.txt"),
     Row("zbuf: PNG", "zbuf narrow.txt small.txt --image image.png"),
-    Row("zbuf: wireframe", f"zbuf config.txt few-large.txt {NO_IMAGE} --wireframe"),]
+    Row("zbuf: wireframe", f"zbuf config.txt few-large.txt {NO_IMAGE} --wireframe"),
+    Row("trace: 3 x 3 samples",
+        f"trace lit-view.txt --size 80x60 {NO_IMAGE} --z-buffer none --samples 3 --threads 1"),]
