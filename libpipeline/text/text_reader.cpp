@@ -30,6 +30,11 @@ std::string_view without_trailing_blanks(std::string_view line) {
 std::string foreign_format_hint(std::string_view word) {
   const bool has_mark = word.starts_with("\xFF\xFE") || word.starts_with("\xFE\xFF");
   if (has_mark || word.find('\0') != std::string_view::npos) return " (is this UTF-16? save it as UTF-8)";
+  for (const std::string_view minus : {"\u2212", "\u2013", "\u2014"})
+    if (word.find(minus) != std::string_view::npos)
+      return " (a dash of a printed page: type the minus sign -)";
+  if (word.find("\u00a0") != std::string_view::npos)
+    return " (a no-break space of a printed page: type a blank)";
   const std::size_t comma = word.find(',');
   const bool follows_digit = comma != std::string_view::npos && comma > 0 && is_digit(word[comma - 1]);
   return follows_digit ? " (decimals have a point, and blanks stand between numbers)" : "";

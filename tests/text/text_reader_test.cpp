@@ -67,6 +67,12 @@ TEST(LineScanner, NamesTheNumberThatIsWrong) {
        "1:1: expected the x of the eye, found '\\xef\\xbb1'"},
       {std::string("1\0 2", 4),
        "1:1: expected the x of the eye, found '1\\x00' (is this UTF-16? save it as UTF-8)"},
+      {"\u22121 2",
+       "1:1: expected the x of the eye, found '\\xe2\\x88\\x921' (a dash of a printed page: type the minus "
+       "sign -)"},
+      {"1\u00a02",
+       "1:1: expected the x of the eye, found '1\\xc2\\xa02' (a no-break space of a printed page: type a "
+       "blank)"},
       {"  1,5 2",
        "1:3: expected the x of the eye, found '1,5' (decimals have a point, and blanks stand between "
        "numbers)"},
