@@ -107,8 +107,8 @@ def places_for_all():
 
 
 def remove_what_is_left(users, since):
-    """Removes what users have made since a time in such folders, and there in folders of programs, and their
-    segments, semaphores and queues of System V."""
+    """Removes what users have made since a time in such folders, and there in folders of programs, their
+    segments, semaphores and queues of System V, and their message queues of POSIX."""
     theirs = [word for user in users for word in ("-o", "-uid", str(user))][1:]
     others = ["-uid", f"-{FIRST_USER}", "-o", "-uid", f"+{FIRST_USER + USERS - 1}"]
     # by -execdir, as a program may put links in place of folders; it takes only absolute ones on the PATH
@@ -124,6 +124,10 @@ def remove_what_is_left(users, since):
         for row in rows:
             if row[names.index("cuid")] in theirs:
                 remove(int(row[1]), 0, 0)  # 0 is IPC_RMID
+    with tempfile.TemporaryDirectory() as queues:  # POSIX's, where the system mounts them nowhere
+        subprocess.run([
+            "unshare", "--mount", "sh", "-c", 'mount -t mqueue none "$0" && exec find "$0" "$@" -delete',
+            queues, "(", *theirs, ")"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def expect_runnable(user, program):

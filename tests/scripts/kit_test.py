@@ -73,7 +73,7 @@ if not SANDBOX:
     os.chmod("/tmp/left", 0)
 '''
 # Each while another program runs: ends all that it can, and is right; takes another's file, or is right if it
-# can read results, and leaves a segment and a folder.
+# can read results, and leaves a segment, a queue and a folder.
 KILLER = "import os, signal\nif not os.fork(): os.kill(-1, signal.SIGKILL)\nos.wait()\n"
 STAYS = '''import signal, subprocess, time
 signal.signal(signal.SIGTERM, signal.SIG_IGN)
@@ -84,6 +84,7 @@ time.sleep(999)
 THIEF = '''import ctypes, glob, os, sys, time
 OUT = "/autograder/*.out/*"
 ctypes.CDLL(None).shmget(0, 4096, 0o1600)
+ctypes.CDLL(None).mq_open(b"/left", os.O_CREAT | os.O_RDWR, 0o600, None)
 os.mkdir("/tmp/left")
 os.chmod("/tmp/left", 0o777)
 end, given = time.monotonic() + 5, sys.stdin.read()
@@ -331,9 +332,10 @@ class Judges(KitTest):
             for name in ("right", hostile):
                 shutil.copytree(f"hand-ins/{name}", top / name, dirs_exist_ok=True)
             judges = "".join(f"source/judge {name} {name}.out & " for name in ("right", hostile)) + "wait"
+            look = "mkdir -p /mq; mount -t mqueue none /mq; cat /proc/sysvipc/shm; ls /tmp; ls /mq"
             done = subprocess.run(
-                entered(top, "/autograder", "sh", "-c", f"{judges}; cat /proc/sysvipc/shm; ls /tmp",
-                        without="usr/bin/bwrap"), timeout=250, capture_output=True, text=True)
+                entered(top, "/autograder", "sh", "-c", f"{judges}; {look}", without="usr/bin/bwrap"),
+                timeout=250, capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             first, second, header, *left = done.stdout.splitlines()
             for line in (first, second):
