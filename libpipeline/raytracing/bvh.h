@@ -14,7 +14,7 @@
 
 namespace pipeline {
 
-/// Two doubles, calculated with at a time where the processor can.
+/// Two doubles, on which most processors calculate at once.
 typedef double TwoDoubles __attribute__((vector_size(16)));
 
 /// A box around a primitive, rounded outward.

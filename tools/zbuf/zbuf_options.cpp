@@ -37,10 +37,11 @@ ZbufOptions::ZbufOptions(CommandLine& options) : PictureOptions(options, "zbuf",
                    "Write the visible triangles, as text from which zbuf draws the same picture; - is "
                    "standard output. Image and "
                    "depths are then written only if asked for");
-  options.add_word("--certify", "FILE", certainty_path,
-                   "Write how many pixels certainly show what exact arithmetic shows, and the row and "
-                   "column of the others "
-                   "(needs model --bounds and --coverage center); - is standard output, without depths");
+  options.add_word(
+      "--certify", "FILE", certainty_path,
+      "Write how many pixels certainly show what exact arithmetic shows, and the row and column "
+      "of the others (needs model --bounds and --coverage center); - is standard output, without "
+      "depths");
   add_pixels(options);
   options.begin_group("Color and light");
   add_shading(options);
