@@ -89,19 +89,17 @@ def promise(results):
     """The findings of the check of single digits."""
     counts = counts_of(results, "wrong_without_note")
     found = f"{sum(counts)} runs" if any(counts) else "none"
-    return (f"Of {3 * len(counts)} runs of a stage, {found} printed a digit without a note that is not the "
-            f"specification's for the numbers the stage had read.")
+    return f"Of {3 * len(counts)} runs of a stage, {found} printed a wrong digit for what it had read without a note."
 
 
 def tables(rows):
     """For docs/accuracy.md; the cells are text."""
     results = Results(rows)
-    return filled(f"""The first value at which a pixel shows another triangle than is true, and whether a tool
-notes it:
+    return filled(f"""The first value at which a pixel is wrong, and the first with a note:
 
 {table(results, lambda *cell: results.first(*cell, "wrong_pixels"))}
-With bounds and `zbuf --certify`, the first value at which pixels are uncertain (how many of 9,216), and the
-first at which some are wrong (how many of the uncertain ones). {certainty(results)}
+With `zbuf --certify`, the first value with uncertain pixels (how many of 9,216), and the first with wrong
+ones (how many of the uncertain ones). {certainty(results)}
 
 {table(results, results.uncertain)}
 {promise(results)}
