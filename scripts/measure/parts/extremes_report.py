@@ -66,11 +66,11 @@ def code(setting):
 
 
 def table(results, cell):
+    """Without the settings that are refused everywhere."""
+    rows = [[code(setting), *(cell(direction, setting) or "-" for direction in DIRECTIONS)]
+            for setting in results.settings]
     lines = ["| setting | " + " | ".join(DIRECTIONS) + " |", "|---|" + "---|" * len(DIRECTIONS)]
-    lines += [
-        f"| {code(setting)} | " + " | ".join(cell(direction, setting) or "-"
-                                             for direction in DIRECTIONS) + " |"
-        for setting in results.settings]
+    lines += [f"| {' | '.join(row)} |" for row in rows if {*row[1:]} != {"refused"}]
     return "\n".join(lines) + "\n"
 
 
@@ -89,7 +89,8 @@ def promise(results):
     """The findings of the check of single digits."""
     counts = counts_of(results, "wrong_without_note")
     found = f"{sum(counts)} runs" if any(counts) else "none"
-    return f"Of {3 * len(counts)} runs of a stage, {found} printed a wrong digit for what it had read without a note."
+    return (f"Of {3 * len(counts)} runs of a stage, {found} printed, without a note, a wrong digit for what it "
+            f"had read.")
 
 
 def tables(rows):
