@@ -88,7 +88,7 @@ class Prefix(ToolTest):
 
     def test_help_of_a_command_is_its_own(self):
         self.assertEqual(run(self.pipeline, "help", "show"), (0, "show <--help>\n", ""))
-        self.assertTrue(run(self.pipeline, "help", "env")[1].startswith("usage: pipeline COMMAND"))
+        self.assertTrue(run(self.pipeline, "help", "env")[1].startswith("Usage: pipeline COMMAND"))
 
     def test_help_of_a_paragraph_is_that_of_conform(self):
         self.refuses(["help", "Z5"], "expected a command, found 'Z5' (try pipeline help)")

@@ -31,7 +31,7 @@ class Help(ToolTest):
             with self.subTest(command.relative_to(SOURCE)):
                 done = subprocess.run([command, "--help"], capture_output=True, text=True, timeout=60)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
-                self.assertRegex(done.stdout, rf"\Ausage: {command.name}\b")
+                self.assertRegex(done.stdout, rf"\A[Uu]sage: {command.name}\b")
                 self.assertEqual([line for line in done.stdout.splitlines() if len(line) > 80], [])
 
     def test_help_that_cannot_be_written_is_a_failure(self):

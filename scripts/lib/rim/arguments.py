@@ -13,7 +13,8 @@ from lib.rim.output_file import place_of
 
 STANDARD_OUTPUT = ("", "/dev/stdout")
 RARE = frozenset("""--threshold --min-contribution --max-depth --no-recursion --facets --crease --nodes
-    --max-input --memory-limit --time-limit --linear --threads""".split())  # shown by --help-all alone
+    --max-input --memory-limit --time-limit --linear --threads --address-space --processes
+    --env""".split())  # shown by --help-all alone
 OPERANDS = ("scene", "config", "path", "model")
 OTHER_WAYS = {  # {(command, option that is not there, or no longer): what to use}
     ("picture", "--up"): "now --up-axis",
@@ -68,7 +69,7 @@ class CommandParser(argparse.ArgumentParser):
     first paragraph of the description; the options follow, without rare ones, then the other paragraphs."""
     def __init__(self, **settings):
         super().__init__(formatter_class=HelpFormatter, add_help=False, **settings)
-        self._positionals.title = "operands"
+        self._positionals.title, self._optionals.title = "Operands", "Options"
         for *names, text in (("-h", "--help", "print this help and exit; --help-all: all of it"),
                              ("--help-all", argparse.SUPPRESS)):
             self.add_argument(*names, action=HelpAction, nargs=0, default=argparse.SUPPRESS, help=text)
@@ -77,7 +78,7 @@ class CommandParser(argparse.ArgumentParser):
         paragraphs = (self.description or "").strip("\n").split("\n\n")
         example = next((text.split("\n")[1] for text in paragraphs if text.startswith("Examples:\n")), None)
         formatter = self._get_formatter()
-        formatter.add_usage(self.usage, self._actions, self._mutually_exclusive_groups)
+        formatter.add_usage(self.usage, self._actions, self._mutually_exclusive_groups, "Usage: ")
         formatter.add_text(example and "Example:\n" + example)
         formatter.add_text(paragraphs[0])
         for group in self._action_groups:

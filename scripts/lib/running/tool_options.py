@@ -3,7 +3,7 @@ CLIPS = ("auto", "near", "frustum", "reject", "none")
 
 
 def add_options_of_project(group):
-    group.add_argument("--aspect", choices=["angle", "ratio"], help="how a perspective's aspect is meant")
+    group.add_argument("--aspect", choices=["angle", "ratio"], help="the meaning of a perspective's aspect")
     group.add_argument("--clip", choices=CLIPS, help="where triangles are cut")
     group.add_argument("--cull", choices=["back", "front"], help="the side of triangles to drop")
 

@@ -15,7 +15,7 @@ def attribute(option):
 
 
 def add_trace_options(parser):
-    group = parser.add_argument_group("ray tracing, as for trace")
+    group = parser.add_argument_group("Ray tracing, as for trace")
     group.add_argument("--trace", action="store_true",
                        help="draw with trace, in place of project and zbuf: shadows, mirrors, glass, spheres")
     for option, (value, told) in VALUES.items():

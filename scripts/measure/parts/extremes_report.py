@@ -89,8 +89,8 @@ def promise(results):
     """The findings of the check of single digits."""
     counts = counts_of(results, "wrong_without_note")
     found = f"{sum(counts)} runs" if any(counts) else "none"
-    return (f"Of {3 * len(counts)} runs of a stage, {found} printed, without a note, a wrong digit for what it "
-            f"had read.")
+    return (f"Of {3 * len(counts)} runs of a stage, {found} printed, without a note, a wrong digit for the "
+            "numbers it had read.")
 
 
 def tables(rows):
