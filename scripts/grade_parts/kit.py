@@ -22,13 +22,15 @@ TOOLS = ("model", "view", "project", "zbuf")
 OF_A_TEST = ("scene.txt", "config.txt", "weight.txt")
 DATE = (1980, 1, 1, 0, 0, 0)  # of every file, so that the same kit has the same bytes
 PT_INTERP = 3
-ENTRY = '''#!/usr/bin/env python3
+ENTRY = '''#!/usr/bin/env -S python3 -I
 """{words}"""
 import os
 import sys
 
+if not sys.flags.isolated:  # a hand-in may lie here, and modules of its own in it
+    os.execv(sys.executable, [sys.executable, "-I", *sys.argv])
 sys.dont_write_bytecode = True
-sys.path[0] = {place}  # not this folder, where a hand-in may lie
+sys.path.insert(0, {place})
 
 from grade_parts.kit_{kind} import main
 from lib.rim.command import run_command

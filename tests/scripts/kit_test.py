@@ -274,7 +274,8 @@ class Judges(KitTest):
             path = pathlib.Path(f"hand-ins/hostile/{sample}/stage1.txt")
             path.unlink()
             path.symlink_to(f"/autograder/source/pipeline/assignment/{sample}/scene.txt")
-        for name in ("result.json", "results.json"):
+        os.makedirs("hand-ins/hostile/result.json/of/a/folder")
+        for name in ("release-body.md", "results.json"):
             pathlib.Path("hand-ins/hostile", name).symlink_to("/secret/teacher.txt")
         self.expect_points_of_grade({
             "right": dict.fromkeys(SAMPLES, 1.0), "hostile": dict.fromkeys(SAMPLES, round(6.5 / 7.5, 4)),
