@@ -298,6 +298,8 @@ class FlyWindow:
             project_words = self.settings.project_words() + self.settings.gap_words(self.pipe.projection)
             frame = self.pipe.frame(self.settings.camera.lines(), project_words, config, self.drawing_words())
         except CommandFailure as error:
+            if self.pipe.frame_image is None:  # the first one
+                raise
             self.settings = self.before
             return self.say(str(error))
         self.photo.configure(data=frame)
@@ -310,7 +312,7 @@ class FlyWindow:
         if size == self.size:
             self.whole_seconds = seconds
         self.tell(size, seconds)
-        return None
+        return frame
 
     def tell(self, size, seconds):
         times = "   ".join(f"{name} {'reused' if spent is None else f'{1000 * spent:.0f} ms'}"
@@ -358,8 +360,8 @@ class FlyWindow:
         self.write(self.outputs[0], self.scene_text)
 
     def write_picture(self):
-        self.draw(self.size)
-        self.write(self.outputs[1], lambda: png(*read_picture(self.pipe.image)))
+        if self.draw(self.size):
+            self.write(self.outputs[1], lambda: png(*read_picture(self.pipe.image)))
 
     def write(self, path, content):
         try:

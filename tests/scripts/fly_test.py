@@ -368,6 +368,19 @@ class Flying(WindowTest):
         pathlib.Path("shown.ppm").write_bytes(self.shown())
         self.assertEqual(read_picture("fly.png"), read_picture("shown.ppm"))
 
+    def test_a_stage_that_dies_in_each_frame_is_named_and_leaves_the_picture(self):
+        from lib.running.pipe_tools import Tools, ToolCrash
+        first = self.shown()
+        pathlib.Path("tools/project").write_text("#!/bin/sh\nkill -9 $$\n")
+        for key in ("w", "d", "b"):
+            self.press(key)
+            self.assertEqual((self.status(), self.shown()), ("project: ended by SIGKILL", first))
+        with self.assertRaisesRegex(ToolCrash, "project: ended by SIGKILL"):
+            self.open(Tools("tools"), "scene.txt", CONFIG)
+        os.unlink("scene.txt")
+        self.press("p")
+        self.assertEqual(self.status(), "cannot read scene.txt: No such file or directory")
+
     def test_what_a_tool_refuses_is_said_and_taken_back(self):
         from lib.running.pipe_tools import Tools
         pathlib.Path("dark.txt").write_text("\n".join(
