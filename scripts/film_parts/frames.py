@@ -13,7 +13,7 @@ from lib.rim.input_file import read_input
 from lib.rim.output_file import OutputFile, write_file
 from lib.rim.parallel import Job, run_parallel
 from lib.rim.work_folder import WorkFolder
-from lib.running.pipe_tools import STAGE_IN_SHELL
+from lib.running.pipe_tools import STAGES_IN_SHELL, failure_of_jobs
 from lib.showing.pictures import PNG_SIGNATURE, png, png_chunk, png_chunks
 
 FRAMES_PER_JOB = 8
@@ -22,21 +22,22 @@ TEXTS = ("world.txt", "config.txt", "frames.txt", "draw.sh")
 # What draws the text of view; $projection is split into words.
 RASTERIZED = "stage project $projection | stage zbuf config.txt --expect-framed"
 TRACED = "stage trace config.txt --expect-framed $projection"
-# In a frame's folder: the stages on one camera. Their messages get the frame's name; the picture appears
+# In a frame's folder: the stages on one camera. Their notes get the frame's name; the picture appears
 # complete or not at all, as world.txt is framed. $1 is the picture, $2 the camera's words, $3 the
-# projection's; the rest are the drawing stage's, DRAWING.
+# projection's; the rest are the drawing stage's, DRAWING. A frame that fails ends all jobs that begin later.
 DRAW = r'''draw() {
   picture=$1 camera=$2 projection=$3; shift 3
   [ ! -e "$picture" ] || return 0
   statuses=$({ stage view $camera world.txt | DRAWING --z-buffer none "$@" --image "$picture"; } 3>&1 \
     > /dev/null 2> "$picture.log") && [ -z "$statuses" ] || {
-    failed=yes
-    grep -qv ": note: " "$picture.log" || echo "$statuses" >> "$picture.log"
-    rm -f "$picture"
+    fail "$picture" "${picture%.png} ($camera)"
+    echo "exit 1" > "$picture.log" && mv "$picture.log" draw.sh
+    exit 1
   }
   sed "s|^|${picture%.png} ($camera): |" "$picture.log" >&2
   rm -f "$picture.log"
-}'''
+}
+'''
 
 
 def is_whole(path):
@@ -117,25 +118,25 @@ class Frames:
         calls = [
             f"draw {self.names[i]} {shlex.quote(self.views[i])} {shlex.quote(self.projections[i])} {words}"
             for i in frames]
-        return ". ./draw.sh; " + "; ".join(calls) + '; [ -z "$failed" ]'
+        return ". ./draw.sh; " + "; ".join(calls)
 
     def draw(self, options_of_parallel):
         self.prepare()
         missing = [i for i, name in enumerate(self.names) if not os.path.exists(self.folder / name)]
         if not missing:
             return
-        settings = f"bin={shlex.quote(str(self.tools.folder))} failed=\n" + STAGE_IN_SHELL
-        self.folder.write("draw.sh", (settings + DRAW.replace("DRAWING", self.drawing) + "\n").encode())
+        settings = f"bin={shlex.quote(str(self.tools.folder))}\n" + STAGES_IN_SHELL
+        self.folder.write("draw.sh", (settings + DRAW.replace("DRAWING", self.drawing)).encode())
         groups = [missing[i:i + FRAMES_PER_JOB] for i in range(0, len(missing), FRAMES_PER_JOB)]
         jobs = [Job(self.job(group), gives=[self.names[i] for i in group]) for group in groups]
         common = ["world.txt", "config.txt", "draw.sh"]
-        status = run_parallel(self.folder.path, jobs, "film", common, options_of_parallel)
+        status, printed = run_parallel(self.folder.path, jobs, "film", common, options_of_parallel)
         missing = [i for i, name in enumerate(self.names) if not is_whole(self.folder / name)]
         if missing:
+            first = f"the first is {self.names[missing[0]]} ({self.views[missing[0]]})"
             raise CommandFailure(
-                f"{len(missing)} of {len(self.names)} frames have not been drawn, the first is "
-                f"{self.names[missing[0]]} ({self.views[missing[0]]}); "
-                "the same command draws those that are missing")
+                f"{len(missing)} of {len(self.names)} frames have not been drawn: "
+                f"{failure_of_jobs(printed) or first}; the same command draws those that are missing")
         if status != 0:
             raise CommandFailure(f"parallel ended with status {status}, though all frames are there")
 

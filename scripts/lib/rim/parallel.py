@@ -3,6 +3,7 @@ import contextlib
 import os
 import shutil
 import subprocess
+import tempfile
 from dataclasses import dataclass, field
 
 from lib.rim.child import adopt_orphans
@@ -28,8 +29,8 @@ def columns(jobs, files_of, first):
 
 
 def run_parallel(folder, jobs, name, common=(), options=()):
-    """Runs the jobs in the folder; the status of parallel. `common` are files that all jobs read, `name` that
-    of the command.
+    """Runs the jobs in the folder; the status of parallel, and the jobs' stdout. `common` are files that all
+    jobs read, `name` that of the command.
 
     Another machine works in a folder of its own, which is removed afterwards: files are sent there, and those
     of a job come back."""
@@ -52,8 +53,9 @@ def run_parallel(folder, jobs, name, common=(), options=()):
         lines = [job.line for job in jobs]
         words += options
     adopt_orphans()
-    with subprocess.Popen(words, cwd=folder, stdin=subprocess.PIPE, text=True,
-                          env={**os.environ, "PARALLEL_SHELL": "/bin/sh"}) as process:
+    with tempfile.TemporaryFile("w+") as printed, subprocess.Popen(
+            words, cwd=folder, stdin=subprocess.PIPE, stdout=printed, text=True,
+            env={**os.environ, "PARALLEL_SHELL": "/bin/sh"}) as process:
         try:
             with contextlib.suppress(BrokenPipeError):
                 process.stdin.write("".join(line + "\n" for line in lines))
@@ -62,7 +64,8 @@ def run_parallel(folder, jobs, name, common=(), options=()):
         except BaseException:
             process.kill()
             raise
-    return process.returncode
+        printed.seek(0)
+        return process.returncode, printed.read()
 
 
 def show_files(process, files):

@@ -63,24 +63,29 @@ def with_opaque_background(text):
     return TRANSPARENT.sub(rb"\1", text, count=1) if opaque_background(text) else text
 
 
+PIPE = ("model", "view", "project", "zbuf", "trace")
 # What makes a part of a text refused, if a tool of the pipe is killed.
 FRAMING = {"model": ["--framed"], **dict.fromkeys(("join-seen", "zbuf", "trace"), ["--expect-framed"])}
-# A tool of a pipe in sh, which says on stderr if it is killed, and on descriptor 3 if it ends with a status
-# above 0; the shell itself knows the status of the last one alone.
-STAGE_IN_SHELL = r'''
+# A pipe in a job of sh, which knows the status of the last tool alone: descriptor 3 gets that of each that
+# fails, and `fail` then prints what failure_of_jobs reads. $1 is the job's output, $2 its name.
+STAGES_IN_SHELL = r'''
 stage() {
   "$bin/$@" 3>&- && return
   set -- "$1" $?
-  if [ "$2" -le 128 ]; then
-    echo "$1: exit status $2" >&3
-  elif [ "$2" != 141 ]; then
-    echo "$1: ended by SIG$(kill -l "$2")" >&2
-  fi
-  return "$2"
+  echo "$1: status $(($2 > 128 ? 128 - $2 : $2))" >&3
+  return 1
+}
+fail() {
+  echo "$2"
+  cat "$1.log"
+  echo "$statuses"
+  echo
+  rm -f "$1" "$1.log"
 }
 '''
-
-NO_REASON = re.compile(r": note: |^\w+: \d+ triangles? in |^\d+,\d+: ")  # of --timing, and of trace's --probe
+STATUS = r"^(\w+): status (-?\d+)$"
+# Of --timing, of trace's --probe, and of stages in sh.
+NO_REASON = re.compile(r": note: |^\w+: \d+ triangles? in |^\d+,\d+: |" + STATUS)
 
 
 class Done:
@@ -97,19 +102,28 @@ def name_of_signal(number):
 
 
 def expect_success(*pipe):
-    """Raises the error of the first tool that was killed, else of the first that says why it failed: others
-    have only lost their input or their reader. A kill does not count where the last has read a whole frame.
-    """
-    has_frame = len(pipe) > 1 and not pipe[-1].status and FRAMING.get(pipe[-1].name) == ["--expect-framed"]
-    failed = [tool for tool in pipe if tool.status > 0 or tool.status < 0 and not has_frame]
-    for tool in sorted(failed, key=lambda tool:
-                       (tool.status == -signal.SIGPIPE, tool.status > 0, not tool.reasons)):
+    """Raises the error of the first tool that was killed, else of the first that failed: others have only
+    lost their input or their reader."""
+    failed = [tool for tool in pipe if tool.status]
+    for tool in sorted(failed, key=lambda tool: (tool.status == -signal.SIGPIPE, tool.status > 0)):
         if tool.status < 0:
             raise ToolCrash(f"{tool.name}: ended by {name_of_signal(-tool.status)}")
         if not tool.reasons:
             raise ToolCrash(f"{tool.name}: exit status {tool.status}")
         is_out = tool.reasons[-1] == f"{tool.name}: not enough memory"
         raise (ToolOutOfMemory if is_out else ToolFailure)("\n".join(tool.reasons))
+
+
+def failure_of_jobs(printed):
+    """Why the first job failed in which a tool did; empty if there is none."""
+    job, _, record = printed.split("\n\n")[0].partition("\n")
+    statuses = dict(re.findall(STATUS, record, re.M))
+    own = {tool: "\n".join(line for line in record.splitlines() if f"{tool}: " in line) for tool in statuses}
+    try:
+        expect_success(*(Done(tool, int(statuses[tool]), own[tool].encode()) for tool in PIPE if tool in own))
+    except CommandFailure as failure:
+        return f"{job}: {failure}"
+    return ""
 
 
 def checked(done, tool):
