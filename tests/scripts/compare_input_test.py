@@ -7,13 +7,12 @@ usage: compare_input_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import os
 import pathlib
 import resource
-import signal
 import struct
 import subprocess
 import unittest
 import zlib
 
-from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals
+from toolbox import BIN, SOURCE, ToolTest
 
 COMPARE = SOURCE / "scripts/compare"
 ENVIRONMENT = {"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
@@ -358,20 +357,6 @@ class Endings(InputTest):
         done = shell('"$COMPARE" a a > /dev/full')
         self.assert_not_compared(done, "cannot write <stdout>: No space left on device")
         self.assert_not_compared(shell('"$COMPARE" a a >&-'), "cannot write <stdout>: Bad file descriptor")
-
-    def test_an_interrupt_is_no_traceback(self):
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            with self.subTest(number):
-                os.mkfifo("pipe")
-                process = subprocess.Popen([COMPARE, "pipe", "b"], stdout=subprocess.PIPE,
-                                           stderr=subprocess.PIPE, env=ENVIRONMENT, preexec_fn=heed_signals)
-                with open("pipe", "wb") as pipe:  # opens once the script reads
-                    pipe.write(b"1")
-                    pipe.flush()
-                    errors = end_by_signal(process, number)[1]
-                self.assertEqual((errors.decode(), process.returncode),
-                                 (f"compare: ended by {number.name}\n", -number))
-                os.unlink("pipe")
 
 
 class FiveFiles(InputTest):

@@ -15,8 +15,7 @@ import time
 import unittest
 
 from fly_parts.pipe import FramePipe
-from lib.rim.command import CommandFailure
-from lib.running.pipe_tools import FRAMING, Done, ToolCrash, Tools, expect_success
+from lib.running.pipe_tools import FRAMING, ToolCrash, Tools
 from toolbox import (BIN, SOURCE, TOOLS, ToolTest, add_claims, end_by_signal, heed_signals, run_script)
 
 TRACED = ("model", "view", "trace")
@@ -96,14 +95,6 @@ class KilledStages(ToolTest):
             self.make_tools(stages[number % len(stages)], "never")
             self.end(signals[number % 3], *command.split(), *words.replace("kept", "new/five").split())
             self.assertEqual(self.contents(), before)
-
-    def test_what_failed_first_is_named(self):
-        for statuses, expected in (((-13, -13, -13, 3), "zbuf: exit status 3"), ((-13, -9, 0, 1),
-                                                                                 "view: ended by SIGKILL"),
-                                   ((0, -13, 0, 0), "view: ended by SIGPIPE"), ((0, 1, 0, 0),
-                                                                                "view: exit status 1")):
-            with self.assertRaisesRegex(CommandFailure, expected):
-                expect_success(*(Done(name, status, b"") for name, status in zip(TOOLS, statuses)))
 
     def test_fly_and_a_framed_pipe_of_ones_own_show_nothing_of_a_part(self):
         pathlib.Path("out.bmp").write_text("older")
