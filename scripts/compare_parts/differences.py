@@ -8,7 +8,7 @@ NAMES_OF = {"color": ["red", "green", "blue"], "normal": [f"{axis} of the normal
 
 
 def exceeds(a, b, tolerance):
-    """Whether a and b differ by more than the tolerance and by more than reading decimals as doubles can
+    """True if a and b differ by more than the tolerance and by more than reading decimals as doubles can
     add."""
     return abs(a - b) > tolerance + 4 * math.ulp(max(abs(a), abs(b)))
 

@@ -19,7 +19,7 @@ from lib.showing.pictures import PNG_SIGNATURE, png, png_chunk, png_chunks
 FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999
 TEXTS = ("world.txt", "config.txt", "frames.txt", "draw.sh")
-# What draws the text of view; $projection is split into words.
+# The command that draws the text of view; $projection is split into words.
 RASTERIZED = "stage project $projection | stage zbuf config.txt --expect-framed"
 TRACED = "stage trace config.txt --expect-framed $projection"
 # In a frame's folder: the stages on one camera. Their notes get the frame's name; the picture appears
@@ -41,7 +41,7 @@ DRAW = r'''draw() {
 
 
 def is_whole(path):
-    """Whether it is a PNG file whose chunks all have their checksums, to the last."""
+    """True if it is a PNG file whose chunks all have their checksums, to the last."""
     data = pathlib.Path(path).read_bytes() if os.path.isfile(path) else b""
     chunks = list(png_chunks(data))
     return chunks[-1:] == [

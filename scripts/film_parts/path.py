@@ -23,7 +23,7 @@ class Key:
 
 
 def is_usable(camera):
-    """Whether the camera has a direction, and an up that is not along it."""
+    """True if the camera has a direction, and an up that is not along it."""
     forward = tuple(b - a for a, b in zip(camera.eye, camera.look))
     size = math.hypot(*forward) * math.hypot(*camera.up)
     return size > 0 and math.hypot(*cross(forward, camera.up)) > 1e-12 * size

@@ -1,4 +1,4 @@
-"""Where a scene is, and from where a camera has it in sight."""
+"""The place of a scene, and of a camera that has it in sight."""
 import dataclasses
 import math
 
@@ -57,7 +57,7 @@ def framing_distance(ball, header):
 
 
 def direction(camera, ball):
-    """Where the ball is, in words: "behind you, to the left, 12 away"."""
+    """The place of the ball, in words: "behind you, to the left, 12 away"."""
     way = tuple(b - a for a, b in zip(camera.eye, ball.center))
     right, up, ahead = (dot(way, axis) for axis in (camera.right, camera.up, camera.forward))
     words = ["behind you"] if ahead < 0 else []

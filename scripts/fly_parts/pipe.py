@@ -160,7 +160,7 @@ class FramePipe:
         return self.frame_image
 
     def is_empty(self):
-        """Whether no triangle is seen in the last frame, as the last stage notes."""
+        """True if no triangle is seen in the last frame, as the last stage notes."""
         return any("the picture is empty" in note for note in self.stages[self.last].notes)
 
     def seconds(self):

@@ -178,7 +178,7 @@ def amount(text, most=MOST_POINTS):
 
 
 def holds_tests(folder):
-    """Whether there are folders in this folder, and each has a scene, which no hand-in needs."""
+    """True if there are folders in this folder, and each has a scene, which no hand-in needs."""
     try:
         have_scenes = [
             os.path.isfile(os.path.join(entry.path, "scene.txt")) for entry in os.scandir(folder)

@@ -71,7 +71,7 @@ def folder_of(paths, test_name, is_only_test):
 
 
 def looked_for(test, is_only_test):
-    """Where files_for looks, for a hand-in in which nothing is found."""
+    """The places where files_for looks, for a hand-in in which nothing is found."""
     names = [KINDS[kind][0] for kind in test.kinds]
     places = "in any one folder" if is_only_test else (
         f"in a folder {shown(test.name)}, or with its name before or behind theirs, as {shown(test.name)}-"
@@ -91,7 +91,7 @@ def files_for(contents, test, is_only_test):
 
 
 def flat_files(paths, test_name):
-    """{name: path} of files whose names begin or end with that of their test, without it."""
+    """{name: path} of files whose names begin or end with their test's name, which `name` lacks."""
     found, wanted = {}, plain(test_name)
     for path in sorted(paths, key=len, reverse=True):
         stem, suffix = os.path.splitext(path[-1])

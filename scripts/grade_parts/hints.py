@@ -10,7 +10,7 @@ LEVELS = ("none", "stage", "cause", "fix")
 
 
 def gives(level, what):
-    """Whether a level of hints gives away what another one does."""
+    """True if a level of hints gives away what another one does."""
     return LEVELS.index(level) >= LEVELS.index(what)
 
 

@@ -81,7 +81,7 @@ def write_kit(kind, folder, path):
 
 
 def runs_anywhere(data):
-    """Whether a program asks for no loader of libraries: an ELF of 64 bits without PT_INTERP."""
+    """True if a program asks for no loader of libraries: an ELF of 64 bits without PT_INTERP."""
     if not data.startswith(b"\x7fELF\x02\x01"):
         return False
     start, = struct.unpack_from("<Q", data, 32)

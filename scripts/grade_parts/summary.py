@@ -21,7 +21,7 @@ def equal_files(graded):
 
 
 def findings(graded):
-    """What a hand-in counts for: pairs of a stage and words, each once for all tests."""
+    """The mistakes of a hand-in: pairs of a stage and words, each once for all tests."""
     if graded.failure:
         yield "", graded.failure.rstrip(".")
     tests = collections.Counter(pair for test in graded.tests for pair in {(file.stage, cause.text)
@@ -29,7 +29,7 @@ def findings(graded):
                                                                            for cause in file.causes})
     for test in graded.tests:
         for file in test.verdict.files:
-            if file.verdict == WRONG:  # of causes that one test cannot tell apart, those of most tests
+            if file.verdict == WRONG:  # of causes that one test cannot tell apart, the most frequent
                 most = max((tests[file.stage, cause.text] for cause in file.causes), default=0)
                 yield file.stage, "; or: ".join(
                     cause.text.rstrip(".") for cause in file.causes

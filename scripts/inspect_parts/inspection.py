@@ -21,7 +21,7 @@ MAX_DRAWN_TRIANGLES = 200000
 MAX_FRAGMENTS = 3000000
 MAX_FACETS = 20000  # of all spheres
 BELTS = 2, 16  # the fewest and the most of a sphere
-# Of the time for a large page how many per cent have passed at the end of each step.
+# The per cent of the time for a large page that have passed at the end of each step.
 SHARES = {"model": 11, "view": 21, "project": 32, "zbuf": 48}
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
 BEGINS = (*NUMBER_BEGINS, "triangle ", "clipped", "sphere")  # of the lines behind a header

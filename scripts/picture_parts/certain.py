@@ -144,7 +144,7 @@ def content(path):
 
 
 def numbers(path, size):
-    """Those of a file by zbuf --triangle-array, for a picture of this size."""
+    """The triangle numbers of a file by zbuf --triangle-array, for a picture of this size."""
     found = array.array("q")
     found.frombytes(content(path)[-found.itemsize * math.prod(size):])
     return found

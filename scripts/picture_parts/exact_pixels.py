@@ -46,7 +46,7 @@ class Fragment:
         self.depth, self.is_sure = depth, is_sure
 
     def hides(self, other):
-        """Whether it certainly does."""
+        """True if it certainly does."""
         try:
             if self.clip is other.clip or self.depth == other.depth:  # if the same triangle, no digits matter
                 return self.is_sure and self.number < other.number
@@ -93,7 +93,7 @@ class ExactPixels:
             raise TooMuch
 
     def matrices_of(self, triangle):
-        """Of each chain of transforms, those that the last triangles had need not be multiplied again."""
+        """The matrix of its transforms; matrices of earlier triangles are used again."""
         missing, in_force = [], triangle.in_force
         while line_of(in_force) not in self.matrices and in_force:
             missing.append(in_force)
@@ -159,7 +159,7 @@ class ExactPixels:
         return not depth < self.window.front and depth < self.window.rear
 
     def is_left(self, clip, depth):
-        """Whether cutting the triangle by P7 leaves what is at this depth; Undecided on the cut."""
+        """True if cutting the triangle by P7 leaves what is at this depth; Undecided on the cut."""
         if self.projection.is_parallel or (depth + 1).sign > 0:
             return True
         is_cut = any(w < self.projection.near / CUT_WITHIN for *_, w in clip)
@@ -185,7 +185,7 @@ def unscaled(projection):
 
 
 def is_owned(edge, side, area_sign):
-    """Whether a center is on the inner side of the edge, or on a left or top edge (Z5)."""
+    """True if a center is on the inner side of the edge, or on a left or top edge (Z5)."""
     step_right, step_up = edge[:2]
     side = side.sign * area_sign
     return side > 0 or side == 0 and (step_right.sign * area_sign or -step_up.sign * area_sign) > 0
@@ -204,7 +204,7 @@ def in_doubles(x):
 
 
 class Outline:
-    """Where a triangle may be on the window, in doubles with their errors."""
+    """The part of the window where a triangle may be, in doubles with their errors."""
     def __init__(self, matrix, points, grid):
         """`matrix` leads to clip space; of it only the rows for x, y and w, as in_doubles."""
         self.grid = grid
@@ -230,7 +230,7 @@ class Outline:
         return bisect.bisect_left(pixels, min(places) - NEAR), bisect.bisect_right(pixels, max(places) + NEAR)
 
     def may_cover(self, x, y):
-        """Whether the center may be on the same side of all edges."""
+        """True if the center may be on the same side of all edges."""
         if not self.has_numbers:
             return True
         turned = [(p[0] - x * p[2], p[1] - y * p[2], e[0] + abs(x) * e[2] + ROUNDED * abs(x * p[2]),

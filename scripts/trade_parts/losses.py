@@ -134,7 +134,7 @@ class Truth:
         return self.felt[setting]
 
     def changes(self, setting):
-        """Whether the picture or the text changes with the lever that is not the default's: of clipping,
+        """True if the picture or the text changes with the lever that is not the default's: of clipping,
         culling, an epsilon or shading; others it feels, unless the tools refuse them."""
         try:
             if setting.certify != DEFAULT.certify:

@@ -43,7 +43,7 @@ def cells(row, unit):
 
 
 def about_times(times):
-    """How far the times can be trusted."""
+    """A sentence on the reliability of the times."""
     share = min(1, times.start_up / times.seconds_of_default)
     if times.unit != CPU_TIME:
         return (f"Times tell nothing here, where programs hardly run: {times.unit} are counted,\n"
@@ -73,7 +73,7 @@ def names(rows):
 
 
 def about_pixels(choice):
-    """How far the pixels of the chosen row can be relied on."""
+    """A sentence on the reliability of the pixels of the chosen row."""
     lines = [f"\n{row.setting}: {wrong} wrong with the eye moved a little" for row, wrong in choice.lucky]
     if choice.uncertain is not None:
         lines.append(f"\n{choice.uncertain} of its pixels are not certain (zbuf --certify)")
@@ -102,7 +102,7 @@ def answer(choice, is_met, limits, command_line, times):
 
 
 def notes(rows):
-    """What the stages note, each once after the settings with which they do."""
+    """The notes of the stages, each once after the settings with which they do."""
     found = {}
     for row in rows:
         for note in row.loss.notes:

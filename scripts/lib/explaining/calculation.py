@@ -30,7 +30,7 @@ class Calculation:
 
 
 def agrees(words, point, digits):
-    """Whether the words of a vertex in a stage text are a point's coordinates, correctly rounded."""
+    """True if the words of a vertex in a stage text are a point's coordinates, correctly rounded."""
     if digits == "exact":
         return list(map(float, words)) == list(map(float, point))
     return words == [coordinate(x, digits) for x in point]

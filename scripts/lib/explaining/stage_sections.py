@@ -61,7 +61,7 @@ def projection_facts(projection):
 
 
 def place_of(corner):
-    """Where a point in clip space is, in words."""
+    """The place of a point in clip space, in words."""
     if corner[3] <= 0:  # there the window's sides have changed places
         return "behind the eye"
     planes = outside_of(corner)
@@ -111,7 +111,7 @@ def window_section(stages, calculation, window):
 
 
 def extent(calculation, window, places, depths):
-    """Whether the picture can show the triangle, and how large it is there."""
+    """A line on the triangle's size in the picture, or on why it shows nowhere."""
     columns, rows = zip(*places)
     beyond = {
         "left of the picture": max(columns) < -0.5, "right of the picture": min(columns) > window.width - 0.5,

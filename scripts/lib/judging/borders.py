@@ -66,7 +66,7 @@ class Borders:
         return (t, low, high), inside >= REACH and low >= self.front and high < self.rear
 
     def has(self, t, row, column, z, tolerance):
-        """Whether a triangle has a depth within a pixel of the center of this one."""
+        """True if a triangle has a depth within a pixel of the center of this one."""
         found = self.fragment(t, row, column, tolerance)
         return found is not None and found[0][1] <= z <= found[0][2]
 
@@ -86,7 +86,7 @@ class Borders:
         return [t for t, left, right in boxes if left - REACH <= column <= right + REACH]
 
     def could_show(self, row, column, is_drawn, z, tolerance, seen):
-        """Whether the pixel may show what it does: a triangle (one of `seen`, unless that is None) with the
+        """True if the pixel may show what it does: a triangle (one of `seen`, unless that is None) with the
         depth z (unless that is None), or nothing."""
         fragments = [
             found for t in self.near(row, column) if (found := self.fragment(t, row, column, tolerance))]
@@ -99,7 +99,7 @@ class Borders:
 
 
 class BorderRule:
-    """Whether the nearest of our two rules, with its Mismatch, explains all but borders. `context` is a
+    """True if the nearest of our two rules, with its Mismatch, explains all but borders. `context` is a
     pixel_comparing.Context of a picture."""
     def __init__(self, context, mismatch):
         self.mismatch, self.pixels = mismatch, context.shown.pixels()
@@ -117,7 +117,7 @@ class BorderRule:
 
     @property
     def shows_each_triangle(self):
-        """Whether the picture shows half of the visible pixels of each triangle that has one at least REACH
+        """True if the picture shows half of the visible pixels of each triangle that has one at least REACH
         inside its outline, and any of all smaller ones."""
         visible, agreeing, deep = collections.Counter(), collections.Counter(), set()
         for row in range(self.drawing.triangles.grid.height):
@@ -132,7 +132,7 @@ class BorderRule:
                                                                                       for t in small))
 
     def is_other(self, row, column, t):
-        """Whether a pixel shows something else than triangle t. A triangle whose pixels have the color and
+        """True if a pixel shows something else than triangle t. A triangle whose pixels have the color and
         the depths of another is not shown."""
         mismatch, kind = self.mismatch, self.mismatch.pixels.get((row, column))
         if kind != "depth" or not self.pixels.colors:
@@ -148,7 +148,7 @@ class BorderRule:
             for other in self.borders.near(row, column) if other in same and other != t)
 
     def is_within_reach(self, place):
-        """Whether a pixel shows what a triangle with its color, if it has one, has within REACH."""
+        """True if a pixel shows what a triangle with its color, if it has one, has within REACH."""
         (row, column), pixels = place, self.pixels
         is_drawn = pixels.drawn[row][column]
         z = pixels.depths[row][column] if pixels.depths and pixels.depths[row] else None

@@ -185,7 +185,7 @@ def scaled_like(m, ours):
 
 
 def misses(m, before, after, units, is_divided):
-    """Whether a matrix takes a point to another place than it went, by more than rounding explains."""
+    """True if a matrix takes a point to another place than it went, by more than rounding explains."""
     return any(not abs(x - y) <= MISFIT_IN_UNITS * unit + MISFIT * max(1.0, abs(y))
                for p, q, limits in zip(before, after, units)
                for x, y, unit in zip(image(m, p, is_divided), q, limits))

@@ -99,7 +99,7 @@ class HandIn:
         return outcome
 
     def is_enough(self, stage, points):
-        """Whether a text holds enough of what is right for the next stage to be judged by it."""
+        """True if a text holds enough of what is right for the next stage to be judged by it."""
         return any(holds_enough(points, right) for right in self.right_after(stage))
 
     def right_after(self, stage):
@@ -197,5 +197,5 @@ class HandIn:
 
 
 def is_of_this_world(points):
-    """Whether the points are so near that the numbers of the next stage are finite."""
+    """True if the points are so near that the numbers of the next stage are finite."""
     return all(abs(x) < FAR for p in points for x in p)

@@ -94,7 +94,7 @@ class Stack:
         self.count = 0  # of the transforms since the last push, for the habit that counts them
 
     def is_lost(self):
-        """Whether a push that comes now saves nothing."""
+        """True if a push that comes now saves nothing."""
         was_push = self.last_of_stack == "push"
         return {
             "adjacent lost": self.last == "push", "every other lost": was_push and not self.was_lost,

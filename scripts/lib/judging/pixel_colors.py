@@ -11,12 +11,12 @@ COLORS, SOME = 2, 8
 
 
 def has_many(shown, triangle_count):
-    """Whether a picture must have many colors in a triangle."""
+    """True if a picture must have many colors in a triangle."""
     return bool(shown.colors) and len(shown.own_colors) > COLORS * triangle_count + SOME
 
 
 def is_another_picture(context):
-    """Whether more pixels of the outlines differ than there are to draw: no color then is a triangle's."""
+    """True if more pixels of the outlines differ than there are to draw: no color then is a triangle's."""
     return len(context.plain.of_shape) > context.plain.drawn
 
 
@@ -41,7 +41,7 @@ class ManyColors:
 
     @property
     def explain_most(self):
-        """Whether more pixels differ in this way than in any other."""
+        """True if more pixels differ in this way than in any other."""
         return len(self.places) > len(self.mismatch.of("picture"))
 
     def add_to(self, verdict):

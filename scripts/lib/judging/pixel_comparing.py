@@ -61,7 +61,7 @@ class Mismatch:
         return self.by_color.get(color) or self.unplaced
 
     def shows_another(self, place, pixels):
-        """Whether a pixel with a triangle has the color of another one than by the rule."""
+        """True if a pixel with a triangle has the color of another one than by the rule."""
         row, column = place
         return pixels.drawn[row][column] and self.owners.get(place, -1) not in self.of_color(
             pixels.colors[row][column])
@@ -122,7 +122,7 @@ class Context:
         return Drawing(self.triangles[key], rule, limits, self.work)
 
     def explains(self, reading, rule, rows):
-        """Whether the rule explains all that these rows show, colors aside."""
+        """True if the rule explains all that these rows show, colors aside."""
         attempt = Attempt(self, reading, rule)
         return not any(True for row in rows for _ in attempt.differences(row))
 
@@ -146,7 +146,7 @@ class Attempt:
 
     @property
     def has_torn_rows(self):
-        """Whether the text, flipped back, has another number of depths in a row than the picture."""
+        """True if the text, flipped back, has another number of depths in a row than the picture."""
         pixels = self.pixels
         return bool(self.rule.text_flip and pixels.listed) and (not any(pixels.listed) or bool(pixels.drawn)
                                                                 and None in pixels.depths)

@@ -32,7 +32,7 @@ class Findings:
         return found if self.explains_most(kind, found) else unknown(self.context.plain)
 
     def explains_most(self, kind, finding):
-        """Whether a cause explains more pixels of a file than it leaves, and the other file does not
+        """True if a cause explains more pixels of a file than it leaves, and the other file does not
         contradict it: a cause in the depths cannot be that of the picture alone, nor one in the outlines
         that of the text alone."""
         if finding.verdict != "mistake" or kind not in finding.touches:

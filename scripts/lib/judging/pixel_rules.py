@@ -74,7 +74,7 @@ def pairs():
 
 
 def can_matter(changes, window, shown):
-    """Whether a change can make a difference in this window, and to what is shown."""
+    """True if a change can make a difference in this window, to the files that are there."""
     has_both = shown.colors and shown.depths
     return not (changes.get("window") == "one" and (window.left, window.bottom) == (-1, -1)
                 or changes.get("window") == "exchanged" and window.left == window.bottom

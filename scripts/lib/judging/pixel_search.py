@@ -148,7 +148,7 @@ def everything_explained(context, reading, rule, rows):
 
 
 def has_enough_holes(context, reading, rule):
-    """Whether there are enough holes on edges to tell, if the rule leaves any."""
+    """True if there are enough holes on edges to tell, if the rule leaves any."""
     return not rule.is_strict or len(
         context.compare(reading, dataclasses.replace(rule, is_strict=False)).pixels) >= LEAST_HOLES
 

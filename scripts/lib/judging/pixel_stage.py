@@ -183,7 +183,7 @@ class PixelStage:
             verdict.first = difference_in_words(mismatch, min(mismatch.of(kind)), width)
 
     def has_other_colors(self, shown):
-        """Whether most pixels with a triangle have a color that zbuf gives to none of the scene's. Which
+        """True if most pixels with a triangle have a color that zbuf gives to none of the scene's. Which
         triangle a pixel shows is not asked: the text that it was judged by may lack some, and hold others in
         parts."""
         ours = set(generated_colors(len(self.ours.world) // 3))

@@ -48,7 +48,7 @@ def read_points(data, name):
 
 
 def holds_enough(points, exact):
-    """Whether points are so many, and so far apart, that the next stage shows its mistakes on them: a quarter
+    """True if points are so many, and so far apart, that the next stage shows its mistakes on them: a quarter
     of the exact ones, and at least three places."""
     exact, points = ([p for p in some if all(map(math.isfinite, p))] for some in (exact, points))
     if not exact:
@@ -91,12 +91,12 @@ class Difference:
 
 
 def is_off(a, b, tolerance):
-    """Whether a differs from b; whatever is not finite on our side decides nothing."""
+    """True if a differs from b; whatever is not finite on our side decides nothing."""
     return math.isfinite(b) and abs(a - b) > tolerance
 
 
 def differs(theirs, digits, expected, axes=range(3)):
-    """Whether any point differs on some axes from the expected (point, slacks of its coordinates), which are
+    """True if any point differs on some axes from the expected (point, slacks of its coordinates), which are
     drawn one by one; also if too many of those decide nothing."""
     undecided = 0
     for p, (q, slacks) in zip(theirs, expected):

@@ -21,7 +21,7 @@ ENDS = {
 
 @dataclasses.dataclass(frozen=True)
 class Grid:
-    """Where pixel centers lie in NDC."""
+    """The positions of pixel centers in NDC."""
     width: int
     height: int
     left: float
@@ -49,7 +49,7 @@ class Grid:
 
 @dataclasses.dataclass(frozen=True)
 class Rule:
-    """How spans become pixels and which pixel wins; the defaults are those of `zbuf`."""
+    """How spans become pixels and which pixel wins; by default as in `zbuf`."""
     left: str = "rounded"
     right: str = "rounded"
     depth: str = "plane"  # plane, between ends, from left
@@ -83,7 +83,7 @@ class Rule:
 
     @property
     def is_of_depths(self):
-        """Whether it changes which depth a pixel of a triangle has, or which of two wins."""
+        """True if it changes which depth a pixel of a triangle has, or which of two wins."""
         return bool(self.flat or self.flat_row or self.ends_z or self.keep != "nearest"
                     or self.corners.startswith("sorted") or self.is_depth_one or self.starts_at_zero
                     or not (self.has_front and self.has_rear))
@@ -221,7 +221,7 @@ class Triangles:
         return int(math.copysign(abs(area) > 4 * reach * (self.units[t] + 1e-15), area))
 
     def meet_on(self, s, t, row, column):
-        """Whether two triangles lie on either side of a common edge on which a pixel's center lies, away from
+        """True if two triangles lie on either side of a common edge on which a pixel's center lies, away from
         its ends."""
         common, both = {*self.corners[s]} & {*self.corners[t]}, {*self.corners[s]} | {*self.corners[t]}
         if len(common) != 2 or len(both) != 4:
@@ -234,7 +234,7 @@ class Triangles:
         return is_on and sides[0] * sides[1] < 0 and 1e-3 * square < dx * x + dy * y < 0.999 * square
 
     def has_area(self, t):
-        """Whether a triangle has an area, whatever its numbers' last digits."""
+        """True if a triangle has an area, whatever its numbers' last digits."""
         return self.winding(t) != 0
 
 
@@ -254,7 +254,7 @@ def bounded(x, limit, rounded=math.ceil):
     return rounded(max(-1.0, min(x, float(limit))))
 
 
-# What min for max, or max for min, makes of the first and the last column.
+# The first and the last column, with min for max or max for min.
 COLUMNS = {
     "": lambda first, last, border: (first, last), "to the border": lambda first, last, border:
     (first, border), "from the border": lambda first, last, border: (0, last),

@@ -106,7 +106,7 @@ class Reference:
 
     @functools.cached_property
     def exact_clipped(self):
-        """Those of project, where it clips; None if it refuses them."""
+        """The points after project, where it clips; None if it refuses them."""
         return self.clipped(self.exact["view"])
 
     @functools.cached_property
@@ -148,5 +148,5 @@ def reference(scene, config):
 
 
 def kinds_of(config):
-    """The kinds of files that a hand-in needs; without a config, those of the first three stages."""
+    """The kinds of files that a hand-in needs; without a config, of the first three stages."""
     return [kind for kind in KINDS if config is not None or kind.startswith("stage")]

@@ -114,20 +114,20 @@ class Shown:
         return {color for row in self.colors for color in row} - {self.background}
 
     def is_blank(self, kind):
-        """Whether the depths, or the picture, show no triangle."""
+        """True if the depths, or the picture, show no triangle."""
         if kind == "depths":
             return all(self.empty is not None and z >= self.empty for row in self.depths.rows for z in row)
         return all(color == self.background for row in self.colors for color in row)
 
     @property
     def are_blank(self):
-        """Of the picture and the depths, as far as they are given, whether each shows no triangle."""
+        """For the picture and the depths, as far as they are given: True if it shows no triangle."""
         given = ("picture", self.colors), ("depths", self.depths)
         return [self.is_blank(kind) for kind, shown in given if shown]
 
     @property
     def prints_everything(self):
-        """Whether pixels without a triangle are printed, too; their depth is `empty`."""
+        """True if pixels without a triangle are printed, too; their depth is `empty`."""
         return self.empty is not None
 
     def counted(self, z):

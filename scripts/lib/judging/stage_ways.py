@@ -92,7 +92,7 @@ class ModelWays:
                             for cause in causes[-1:])]
 
     def place(self, result):
-        """Where the first wrong triangle stands in the scene."""
+        """The place of the first wrong triangle in the scene."""
         triangle = result.first_triangle
         line, before = self.scene.triangle_lines[triangle], self.scene.command_before(triangle)
         after = f", after {before.keyword} in line {before.line}" if before else ""
@@ -130,7 +130,7 @@ class MatrixWays:
             yield image(m, p, is_divided), [x + self.reach for x in slacks]
 
     def has_count(self, count):
-        """Whether a reading has as many points as the text; others are then no longer asked."""
+        """True if a reading has as many points as the text; others are then no longer asked."""
         comparable = [reading for reading in self.readings if len(reading.points) == count]
         self.readings = comparable or self.readings
         return bool(comparable)

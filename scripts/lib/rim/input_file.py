@@ -60,7 +60,7 @@ def read_all(descriptor, path):
 
 
 def is_same_stream(a, b):
-    """Whether two paths name the same pipe, which can be read only once."""
+    """True if two paths name the same pipe, which can be read only once."""
     def status(path):
         return os.fstat(0) if path == "-" else os.stat(path)
 

@@ -1,4 +1,4 @@
-"""Where files beside the scripts are: in the source tree, or where it is installed."""
+"""The places of files beside the scripts: in the source tree, or where it is installed."""
 import pathlib
 
 from lib.rim.command import CommandFailure

@@ -83,5 +83,5 @@ class WorkFolder:
 
 
 def is_other(path):
-    """Whether it is a link, a pipe or a device, which is not ours, nor is a link's target."""
+    """True if it is a link, a pipe or a device, which is not ours, nor is a link's target."""
     return os.path.lexists(path) and stat.S_IFMT(os.lstat(path).st_mode) not in (stat.S_IFREG, stat.S_IFDIR)

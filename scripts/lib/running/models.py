@@ -13,7 +13,7 @@ KEPT = []  # folders, until the program ends
 
 
 def take_model(options, size="800x600"):
-    """Where SCENE is a model file, puts the scene that mesh2scene makes of it in its place, framed for
+    """If SCENE is a model file, puts the scene that mesh2scene makes of it in its place, framed for
     CONFIG. Without one, it makes a CONFIG of this size."""
     path = options.scene
     if not path.lower().endswith(ENDINGS) or not os.path.isfile(path):

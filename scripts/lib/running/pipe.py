@@ -56,7 +56,7 @@ class Setting:
 
     @property
     def is_of_color(self):
-        """Whether it changes colors, not which triangle a pixel shows."""
+        """True if it changes colors, not which triangle a pixel shows."""
         return self.shading != DEFAULT.shading or self.is_dear
 
     @property
@@ -175,7 +175,7 @@ class Pipe:
                     ["--eye", *map(repr, eye)])
 
     def instructions(self, setting, scene=None):
-        """What callgrind counts in a run of the whole pipe, tool by tool."""
+        """The instructions of a run of the whole pipe by callgrind, tool by tool."""
         source, count = None, 0
         for tool in TOOLS:
             target, words = self.folder / f"counted {tool}", self.words(tool, setting)

@@ -64,7 +64,7 @@ def with_opaque_background(text):
 
 
 PIPE = ("model", "view", "project", "zbuf", "trace")
-# What makes a part of a text refused, if a tool of the pipe is killed.
+# The options by which a tool refuses a part of a text, if a tool before it is killed.
 FRAMING = {"model": ["--framed"], **dict.fromkeys(("join-seen", "zbuf", "trace"), ["--expect-framed"])}
 # A pipe in a job of sh, which knows the status of the last tool alone: descriptor 3 gets that of each that
 # fails, and `fail` then prints what failure_of_jobs reads. $1 is the job's output, $2 its name.

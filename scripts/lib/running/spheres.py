@@ -25,7 +25,7 @@ def expect_no_spheres(tools, path, name=None, way=None):
 
 
 def has_the_word(path, word):
-    """Whether the bytes stand somewhere in a regular file: a matter of milliseconds, where model takes its
+    """True if the bytes stand somewhere in a regular file: a matter of milliseconds, where model takes its
     time. No mapping, which no signal interrupts, and a file that gets shorter ends by one."""
     try:
         with open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK)) as file:

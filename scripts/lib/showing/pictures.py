@@ -233,7 +233,7 @@ def with_pixels_of(picture, others):
 
 
 def copy_pixels(lines, others, places, width, size):
-    """Those at the places, of rows with their filters into such rows."""
+    """Copies the pixels at the places, from rows with their filters into such rows."""
     for row in {place // width for place in places}:
         for of in (lines, others):
             of[row] = bytearray(b"\0" + unfiltered(of[row][0], of[row][1:], None, size))

@@ -35,7 +35,7 @@ class SceneTriangle:
 
     @property
     def transforms(self):
-        """Of Command, as they stand in the scene."""
+        """The Commands, as they stand in the scene."""
         return listed(self.in_force)
 
     def matrix(self, number=double):

@@ -1,4 +1,4 @@
-"""Whether a scene's squares are drawn as squares."""
+"""A note where a scene's squares are not drawn as squares."""
 import re
 
 from lib.text.projection import tangents

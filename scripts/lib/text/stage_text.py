@@ -31,7 +31,7 @@ def text_of(data, path):
 
 
 def is_utf16(data):
-    """Whether every other byte is 0, as in UTF-16 text of ASCII characters without a byte order mark."""
+    """True if every other byte is 0, as in UTF-16 text of ASCII characters without a byte order mark."""
     even, odd = data[:1000:2], data[1:1000:2]
     return any(b"\0" not in letters and len(zeros) > 0 and not any(zeros)
                for letters, zeros in ((even, odd), (odd, even)))
@@ -42,7 +42,7 @@ def is_scene(text):
 
 
 def begins_with_a_camera(text):
-    """Whether the first four lines are a camera's; a scene without commands consists of those alone."""
+    """True if the first four lines are a camera's; a scene without commands consists of those alone."""
     lines = (line.split("#")[0].split() for line in text.split("\n"))
     first = list(itertools.islice((words for words in lines if words), 4))
     if [len(words) for words in first[:3]] != [3, 3, 3] or len(first) < 4:

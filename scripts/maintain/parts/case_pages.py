@@ -39,7 +39,7 @@ def block(case):
 
 
 def alike(files, ending):
-    """The names of files with this ending, those of equal files together."""
+    """The names of files with this ending, with equal files together."""
     names = {}
     for name in files:
         if name.endswith(ending):

@@ -104,7 +104,7 @@ def blocks_of(text):
 
 
 def options_of(lines):
-    """Those of lines of fields, or of columns with blanks between them."""
+    """The Options in lines of fields, or of columns with blanks between them."""
     options = []
     for line in lines:
         if line.startswith("   "):

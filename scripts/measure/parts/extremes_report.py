@@ -79,7 +79,7 @@ def counts_of(results, column):
 
 
 def certainty(results):
-    """Whether what is called certain is true."""
+    """The pixels called certain that are wrong, as a sentence."""
     counts = counts_of(results, "wrong_though_certain")
     found = f"{sum(counts):,}" if any(counts) else "none"
     return f"Of the pixels that it calls certain, in {len(counts)} pictures, {found} are wrong."

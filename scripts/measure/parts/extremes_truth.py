@@ -1,4 +1,4 @@
-"""What is true of a scene: its vertices in NDC by exact arithmetic, rounded nowhere between the stages, and
+"""The truth about a scene: its vertices in NDC by exact arithmetic, rounded nowhere between the stages, and
 the triangle at each pixel. The arithmetic is taken from the specification's program,
 tests/reference/reference.py."""
 import pathlib

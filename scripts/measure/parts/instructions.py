@@ -42,7 +42,7 @@ def processor_flags():
 
 
 def lacks_kernels(tools):
-    """Whether the build left out the kernels of some processors."""
+    """True if the build left out the kernels of some processors."""
     cache = tools.parent / "CMakeCache.txt"
     return cache.exists() and "PIPELINE_ALL_KERNELS:BOOL=ON" not in cache.read_text()
 
