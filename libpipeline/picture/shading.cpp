@@ -14,7 +14,7 @@ PIPELINE_BEGIN_KERNELS();
 
 static_assert(kLanes <= kMaxLanesShaded);
 
-// What doubles miss of a half is far less than this, so that halves go up.
+// Doubles miss a half by far less than this, so that halves go up.
 constexpr double kAlmostHalf = 0.5 + 0x1p-20;
 
 // L6; NaN counts as 0
@@ -39,7 +39,7 @@ HWY_INLINE Vectors corner_weights(const PixelRun& run, int first) {
   const auto& [a, b, c] = run.weights.scaled();
   const Doubles x = all(run.grid.left_x) + hn::Iota(kDoubles, run.column + first) * all(run.grid.dx);
   const Doubles y = all(run.grid.y_of(run.row)), zero = hn::Zero(kDoubles);
-  // Of the corners, from a pixel's center, times their w; the areas are twice those that two make with it.
+  // The corners, from a pixel's center, times their w; and twice the areas that two of them make with it.
   const Vectors w = all(Vec3{a.z, b.z, c.z});
   const Vectors right = all(Vec3{a.x, b.x, c.x}) - w * x, up = all(Vec3{a.y, b.y, c.y}) - w * y;
   const Vectors areas = {right.y * up.z - up.y * right.z, right.z * up.x - up.z * right.x,

@@ -96,7 +96,7 @@ Ellipsoid::UnitRay Ellipsoid::in_unit_space(const Ray& ray) const {
   return unit;
 }
 
-/// Of the two roots, the one of larger size is (-f.g -+ root) / g.g without cancellation, the other is
+/// The root of larger size is (-f.g -+ root) / g.g without cancellation, the other is
 /// (f.f - 1) / (g.g times that one).
 Ellipsoid::Meetings Ellipsoid::meetings(const Ray& ray) const {
   if (is_surely_missed(ray)) return {};

@@ -86,7 +86,7 @@ std::size_t LostDigits::Steps::from(double value) const {
   return static_cast<std::size_t>(std::ceil(std::clamp(index, 0.0, static_cast<double>(count))));
 }
 
-/// Whether a stage has rounded the first numbers that were read, and they have lost digits: many do not end
+/// Decides whether a stage has rounded the first numbers read, so that they have lost digits: many do not end
 /// in 0.
 void LostDigits::look_for_decimals() {
   half_.written = decimals_ ? 0.5 / power_of_ten(*decimals_) : 0;
@@ -394,7 +394,7 @@ LostDigits::Losses LostDigits::losses() const {
   return losses;
 }
 
-/// Whether no pixel should be wrong with so many decimals more.
+/// True if no pixel should be wrong with this many decimals more.
 bool LostDigits::suffice(int more_decimals, const Losses& losses) const {
   const HalfUnits half = half_units(more_decimals);
   return losses.in_one_plane == 0 &&

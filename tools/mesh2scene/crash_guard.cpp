@@ -20,7 +20,7 @@ void go_on_in_child(const std::string& what) {
   if (child < 0) return;
   if (child == 0) {
 #ifdef __linux__
-    // Whoever ends the parent means both.
+    // A signal that ends the parent is meant for both.
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(1);
 #endif
@@ -50,7 +50,7 @@ ImportLimits::ImportLimits(double seconds, double megabytes) {
       limit.rlim_cur = static_cast<rlim_t>(until);
     ::setrlimit(RLIMIT_CPU, &limit);
   }
-  // Of a machine that has much to do besides; and a network's files may never come.
+  // On the clock: the machine may be busy, and a network's files may never come.
   ::alarm(static_cast<unsigned>(60 + 20 * seconds));
   limit_memory(megabytes);
   stderr_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);

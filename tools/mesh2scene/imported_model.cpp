@@ -30,7 +30,7 @@ Vec3 vec(const aiColor3D& c) {
   return {c.r, c.g, c.b};
 }
 
-/// True if floats reach so far, as a scene's coordinates are floats.
+/// True if the coordinates are finite as floats, which a scene's coordinates are.
 bool are_floats(const Vec3& v) {
   const auto is_float = [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); };
   return is_float(v.x) && is_float(v.y) && is_float(v.z);

@@ -47,7 +47,7 @@ struct PlacedMesh {
   NodeMatrix model_from_mesh;
   bool is_in_place = model_from_mesh.is_identity();
 
-  /// Of a vertex, in the model's space.
+  /// The position of a vertex, in the model's space.
   [[nodiscard]] Vec3 position(unsigned index) const {
     const aiVector3D& v = mesh->mVertices[index];
     const Vec3 p = {v.x + 0.0, v.y + 0.0, v.z + 0.0};  // a zero without a sign, as the product's

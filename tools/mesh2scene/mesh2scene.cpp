@@ -105,7 +105,7 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-/// Most programs that write these formats print or build things, and stand them on x and y.
+/// Most programs that write these formats are for printing or building, with z up.
 UpAxis usual_up(const std::string& extension) {
   return extension == "STL" || extension == "3DS" || extension == "3MF" ? UpAxis::z : UpAxis::y;
 }

@@ -33,7 +33,7 @@ std::string text_of(const Factors& factors) {
 
 constexpr double kMaxShininess = 10000;
 
-/// Of a material by metallic and roughness factors; false if it has none.
+/// Sets the factors by metallic and roughness factors; false if the material has none.
 bool set_by_roughness(const aiMaterial& material, Factors& factors) {
   ai_real metallic = 1, roughness = 1;
   const bool has_metallic = material.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == aiReturn_SUCCESS;
@@ -51,7 +51,7 @@ bool set_by_roughness(const aiMaterial& material, Factors& factors) {
   return true;
 }
 
-/// Of a material by colors. Formats without them, and files that leave them out, are read as 0: an ambient
+/// Sets the factors by colors. Formats without them, and files that leave them out, are read as 0: an ambient
 /// color of 0 is taken for the diffuse one, and a specular color of 0 without a shininess for none given.
 void set_by_colors(const aiMaterial& material, Factors& factors) {
   const auto brightness = [&](const char* key, unsigned type, unsigned index) {

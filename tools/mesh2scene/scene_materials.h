@@ -44,7 +44,7 @@ class SceneMaterials {
   void number_all();
 
   std::vector<std::string> lines_;
-  std::map<const aiMaterial*, std::size_t> numbers_;  // null: that of meshes without one
+  std::map<const aiMaterial*, std::size_t> numbers_;  // null: the number of meshes without one
   const ImportedModel& model_;
   const SceneSetting& setting_;
   bool have_paints_;

@@ -19,7 +19,7 @@ constexpr double kShare = 0.9;
 /// picture.
 constexpr double kSteepestWithWorldUp = 85;
 
-/// A light that shines from afar stands so many times as far away as the eye.
+/// The distance of a light that shines from afar, in distances of the eye.
 constexpr double kFar = 1000;
 
 /// Orthogonal unit vectors of a camera, in the model's space; `back` points from the model to the eye.
@@ -96,7 +96,7 @@ double tangent(double degrees) {
 /// Depths behind and before the model that belong to the view, as fractions of its distance: room for objects
 /// that are added to the scene.
 constexpr double kDepthMargin = 0.5;
-/// A depth buffer tells little apart if far is more than this many times near.
+/// The largest far / near at which a depth buffer is still fine enough.
 constexpr double kMostDepth = 10000;
 
 Vec3 unit_vector_of(UpAxis axis) {

@@ -29,12 +29,12 @@ struct SceneSetting {
   Vec3 ambient;
   /// At points.
   std::vector<ModelLight> lights;
-  /// Of meshes without a color, from 0 to 255; or of all.
+  /// The color of meshes without one, from 0 to 255; or of all.
   Vec3 color;
   bool has_one_color = false;
 };
 
-/// From where a framed model is seen; angles in degrees.
+/// The view of a framed model; angles in degrees.
 struct ViewChoice {
   UpAxis up = UpAxis::y;
   double azimuth_degrees = 30, elevation_degrees = 15;

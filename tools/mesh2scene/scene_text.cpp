@@ -304,7 +304,7 @@ class SceneWriter {
   bool has_color_columns_;
   std::optional<Vec3> color_in_force_;
   std::size_t material_in_force_ = 0;
-  // Of the mesh that is being written:
+  // The mesh that is being written:
   const PlacedMesh* placed_ = nullptr;
   const CornerNormals* made_normals_ = nullptr;
   Vec3 color_;

@@ -160,7 +160,7 @@ class Smoothing {
     const auto is_in_plane = [&](const Share& share) {
       return dot(share.direction, widest->direction) >= kCoplanarCosine;
     };
-    // What turns little from the plane goes on from it, as a fillet; what turns more is a chamfer beside it.
+    // A small turn from the plane continues it, as a fillet; a larger one makes a chamfer beside it.
     if (dot(own.direction, widest->direction) >= half_way_cosine_) return weighted_sum(is_in_plane);
     return weighted_sum([&](const Share& share) { return is_near(share) && !is_in_plane(share); });
   }

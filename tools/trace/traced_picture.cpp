@@ -134,7 +134,7 @@ class PixelTracer {
     if (rays_.has_colors && !has_one_sample) picture.colors[pixel] = mean_of(row, column);
   }
   [[nodiscard]] std::uint64_t ray_count() const { return ray_count_; }
-  /// When all threads are done.
+  /// Call after all threads have finished.
   void add_up(TracedPicture& picture) const {
     picture.covered_count += covered_count_;
     picture.shown_colors.add(colors_.shown());

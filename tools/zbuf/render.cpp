@@ -123,7 +123,7 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
                const SampledDrawing& drawing, const StageReader& reader, TriangleStore& store,
                std::optional<SurfaceShader>& shader, Wireframe* wireframe,
                std::optional<CertainPixels>& certainty) {
-  // To light a sample by one light takes as long as to draw four.
+  // Lighting a sample by one light takes as long as drawing four.
   const std::size_t cost = shader ? 1 + 4 * shader->setup().lighting.lights.size() : 0;
   outputs.open(screen, chosen.sample_count, store.background_color());
   TextWriter* const seen_text = outputs.open_text(chosen.seen_path);
@@ -166,7 +166,7 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
   outputs.finish(covered_count);
 }
 
-/// That the picture is empty, or squeezed. The note is about the whole picture; a band of it may well show
+/// Notes an empty or a squeezed picture. The note is about the whole picture; a band of it may well show
 /// nothing.
 void note_odd_picture(const Tool& tool, const ZbufOptions& chosen, const DrawingReport& report,
                       const Viewport& screen, const std::optional<SurfaceShader>& shader,
@@ -187,7 +187,7 @@ StageReader opened(Tool& tool, const ZbufOptions& chosen, bool uses_decimals) {
   reader.accept_clipped();
   if (chosen.framed) reader.expect_framed();
   if (!chosen.seen_path.empty()) {
-    // What is seen leaves out triangles that might be.
+    // The triangles seen leave out others that may be visible within the bounds.
     if (reader.header().bounds)
       throw UsageError("--seen: " + expected_but_found("a text without bounds", "'bounds'"));
     reader.keep_text();

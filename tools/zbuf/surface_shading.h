@@ -19,7 +19,7 @@ struct SurfaceOptions {
   bool holds_alpha = false;  // the image can
 };
 
-/// Those of a command line; without a wireframe.
+/// The choices of a command line, without the wireframe.
 SurfaceOptions surface_options(const PictureOptions& chosen);
 
 /// Why a background is refused that is not opaque: what is expected in its place.
@@ -31,13 +31,13 @@ Color background_color(const Appearance& appearance, std::optional<Color> chosen
 /// The lights of a scene.
 Lighting lighting_of(const Appearance& appearance, bool is_perspective);
 
-/// By their numbers; without a line, the one material is the default.
+/// The materials by their numbers; without a line, the default alone.
 std::vector<Material> materials_of(const Appearance& appearance);
 
 /// Gives the triangles of a painted text the colors of their materials, white without a paint.
 void add_material_colors(const Appearance& appearance, TriangleBatch& batch);
 
-/// Where they are lit, unless a model is chosen: nowhere without lights, at every pixel with lights and
+/// The default shading model: nowhere without lights, at every pixel with lights and
 /// normals, once per triangle with lights alone.
 ShadingModel shading_model(const Appearance& appearance, std::optional<ShadingModel> chosen);
 

@@ -27,7 +27,7 @@ namespace pipeline {
 /// Assigns every triangle of the stream, in order, the tag of its pixels: the id under which it is kept, for
 /// the surface shader or for its text, or, if nothing is kept, the RGB value of its color.
 ///
-/// Of the triangles kept only those that are seen need to stay. They are found whenever twice as many are
+/// Only visible triangles need to stay. They are found whenever twice as many are
 /// kept as were seen the last time; so memory is bounded by the picture. That takes two passes over its
 /// pixels, so it is done only when at least one triangle has been kept for every four pixels.
 class TriangleStore {
@@ -41,7 +41,7 @@ class TriangleStore {
     Wireframe* wireframe = nullptr;
   };
 
-  /// Of an ExactTriangle.
+  /// The corners of an ExactTriangle.
   struct Corners {
     Triangle p_ndc, low_parts;
     std::uint16_t decimal_marks;
@@ -79,9 +79,9 @@ class TriangleStore {
   /// Writes a stage text of the triangles that are seen, all pieces of each, with the header as it was read.
   void write_seen(TextWriter& text, const StageReader& reader, KeptIds& seen) const;
 
-  /// True if it is time to let go of triangles.
+  /// True if it is time to drop triangles.
   [[nodiscard]] bool is_full() const { return has_ids() && next_id_ >= capacity_; }
-  /// Lets go of the triangles that no pixel of the drawing shows, in which all triangles so far are drawn.
+  /// Drops the triangles that no pixel of the drawing shows, in which all triangles so far are drawn.
   void keep_seen(SampledDrawing& drawing) {
     KeptIds kept(id_count());
     const auto for_each_tag = [&](const auto& visit) {

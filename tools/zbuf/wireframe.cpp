@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-// Of a pixel, and of a depth: with a margin for rounding, so that no triangle hides its own edges.
+// Half a pixel, and none of the depth, with margins for rounding: no triangle hides its own edges.
 constexpr double kReach = 0.501;
 constexpr double kDepthError = 0x1p-48;
 

@@ -41,7 +41,7 @@ class Wireframe {
       for (Edge& edge : edges_.row(row)) visit(edge.id);
     if (last_) visit(last_->id);
   }
-  /// Lets go of the triangles that are not kept.
+  /// Drops the triangles that are not kept.
   void keep(const KeptIds& kept) { surfaces_.keep(kept); }
 
  private:
