@@ -1,5 +1,3 @@
-#include "libpipeline/picture/bmp_file.h"
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -9,7 +7,9 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <vector>
 
+#include "libpipeline/picture/image_formats.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/text_writer.h"
 
@@ -46,17 +46,29 @@ char* append_four(const Color* colors, char* out) {
   return out;
 }
 
-}  // namespace
+class BmpWriter final : public ImageWriter {
+ public:
+  BmpWriter(int descriptor, const std::string& path, int columns, int rows);
 
-void check_bmp_size(const std::string& path, int columns, int rows) {
-  const std::uint64_t size = kHeaderSize + std::uint64_t{row_size(columns)} * static_cast<unsigned>(rows);
-  if (size <= std::numeric_limits<std::uint32_t>::max()) return;
-  throw InputError(
-      {path}, expected_but_found(
-                  "an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit)",
-                  std::to_string(columns) + " x " + std::to_string(rows) + " pixels, " +
-                      std::to_string(size) + " bytes"));
-}
+  void write_row(std::span<const Color> colors) override;
+  void finish() override;
+
+ private:
+  [[nodiscard]] std::size_t block_rows() const { return block_.size() / row_size_; }
+  void write_header();
+  void write_block();
+
+  int descriptor_;
+  std::string path_;
+  int columns_;
+  int rows_;
+  std::size_t row_size_;  // bytes, padding included
+  bool can_seek_;
+  // Rows not yet written, in the order of the file: filled from its end.
+  std::vector<char> block_;
+  std::size_t buffered_row_count_ = 0;
+  std::size_t written_row_count_ = 0;
+};
 
 BmpWriter::BmpWriter(int descriptor, const std::string& path, int columns, int rows)
     : descriptor_(descriptor),
@@ -117,6 +129,22 @@ void BmpWriter::write_block() {
 void BmpWriter::finish() {
   write_block();
   assert(written_row_count_ == static_cast<std::size_t>(rows_));
+}
+
+}  // namespace
+
+void check_bmp_size(const std::string& path, int columns, int rows) {
+  const std::uint64_t size = kHeaderSize + std::uint64_t{row_size(columns)} * static_cast<unsigned>(rows);
+  if (size <= std::numeric_limits<std::uint32_t>::max()) return;
+  throw InputError(
+      {path}, expected_but_found(
+                  "an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit)",
+                  std::to_string(columns) + " x " + std::to_string(rows) + " pixels, " +
+                      std::to_string(size) + " bytes"));
+}
+
+std::unique_ptr<ImageWriter> bmp_writer(int descriptor, const std::string& path, int columns, int rows) {
+  return std::make_unique<BmpWriter>(descriptor, path, columns, rows);
 }
 
 }  // namespace pipeline

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
-#include "libpipeline/picture/image_file.h"
+#include "libpipeline/picture/image_formats.h"
 
 namespace pipeline {
 namespace {
-
-using Gray16Writer = std::variant<NetpbmWriter, PngWriter>;
 
 bool is_png(const std::string& path) {
   const std::string extension = extension_of(path);
@@ -16,19 +15,6 @@ bool is_png(const std::string& path) {
   if (extension == ".png" && can_write_png()) return true;
   if (can_write_png()) reject_extension(path, "a depth image file", {".pgm", ".png"});
   reject_extension(path, "a depth image file", {".pgm"});
-}
-
-Gray16Writer writer_for(int descriptor, const std::string& path, const Viewport& screen) {
-  const auto make = [&]<typename Writer>(std::in_place_type_t<Writer> type) {
-    return Gray16Writer(type, descriptor, path, PixelBytes::gray16, screen.columns, screen.drawn_row_count());
-  };
-  return is_png(path) ? make(std::in_place_type<PngWriter>) : make(std::in_place_type<NetpbmWriter>);
-}
-
-}  // namespace
-
-void check_depth_image_name(const std::string& path) {
-  is_png(path);
 }
 
 std::uint16_t depth_brightness(double depth, const Viewport& screen) {
@@ -40,21 +26,39 @@ std::uint16_t depth_brightness(double depth, const Viewport& screen) {
   return static_cast<std::uint16_t>(std::floor(std::clamp(nearness, 0.0, 1.0) * 65535 + 0.5));
 }
 
-DepthImageWriter::DepthImageWriter(int descriptor, const std::string& path, const Viewport& screen)
-    : screen_(screen), file_(writer_for(descriptor, path, screen)) {}
+class DepthImageWriter final : public RowWriter<double> {
+ public:
+  DepthImageWriter(std::unique_ptr<ByteWriter> file, const Viewport& screen)
+      : screen_(screen), file_(std::move(file)) {}
 
-void DepthImageWriter::write_row(std::span<const double> depths) {
-  row_.clear();
-  for (const double depth : depths) {
-    const std::uint16_t brightness = depth_brightness(depth, screen_);
-    row_.push_back(static_cast<unsigned char>(brightness >> 8));
-    row_.push_back(static_cast<unsigned char>(brightness & 0xff));
+  void write_row(std::span<const double> depths) override {
+    row_.clear();
+    for (const double depth : depths) {
+      const std::uint16_t brightness = depth_brightness(depth, screen_);
+      row_.push_back(static_cast<unsigned char>(brightness >> 8));
+      row_.push_back(static_cast<unsigned char>(brightness & 0xff));
+    }
+    file_->write_row(row_);
   }
-  std::visit([&](auto& file) { file.write_row(row_); }, file_);
+  void finish() override { file_->finish(); }
+
+ private:
+  Viewport screen_;
+  std::unique_ptr<ByteWriter> file_;
+  std::vector<unsigned char> row_;
+};
+
+}  // namespace
+
+void check_depth_image_name(const std::string& path) {
+  is_png(path);
 }
 
-void DepthImageWriter::finish() {
-  std::visit([](auto& file) { file.finish(); }, file_);
+std::unique_ptr<RowWriter<double>> depth_image_writer(int descriptor, const std::string& path,
+                                                      const Viewport& screen) {
+  const auto writer = is_png(path) ? png_writer : netpbm_writer;
+  return std::make_unique<DepthImageWriter>(
+      writer(descriptor, path, PixelBytes::gray16, screen.columns, screen.drawn_row_count()), screen);
 }
 
 }  // namespace pipeline

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <memory>
 #include <string>
-#include <variant>
-#include <vector>
 
-#include "libpipeline/picture/netpbm_file.h"
-#include "libpipeline/picture/png_file.h"
+#include "libpipeline/picture/image_file.h"
 #include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
@@ -17,21 +13,9 @@ namespace pipeline {
 /// PGM.
 void check_depth_image_name(const std::string& path);
 
-/// The brightness of a depth: 65535 at the front limit, 0 at the rear limit and where nothing is seen, linear
-/// in between, rounded to the nearest integer, halves up.
-std::uint16_t depth_brightness(double depth, const Viewport& screen);
-
-/// A writer of depths (NDC z) as brightness, as an ImageWriter of colors; `path` chooses the format.
-class DepthImageWriter {
- public:
-  DepthImageWriter(int descriptor, const std::string& path, const Viewport& screen);
-  void write_row(std::span<const double> depths);
-  void finish();
-
- private:
-  Viewport screen_;
-  std::variant<NetpbmWriter, PngWriter> file_;
-  std::vector<unsigned char> row_;
-};
+/// A writer of depths (NDC z) as brightness: 65535 at the front limit, 0 at the rear limit and where nothing
+/// is seen, linear in between, rounded to the nearest integer, halves up. `path` chooses the format.
+std::unique_ptr<RowWriter<double>> depth_image_writer(int descriptor, const std::string& path,
+                                                      const Viewport& screen);
 
 }  // namespace pipeline

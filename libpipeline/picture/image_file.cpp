@@ -4,21 +4,19 @@
 #include <cassert>
 #include <filesystem>
 
-#include "libpipeline/picture/bmp_file.h"
-#include "libpipeline/picture/netpbm_file.h"
-#include "libpipeline/picture/png_file.h"
+#include "libpipeline/picture/image_formats.h"
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/error.h"
 
 namespace pipeline {
 namespace {
 
-/// Formats with rows from the top and red first; `Rows` takes them as bytes.
-template <typename Rows, PixelBytes pixels = PixelBytes::rgb8>
+/// Formats with rows from the top and red first, by a writer of bytes.
+template <auto byte_writer, PixelBytes pixels = PixelBytes::rgb8>
 class RgbWriter final : public ImageWriter {
  public:
   RgbWriter(int descriptor, const std::string& path, int columns, int rows)
-      : rows_(descriptor, path, pixels, columns, rows),
+      : rows_(byte_writer(descriptor, path, pixels, columns, rows)),
         bytes_(kBytesPerPixel * static_cast<std::size_t>(columns)) {}
 
   void write_row(std::span<const Color> colors) override {
@@ -30,14 +28,14 @@ class RgbWriter final : public ImageWriter {
       *out++ = color.blue();
       if (kBytesPerPixel == 4) *out++ = color.alpha();
     }
-    rows_.write_row(bytes_);
+    rows_->write_row(bytes_);
   }
-  void finish() override { rows_.finish(); }
+  void finish() override { rows_->finish(); }
 
  private:
   static constexpr std::size_t kBytesPerPixel = pixels == PixelBytes::rgba8 ? 4 : 3;
 
-  Rows rows_;
+  std::unique_ptr<ByteWriter> rows_;
   std::vector<unsigned char> bytes_;
 };
 
@@ -47,17 +45,17 @@ struct ImageFormat {
   void (*check_size)(const std::string& path, int columns, int rows);
 };
 
-template <typename Writer>
+template <auto byte_writer, PixelBytes pixels = PixelBytes::rgb8>
 std::unique_ptr<ImageWriter> make(int descriptor, const std::string& path, int columns, int rows) {
-  return std::make_unique<Writer>(descriptor, path, columns, rows);
+  return std::make_unique<RgbWriter<byte_writer, pixels>>(descriptor, path, columns, rows);
 }
 
 void take_any_size(const std::string&, int, int) {}
 
-constexpr ImageFormat kPpm = {".ppm", make<RgbWriter<NetpbmWriter>>, take_any_size};
-constexpr ImageFormat kFormats[] = {{".bmp", make<BmpWriter>, check_bmp_size}, kPpm};
+constexpr ImageFormat kPpm = {".ppm", make<netpbm_writer>, take_any_size};
+constexpr ImageFormat kFormats[] = {{".bmp", bmp_writer, check_bmp_size}, kPpm};
 // With libpng only.
-constexpr ImageFormat kPng = {".png", make<RgbWriter<PngWriter>>, take_any_size};
+constexpr ImageFormat kPng = {".png", make<png_writer>, take_any_size};
 
 /// ".png" of "png:FILE"; empty without a prefix that names a format.
 std::string prefix_of(const std::string& path) {
@@ -119,7 +117,7 @@ std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& pat
                                           bool has_alpha) {
   assert(!has_alpha || can_hold_alpha(path));
   const std::string file = image_file_of(path);
-  if (has_alpha) return make<RgbWriter<PngWriter, PixelBytes::rgba8>>(descriptor, file, columns, rows);
+  if (has_alpha) return make<png_writer, PixelBytes::rgba8>(descriptor, file, columns, rows);
   return format_of(path).writer(descriptor, file, columns, rows);
 }
 

@@ -10,20 +10,22 @@
 
 namespace pipeline {
 
-/// Takes an image row by row, from the top, and writes it in some format to a file descriptor, which the
+/// Takes a picture row by row, from the top, and writes it in some format to a file descriptor, which the
 /// caller keeps and closes. Failures to write are IoErrors, which name the file by its path.
-class ImageWriter {
+template <typename Pixel>
+class RowWriter {
  public:
-  ImageWriter() = default;
-  virtual ~ImageWriter() = default;
-  ImageWriter(const ImageWriter&) = delete;
-  ImageWriter& operator=(const ImageWriter&) = delete;
+  RowWriter() = default;
+  virtual ~RowWriter() = default;
+  RowWriter(const RowWriter&) = delete;
+  RowWriter& operator=(const RowWriter&) = delete;
 
   /// Takes the next row, all its pixels from the left.
-  virtual void write_row(std::span<const Color> colors) = 0;
+  virtual void write_row(std::span<const Pixel> pixels) = 0;
   /// Writes the rows still buffered; to be called after the last row.
   virtual void finish() = 0;
 };
+using ImageWriter = RowWriter<Color>;
 
 // The extension of a file's name, in upper or lower case, chooses the format: BMP (24 bits per pixel, at most
 // 4 GiB), PPM (Netpbm P6) or, where can_write_png(), PNG (8 bits per channel). A device's name (/dev/null,

@@ -1,10 +1,10 @@
 #include "libpipeline/picture/pixel_array.h"
 
 #include <bit>
-#include <cstring>
+#include <cstdint>
 #include <type_traits>
 
-#include "libpipeline/picture/image_file.h"
+#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 
@@ -15,29 +15,41 @@ void check_array_name(const std::string& path) {
     reject_extension(path, "an array file", {".npy"});
 }
 
-template <typename Number>
-PixelArrayWriter<Number>::PixelArrayWriter(int descriptor, const std::string& path, const Viewport& screen)
-    : file_(descriptor, path) {
-  static_assert(sizeof(Number) == 8);
-  const std::string kind = std::is_floating_point_v<Number> ? "<f8" : "<i8";
-  std::string description = "{'descr': '" + kind + "', 'fortran_order': False, 'shape': (" +
-                            std::to_string(screen.drawn_row_count()) + ", " + std::to_string(screen.columns) +
-                            "), }";
-  // The numbers begin at a multiple of 64, after a line feed; ten bytes come before the description.
-  constexpr std::size_t kStart = 128;
-  description.resize(kStart - 11, ' ');
-  const char length = static_cast<char>(kStart - 10);
-  file_.append(std::string("\x93NUMPY\x01\0", 8) + length + std::string(1, '\0') + description + "\n");
-}
+namespace {
 
 template <typename Number>
-void PixelArrayWriter<Number>::write_row(std::span<const Number> numbers) {
-  char* const out = file_.reserve(numbers.size_bytes());
-  std::memcpy(out, numbers.data(), numbers.size_bytes());
-  file_.commit(out + numbers.size_bytes());
-}
+class ArrayWriter final : public RowWriter<Number> {
+ public:
+  ArrayWriter(int descriptor, const std::string& path, const Viewport& screen) : file_(descriptor, path) {
+    static_assert(sizeof(Number) == 8);
+    const std::string kind = std::is_floating_point_v<Number> ? "<f8" : "<i8";
+    std::string description = "{'descr': '" + kind + "', 'fortran_order': False, 'shape': (" +
+                              std::to_string(screen.drawn_row_count()) + ", " +
+                              std::to_string(screen.columns) + "), }";
+    // The numbers begin at a multiple of 64, after a line feed; ten bytes come before the description.
+    constexpr std::size_t kStart = 128;
+    description.resize(kStart - 11, ' ');
+    const char length = static_cast<char>(kStart - 10);
+    file_.append(std::string("\x93NUMPY\x01\0", 8) + length + std::string(1, '\0') + description + "\n");
+  }
 
-template class PixelArrayWriter<double>;
-template class PixelArrayWriter<std::int64_t>;
+  void write_row(std::span<const Number> numbers) override {
+    file_.append({reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()});
+  }
+  void finish() override { file_.flush(); }
+
+ private:
+  TextWriter file_;
+};
+
+}  // namespace
+
+template <typename Number>
+std::unique_ptr<RowWriter<Number>> array_writer(int descriptor, const std::string& path,
+                                                const Viewport& screen) {
+  return std::make_unique<ArrayWriter<Number>>(descriptor, path, screen);
+}
+template std::unique_ptr<RowWriter<double>> array_writer(int, const std::string&, const Viewport&);
+template std::unique_ptr<RowWriter<std::int64_t>> array_writer(int, const std::string&, const Viewport&);
 
 }  // namespace pipeline

@@ -1,10 +1,9 @@
-#include "libpipeline/picture/png_file.h"
-
 #include <png.h>
 
 #include <cerrno>
 #include <csetjmp>
 
+#include "libpipeline/picture/image_formats.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/text_writer.h"
 
@@ -31,61 +30,66 @@ void jump_back(png_structp png, png_const_charp) {
 
 void ignore(png_structp, png_const_charp) {}
 
-}  // namespace
+class PngWriter final : public ByteWriter {
+ public:
+  PngWriter(int descriptor, const std::string& path)
+      : sink_{descriptor},
+        path_(path),
+        png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, jump_back, ignore)),
+        info_(png_ == nullptr ? nullptr : png_create_info_struct(png_)) {}
+  ~PngWriter() override { png_destroy_write_struct(&png_, &info_); }
 
-struct PngWriter::State {
-  Sink sink;
-  std::string path;
-  png_structp png = nullptr;
-  png_infop info = nullptr;
-
-  State(int descriptor, std::string named) : sink{descriptor}, path(std::move(named)) {
-    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, jump_back, ignore);
-    if (png != nullptr) info = png_create_info_struct(png);
+  void write_header(PixelBytes pixels, int columns, int rows);
+  void write_row(std::span<const unsigned char> bytes) override {
+    guarded([&] { png_write_row(png_, bytes.data()); });
   }
-  ~State() { png_destroy_write_struct(&png, &info); }
+  void finish() override {
+    guarded([&] { png_write_end(png_, nullptr); });
+  }
 
+ private:
   /// Calls libpng; an IoError if it fails, which is for lack of memory if the sink has taken all bytes.
   template <typename Call>
   void guarded(Call&& call) {
-    if (png == nullptr || info == nullptr) throw IoError("write", path, ENOMEM);
-    if (setjmp(png_jmpbuf(png)) != 0)
-      throw IoError("write", path, sink.error_number != 0 ? sink.error_number : ENOMEM);
+    if (png_ == nullptr || info_ == nullptr) throw IoError("write", path_, ENOMEM);
+    if (setjmp(png_jmpbuf(png_)) != 0)
+      throw IoError("write", path_, sink_.error_number != 0 ? sink_.error_number : ENOMEM);
     call();
   }
+
+  Sink sink_;
+  std::string path_;
+  png_structp png_;
+  png_infop info_;
 };
+
+void PngWriter::write_header(PixelBytes pixels, int columns, int rows) {
+  const int bits = pixels == PixelBytes::gray16 ? 16 : 8;
+  const int type = pixels == PixelBytes::gray16  ? PNG_COLOR_TYPE_GRAY
+                   : pixels == PixelBytes::rgba8 ? PNG_COLOR_TYPE_RGB_ALPHA
+                                                 : PNG_COLOR_TYPE_RGB;
+  guarded([&] {
+    png_set_write_fn(png_, &sink_, write_bytes, nullptr);
+    png_set_IHDR(png_, info_, static_cast<png_uint_32>(columns), static_cast<png_uint_32>(rows), bits, type,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    // libpng's own choice, every filter tried at level 6, takes twice as long for 5 % fewer bytes.
+    png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_compression_level(png_, 4);
+    png_write_info(png_, info_);
+  });
+}
+
+}  // namespace
 
 bool can_write_png() {
   return true;
 }
 
-PngWriter::PngWriter(int descriptor, const std::string& path, PixelBytes pixels, int columns, int rows)
-    : state_(std::make_unique<State>(descriptor, path)) {
-  State& s = *state_;
-  const int bits = pixels == PixelBytes::gray16 ? 16 : 8;
-  const int type = pixels == PixelBytes::gray16  ? PNG_COLOR_TYPE_GRAY
-                   : pixels == PixelBytes::rgba8 ? PNG_COLOR_TYPE_RGB_ALPHA
-                                                 : PNG_COLOR_TYPE_RGB;
-  s.guarded([&] {
-    png_set_write_fn(s.png, &s.sink, write_bytes, nullptr);
-    png_set_IHDR(s.png, s.info, static_cast<png_uint_32>(columns), static_cast<png_uint_32>(rows), bits, type,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    // libpng's own choice, every filter tried at level 6, takes twice as long for 5 % fewer bytes.
-    png_set_filter(s.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-    png_set_compression_level(s.png, 4);
-    png_write_info(s.png, s.info);
-  });
-}
-
-PngWriter::~PngWriter() = default;
-PngWriter::PngWriter(PngWriter&&) noexcept = default;
-
-void PngWriter::write_row(std::span<const unsigned char> bytes) {
-  state_->guarded([&] { png_write_row(state_->png, bytes.data()); });
-}
-
-void PngWriter::finish() {
-  state_->guarded([&] { png_write_end(state_->png, nullptr); });
+std::unique_ptr<ByteWriter> png_writer(int descriptor, const std::string& path, PixelBytes pixels,
+                                       int columns, int rows) {
+  auto writer = std::make_unique<PngWriter>(descriptor, path);
+  writer->write_header(pixels, columns, rows);
+  return writer;
 }
 
 }  // namespace pipeline

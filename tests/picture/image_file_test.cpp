@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "libpipeline/picture/png_file.h"
+#include "libpipeline/picture/image_formats.h"
 #include "libpipeline/visibility/raster.h"
 #include "tests/text/temporary_folder.h"
 #include "tests/text/text_input.h"

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "libpipeline/picture/depth_image.h"
 #include "libpipeline/picture/depth_text.h"
+#include "libpipeline/picture/pixel_array.h"
 
 namespace pipeline {
 namespace {
@@ -46,12 +48,12 @@ void PictureOutputs::open(const Viewport& screen, int sample_count, Color backgr
     if (sample_count > 1) means_.emplace(screen.columns, sample_count, background);
   }
   if (chosen_.z_buffer_path != "none") depths_ = open_text(chosen_.z_buffer_path);
-  const auto open_pixels = [&](const std::string& path, auto& writer) {
-    if (!path.empty()) writer.emplace(opened(path), path, screen);
+  const auto open_pixels = [&](const std::string& path, auto& writer, const auto& writer_of) {
+    if (!path.empty()) writer = writer_of(opened(path), path, screen);
   };
-  open_pixels(chosen_.depth_image_path, depth_image_);
-  open_pixels(chosen_.depth_array_path, depth_array_);
-  open_pixels(chosen_.triangle_array_path, triangles_);
+  open_pixels(chosen_.depth_image_path, depth_image_, depth_image_writer);
+  open_pixels(chosen_.depth_array_path, depth_array_, array_writer<double>);
+  open_pixels(chosen_.triangle_array_path, triangles_, array_writer<std::int64_t>);
 }
 
 TextWriter* PictureOutputs::open_text(const std::string& path) {

@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "libpipeline/numbers/ball.h"
-#include "libpipeline/picture/depth_image.h"
 #include "libpipeline/picture/image_file.h"
-#include "libpipeline/picture/pixel_array.h"
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
@@ -42,7 +40,7 @@ class PictureOutputs {
   TextWriter* open_text(const std::string& path);
 
   [[nodiscard]] bool wants_colors() const { return image_ != nullptr; }
-  [[nodiscard]] bool wants_triangles() const { return triangles_.has_value(); }
+  [[nodiscard]] bool wants_triangles() const { return triangles_ != nullptr; }
   // Each takes the next row, from the top.
   void write_colors(std::span<const Color> colors);
   void write_depths(std::span<const double> depths, std::span<const Ball> exact = {});
@@ -67,10 +65,10 @@ class PictureOutputs {
   std::deque<TextWriter> text_files_;
   std::vector<TextWriter*> texts_;  // standard output and files
   TextWriter* depths_ = nullptr;    // one of these; null: none
-  std::optional<DepthImageWriter> depth_image_;
-  std::optional<PixelArrayWriter<double>> depth_array_;
+  std::unique_ptr<RowWriter<double>> depth_image_;
+  std::unique_ptr<RowWriter<double>> depth_array_;
   std::vector<double> array_row_;
-  std::optional<PixelArrayWriter<std::int64_t>> triangles_;
+  std::unique_ptr<RowWriter<std::int64_t>> triangles_;
 };
 
 }  // namespace pipeline

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "libpipeline/picture/image_file.h"
-#include "libpipeline/picture/png_file.h"
+#include "libpipeline/picture/image_formats.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/vertex/transform.h"
 
