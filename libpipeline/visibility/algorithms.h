@@ -11,7 +11,6 @@
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
-#include "libpipeline/visibility/scanline.h"
 #include "libpipeline/visibility/zbuffer.h"
 
 namespace pipeline {
@@ -171,9 +170,4 @@ class ZBufferAlgorithm {
   ZBuffer<Depth> buffer_;
   double most_height_;  // of a triangle with less than kMaxRows rows
 };
-
-/// The scan-line algorithm: keeps the triangles until their rows are visited.
-template <typename Coverage, typename Depth>
-using ScanlineAlgorithm = Scanline<Coverage, Depth>;
-
 }  // namespace pipeline

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "libpipeline/visibility/algorithms.h"
+#include "libpipeline/visibility/scanline.h"
 #include "libpipeline/visibility/triangle_drawing.h"
 
 namespace pipeline {
@@ -34,29 +35,6 @@ class ZBufferDrawing final : public Drawing {
   TriangleDrawing<Visible> triangles_;
 };
 
-template <typename Coverage, typename Depth>
-class ScanlineDrawing final : public Drawing {
- public:
-  ScanlineDrawing(const PixelRules&, const Viewport& screen, PixelTag background, ThreadPool&)
-      : visible_(screen, background) {}
-
-  TaggedBatch& next() override { return next_; }
-  void draw_next() override {
-    for (std::size_t i = 0; i < next_.batch.size(); ++i)
-      visible_.draw(exact_triangle(next_.batch, i), next_.tags[i]);
-  }
-  void finish() override {}
-
-  void for_each_drawn_row(const std::function<void(std::span<PixelTag>)>&) override {}
-  void for_each_row(const std::function<void(const VisibleRow&)>& visit) const override {
-    visible_.for_each_row(visit);
-  }
-
- private:
-  ScanlineAlgorithm<Coverage, Depth> visible_;
-  TaggedBatch next_;
-};
-
 }  // namespace
 
 std::unique_ptr<Drawing> drawing(Algorithm algorithm, const PixelRules& rules, const Viewport& screen,
@@ -64,7 +42,7 @@ std::unique_ptr<Drawing> drawing(Algorithm algorithm, const PixelRules& rules, c
   return std::visit(
       [&]<typename Rule, typename Depth>(TypeValue<Rule>, TypeValue<Depth>) -> std::unique_ptr<Drawing> {
         if (algorithm == Algorithm::scanline)
-          return std::make_unique<ScanlineDrawing<Rule, Depth>>(rules, screen, background, pool);
+          return std::make_unique<Scanline<Rule, Depth>>(screen, background);
         return std::make_unique<ZBufferDrawing<Rule, Depth>>(rules, screen, background, pool);
       },
       rules.coverage, rules.depth);

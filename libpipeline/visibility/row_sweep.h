@@ -8,7 +8,6 @@
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
-#include "libpipeline/visibility/active_edge_list.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/edge_table.h"
 #include "libpipeline/visibility/raster.h"

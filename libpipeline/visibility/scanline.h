@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "libpipeline/scene/viewport.h"
-#include "libpipeline/visibility/active_edge_list.h"
+#include "libpipeline/visibility/drawing.h"
 #include "libpipeline/visibility/edge_table.h"
 #include "libpipeline/visibility/row_sweep.h"
 
@@ -80,7 +81,7 @@ class ActivePolygons {
 /// edition, section 13-5. The method is from C. Wylie, G. Romney, D. Evans, A. Erdahl, "Half-tone perspective
 /// drawings by computer", 1967.
 template <typename Coverage, typename Depth>
-class Scanline {
+class Scanline final : public Drawing {
  public:
   /// Every pixel is at the rear limit and has the tag `background`.
   explicit Scanline(const Viewport& screen, PixelTag background = {})
@@ -99,9 +100,13 @@ class Scanline {
     polygon_table_.add(triangle, tag);
   }
 
-  /// Calls `visit(VisibleRow)` for every row that is drawn, from the top.
-  template <typename Visitor>
-  void for_each_row(Visitor&& visit) const {
+  TaggedBatch& next() override { return next_; }
+  void draw_next() override {
+    for (std::size_t i = 0; i < next_.batch.size(); ++i) draw(exact_triangle(next_.batch, i), next_.tags[i]);
+  }
+  void finish() override {}
+  void for_each_drawn_row(const std::function<void(std::span<PixelTag>)>&) override {}
+  void for_each_row(const std::function<void(const VisibleRow&)>& visit) const override {
     ActiveEdgeList edges;
     ActivePolygons<typename Coverage::Rows, Depth> active;
     RowSweep<Depth> sweep(screen_, background_);
@@ -124,6 +129,7 @@ class Scanline {
   Coverage coverage_;
   EdgeTable edge_table_;
   PolygonTable polygon_table_;
+  TaggedBatch next_;
 };
 
 }  // namespace pipeline

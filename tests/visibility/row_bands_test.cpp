@@ -1,4 +1,4 @@
-#include "libpipeline/visibility/row_bands.h"
+#include "libpipeline/visibility/triangle_drawing.h"
 
 #include <gtest/gtest.h>
 

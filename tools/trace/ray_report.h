@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "libpipeline/raytracing/light_transport.h"
-#include "libpipeline/visibility/fragment.h"
+#include "libpipeline/visibility/fragment_log.h"
 #include "tools/trace/traced_scene.h"
 
 namespace pipeline {

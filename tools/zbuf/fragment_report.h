@@ -6,7 +6,6 @@
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/text_writer.h"
-#include "libpipeline/visibility/fragment.h"
 #include "libpipeline/visibility/fragment_log.h"
 #include "tools/zbuf/zbuf_options.h"
 

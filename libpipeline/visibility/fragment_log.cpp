@@ -1,4 +1,4 @@
-#include "libpipeline/visibility/fragment.h"
+#include "libpipeline/visibility/fragment_log.h"
 
 #include <array>
 #include <cmath>

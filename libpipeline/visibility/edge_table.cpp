@@ -1,4 +1,4 @@
-#include "libpipeline/visibility/active_edge_list.h"
+#include "libpipeline/visibility/edge_table.h"
 
 #include <algorithm>
 #include <iterator>
