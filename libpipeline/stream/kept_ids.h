@@ -70,11 +70,6 @@ class ChunkedArray {
       if (count != i) (*this)[count] = std::move((*this)[i]);  // to itself, a string would be empty
       ++count;
     }
-    truncate(count);
-  }
-
-  /// Keeps the first `count` entries.
-  void truncate(std::size_t count) {
     for (std::size_t i = count / kChunk; i < chunks_.size(); ++i) {
       const std::size_t left = std::min(chunks_[i].size(), count - std::min(count, i * kChunk));
       chunks_[i].erase(chunks_[i].begin() + static_cast<std::ptrdiff_t>(left), chunks_[i].end());

@@ -18,19 +18,15 @@ namespace pipeline {
 template <typename T>
 class Raster {
  public:
-  /// `rows` x `columns` entries of `value`; both sizes are at least 0.
-  Raster(int rows, int columns, const T& value) : Raster(RowRange{0, rows}, columns, value) {}
+  /// Entries of `value`; both sizes are at least 0.
   Raster(const RowRange& rows, int columns, const T& value)
       : rows_(rows), columns_(columns), entries_(count(rows, columns), value) {}
   /// Entries without values: reading one before it is written is undefined. Where nothing is written, the
   /// system provides no memory.
-  Raster(int rows, int columns) : Raster(RowRange{0, rows}, columns) {}
   Raster(const RowRange& rows, int columns)
       : rows_(rows), columns_(columns), entries_(count(rows, columns)) {}
 
-  /// How many there are.
-  [[nodiscard]] int rows() const { return rows_.end - rows_.first; }
-  /// Which of a picture they are.
+  /// Which rows of a picture they are.
   [[nodiscard]] const RowRange& row_range() const { return rows_; }
   [[nodiscard]] int columns() const { return columns_; }
 

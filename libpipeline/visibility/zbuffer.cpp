@@ -63,7 +63,7 @@ void ZBuffer<Depth>::fill_row(int row) {
 
 template <typename Depth>
 void ZBuffer<Depth>::draw(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest) {
-  fill_if_new(span.row);
+  if (!is_filled_[index_of(span.row)]) fill_row(span.row);
   draw_in_filled_row(span, tag, farthest);
 }
 

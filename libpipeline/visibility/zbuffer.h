@@ -81,9 +81,6 @@ class ZBuffer {
 
   [[nodiscard]] std::size_t index_of(int row) const { return static_cast<std::size_t>(row - rows_.first); }
   /// Has to precede any drawing into a row.
-  void fill_if_new(int row) {
-    if (!is_filled_[index_of(row)]) fill_row(row);
-  }
   void fill_row(int row);
   void draw_in_filled_row(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest);
   [[nodiscard]] Span part_behind_front(const Span& span) const;

@@ -20,8 +20,8 @@ using namespace std::string_literals;
 
 /// An image file in the format of the extension `format`.
 void write_image(int descriptor, const std::string& format, const Raster<Color>& image) {
-  const auto writer = image_writer(descriptor, "image" + format, image.columns(), image.rows());
-  for (int row = 0; row < image.rows(); ++row) writer->write_row(image.row(row));
+  const auto writer = image_writer(descriptor, "image" + format, image.columns(), image.row_range().end);
+  for (int row = 0; row < image.row_range().end; ++row) writer->write_row(image.row(row));
   writer->finish();
 }
 
@@ -51,8 +51,8 @@ std::string bytes_in_pipe(const std::string& format, const Raster<Color>& image)
 
 /// Larger than the blocks of 64 KiB in which a BMP file is written.
 Raster<Color> large_image() {
-  Raster<Color> image(1501, 999, Color());
-  for (int row = 0; row < image.rows(); ++row)
+  Raster<Color> image({0, 1501}, 999, Color());
+  for (int row = 0; row < image.row_range().end; ++row)
     for (int column = 0; column < image.columns(); ++column)
       image.row(row)[static_cast<std::size_t>(column)] =
           Color::from_rgb(static_cast<std::uint32_t>(row * 4099 + column));
