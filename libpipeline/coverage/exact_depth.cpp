@@ -1,5 +1,3 @@
-#include "libpipeline/coverage/exact_depth.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -7,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "libpipeline/coverage/rules.h"
 #include "libpipeline/numbers/exact_sum.h"
 
 namespace pipeline {
@@ -61,16 +60,16 @@ Ball NearestRows::exact_depth(int row, int column) const {
   return weighted_sum(p_, x, y, {p_[0].z, p_[1].z, p_[2].z}) / total;
 }
 
-Ball exact_depth(const NearestCoverage& rule, const ExactTriangle& triangle, int row, int column) {
-  return NearestRows(rule.grid, triangle.p_ndc).exact_depth(row, column);
+Ball NearestCoverage::exact_depth(const ExactTriangle& triangle, int row, int column) const {
+  return NearestRows(grid, triangle.p_ndc).exact_depth(row, column);
 }
 
 // Z7
-Ball exact_depth(const CenterCoverage& rule, const ExactTriangle& triangle, int row, int column) {
-  const AxisUnits x = column_units(rule.grid, triangle), y = row_units(rule.grid, triangle);
+Ball CenterCoverage::exact_depth(const ExactTriangle& triangle, int row, int column) const {
+  const AxisUnits x = column_units(grid, triangle), y = row_units(grid, triangle);
   if (x.bits + y.bits + 3 < static_cast<int>(8 * sizeof(WideInt)))
-    return depth_on_grid(grid_triangle<WideInt>(rule.grid, x, y), triangle.p_ndc, row, column);
-  return depth_on_grid(grid_triangle<HugeInt>(rule.grid, x, y), triangle.p_ndc, row, column);
+    return depth_on_grid(grid_triangle<WideInt>(grid, x, y), triangle.p_ndc, row, column);
+  return depth_on_grid(grid_triangle<HugeInt>(grid, x, y), triangle.p_ndc, row, column);
 }
 
 }  // namespace pipeline

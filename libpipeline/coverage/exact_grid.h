@@ -10,9 +10,9 @@
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/double_double.h"
+#include "libpipeline/numbers/fixed_int.h"
 #include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/numbers/whole_math.h"
 #include "libpipeline/scene/viewport.h"
 
 namespace pipeline {

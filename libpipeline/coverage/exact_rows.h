@@ -10,7 +10,7 @@
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/coverage/triangle_depth.h"
-#include "libpipeline/numbers/whole_math.h"
+#include "libpipeline/numbers/fixed_int.h"
 
 namespace pipeline {
 

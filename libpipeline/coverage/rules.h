@@ -18,6 +18,9 @@ namespace pipeline {
 //   rows(triangle)    the triangle's pixels: first_row() and last_row(), inside the screen, and span(row), a
 //                     std::optional<Span>. Only a row whose line of pixel centers meets the triangle has any:
 //                     bands and buffers are chosen by the triangle's height;
+//   exact_depth(triangle, row, column)   the depth (NDC z) at a pixel that the triangle covers, within 2^-97
+//   of
+//                     the largest |z| of its vertices and of itself. Slow: for digits that a Span may lack;
 //   spans(triangles, rows, begin)   if it has a kernel for many triangles: the same spans, written as a
 //                     kernel does.
 
@@ -30,6 +33,7 @@ struct NearestCoverage {
   using Rows = NearestRows;
   explicit NearestCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(nearest_kernels())) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle.p_ndc}; }
+  [[nodiscard]] Ball exact_depth(const ExactTriangle& triangle, int row, int column) const;
   TaggedSpan* spans(std::span<const TaggedTriangle> triangles, const RowRange& rows,
                     TaggedSpan* begin) const {
     return kernel(grid, triangles, rows, begin);
@@ -47,6 +51,7 @@ struct CenterCoverage {
   using Rows = CenterRows;
   explicit CenterCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(center_kernels())) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle}; }
+  [[nodiscard]] Ball exact_depth(const ExactTriangle& triangle, int row, int column) const;
   TaggedSpan* spans(std::span<const TaggedTriangle> triangles, const RowRange& rows,
                     TaggedSpan* begin) const {
     return kernel(grid, triangles, rows, begin);

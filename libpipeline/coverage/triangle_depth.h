@@ -10,7 +10,7 @@
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/double_double.h"
-#include "libpipeline/numbers/whole_math.h"
+#include "libpipeline/numbers/fixed_int.h"
 
 namespace pipeline {
 

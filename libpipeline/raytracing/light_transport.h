@@ -8,7 +8,6 @@
 #include "libpipeline/raytracing/bvh.h"
 #include "libpipeline/raytracing/ray_log.h"
 #include "libpipeline/raytracing/surface_caster.h"
-#include "libpipeline/raytracing/surface_triangle.h"
 #include "libpipeline/raytracing/traced_triangles.h"
 
 namespace pipeline {

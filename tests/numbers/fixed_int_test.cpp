@@ -3,7 +3,6 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
-#include "libpipeline/numbers/whole_math.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/sanitizer_rounds.h"
 

@@ -1,5 +1,5 @@
 # Depths under `center` of triangles that are not all decimals: DepthPlane (libpipeline/coverage/center.h), as Planes and
-# middle_depth (libpipeline/coverage/double_lanes.h) calculate it.
+# middle_depth (libpipeline/coverage/double_rows.h) calculate it.
 #
 # In units of Z, the largest |z| of a vertex. In pixels, the corners are p, q and r; W = |q.u - p.u| + |r.u - p.u|, H likewise of v,
 # M the largest |u| or |v| of a corner and the count of pixels added up, k = W H / area, at least 1, and n = k^2 (M_u / W + M_v / H).

@@ -1,4 +1,4 @@
-#include "libpipeline/raytracing/surface_triangle.h"
+#include "libpipeline/raytracing/surface_caster.h"
 
 #include <gtest/gtest.h>
 

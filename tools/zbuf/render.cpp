@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "libpipeline/certainty/certain_pixels.h"
-#include "libpipeline/coverage/exact_depth.h"
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
@@ -114,7 +113,7 @@ void set_exact_depths(const AnyCoverage& coverage, const TriangleStore& store, i
     const bool is_flat = p[0].z == p[1].z && p[0].z == p[2].z;
     depths[i] =
         is_flat ? Ball(p[0].z) : coverage.visit([&, &p = p, &low = low_parts, m = marks](const auto& rule) {
-          return exact_depth(rule, {p, &low, m}, row, static_cast<int>(i));
+          return rule.exact_depth({p, &low, m}, row, static_cast<int>(i));
         });
   }
 }

@@ -1,4 +1,4 @@
-#include "libpipeline/numbers/whole_math.h"
+#include "libpipeline/numbers/fixed_int.h"
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,13 @@ namespace pipeline {
 namespace {
 
 template <typename Int>
-class WholeMath : public testing::Test {};
+class WholeNumbers : public testing::Test {};
 using Types = testing::Types<std::int64_t, Int128, FixedInt<2>, FixedInt<4>>;
-TYPED_TEST_SUITE(WholeMath, Types);
+TYPED_TEST_SUITE(WholeNumbers, Types);
 
 constexpr std::int64_t kLarge = std::int64_t{1} << 40;
 
-TYPED_TEST(WholeMath, DividesByPowersOfTwo) {
+TYPED_TEST(WholeNumbers, DividesByPowersOfTwo) {
   for (const std::int64_t value : {std::int64_t{0}, std::int64_t{5}, std::int64_t{-5}, kLarge, -kLarge}) {
     EXPECT_EQ(to_double(TypeParam(value), 0), static_cast<double>(value));
     EXPECT_EQ(to_double(TypeParam(value), 2), static_cast<double>(value) / 4);
@@ -22,13 +22,13 @@ TYPED_TEST(WholeMath, DividesByPowersOfTwo) {
   }
 }
 
-TYPED_TEST(WholeMath, CutsDownward) {
+TYPED_TEST(WholeNumbers, CutsDownward) {
   EXPECT_EQ(cut(TypeParam(kLarge + 7), 2), kLarge / 4 + 1);
   EXPECT_EQ(cut(TypeParam(-kLarge - 7), 2), -kLarge / 4 - 2);
   EXPECT_EQ(cut(TypeParam(-1), 40), -1);
 }
 
-TEST(WholeMathOf128Bits, HasItsHighHalfToo) {
+TEST(DivisorOf128Bits, HasItsHighHalfToo) {
   const Int128 value = (Int128{3} << 100) + (Int128{1} << 99);
   EXPECT_EQ(to_double(value), 7 * 0x1p99);
   EXPECT_EQ(to_double(-value), -7 * 0x1p99);
@@ -46,7 +46,7 @@ int counted(std::int64_t dividend, std::int64_t value, int most) {
   return c;
 }
 
-TYPED_TEST(WholeMath, QuotientsAreRoundedUpAndKeptInTheirRange) {
+TYPED_TEST(WholeNumbers, QuotientsAreRoundedUpAndKeptInTheirRange) {
   RandomNumbers random(1);
   for (int i = 0; i < 2'000; ++i) {
     const std::int64_t value = i % 2 == 0 ? random.whole(1, 9) : kLarge / random.whole(1, 1000);
@@ -58,7 +58,7 @@ TYPED_TEST(WholeMath, QuotientsAreRoundedUpAndKeptInTheirRange) {
   }
 }
 
-TYPED_TEST(WholeMath, QuotientsBesideAWholeNumberAreExact) {
+TYPED_TEST(WholeNumbers, QuotientsBesideAWholeNumberAreExact) {
   constexpr int kMost = 1 << 20;
   const std::int64_t value = 3 * kLarge + 1;
   const Divisor<TypeParam> divisor{TypeParam(value)};
