@@ -358,10 +358,7 @@ SpanDepth depth_along(const DepthPlane& plane, int row, int first_column, int la
   return {0, 2, columns, number_in(middle, 0), number_in(half_slope_of(per_column), 0)};
 }
 
-const KernelTable<CenterSpans>& center_kernels() {
-  static constexpr KernelTable<CenterSpans> kKernels = PIPELINE_KERNEL_TABLE(center_spans);
-  return kKernels;
-}
+constinit const KernelTable<CenterSpans> kCenterKernels = PIPELINE_KERNEL_TABLE(center_spans);
 
 }  // namespace pipeline
 

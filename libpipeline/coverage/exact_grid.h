@@ -166,8 +166,8 @@ using NearestSpans = TaggedSpan* (*)(const PixelGrid& grid, std::span<const Tagg
 using CenterSpans = TaggedSpan* (*)(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
                                     const RowRange& rows, TaggedSpan* spans);
 
-const KernelTable<NearestSpans>& nearest_kernels();
-const KernelTable<CenterSpans>& center_kernels();
+extern const KernelTable<NearestSpans> kNearestKernels;
+extern const KernelTable<CenterSpans> kCenterKernels;
 
 /// Writes the spans of one triangle likewise; `covered` are its rows by a coverage rule.
 template <typename CoveredRows>

@@ -175,10 +175,7 @@ PIPELINE_END_KERNELS();
 
 namespace pipeline {
 
-const KernelTable<NearestSpans>& nearest_kernels() {
-  static constexpr KernelTable<NearestSpans> kKernels = PIPELINE_KERNEL_TABLE(nearest_spans);
-  return kKernels;
-}
+constinit const KernelTable<NearestSpans> kNearestKernels = PIPELINE_KERNEL_TABLE(nearest_spans);
 
 }  // namespace pipeline
 

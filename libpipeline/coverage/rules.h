@@ -31,7 +31,7 @@ struct NearestCoverage {
       kMeaning = "on each row from the pixel nearest to its left end to that nearest to its right end";
   static constexpr bool kUsesDecimals = false;
   using Rows = NearestRows;
-  explicit NearestCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(nearest_kernels())) {}
+  explicit NearestCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(kNearestKernels)) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle.p_ndc}; }
   [[nodiscard]] Ball exact_depth(const ExactTriangle& triangle, int row, int column) const;
   TaggedSpan* spans(std::span<const TaggedTriangle> triangles, const RowRange& rows,
@@ -49,7 +49,7 @@ struct CenterCoverage {
                                     kMeaning = "those whose centers lie inside, decided exactly";
   static constexpr bool kUsesDecimals = true;
   using Rows = CenterRows;
-  explicit CenterCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(center_kernels())) {}
+  explicit CenterCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(kCenterKernels)) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle}; }
   [[nodiscard]] Ball exact_depth(const ExactTriangle& triangle, int row, int column) const;
   TaggedSpan* spans(std::span<const TaggedTriangle> triangles, const RowRange& rows,

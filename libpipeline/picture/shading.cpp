@@ -194,13 +194,10 @@ Color rounded_color(const Vec3& color) {
   return rounded;
 }
 
-const KernelTable<RunShader>& run_shaders() {
-  static constexpr KernelTable<RunShader> kKernels = PIPELINE_KERNEL_TABLE(shade);
-  return kKernels;
-}
+constinit const KernelTable<RunShader> kRunShaders = PIPELINE_KERNEL_TABLE(shade);
 
 RunShader run_shader() {
-  static const RunShader chosen = chosen_kernel(run_shaders());
+  static const RunShader chosen = chosen_kernel(kRunShaders);
   return chosen;
 }
 

@@ -75,7 +75,7 @@ constexpr std::size_t kMaxLanesShaded = 8;
 /// writes the same.
 using RunShader = void (*)(const PixelRun& run, const Lighting& lighting, Color* colors);
 
-const KernelTable<RunShader>& run_shaders();
+extern const KernelTable<RunShader> kRunShaders;
 
 /// The kernel in use.
 RunShader run_shader();

@@ -145,7 +145,7 @@ FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const Fix
 
 void write_columns(const ConstFixedColumns& columns, const Triangle* low_part, NumberFormat format,
                    TextWriter& text) {
-  static const WriteFixedColumns write_fixed = chosen_kernel(fixed_printing_kernels());
+  static const WriteFixedColumns write_fixed = chosen_kernel(kFixedPrintingKernels);
   static constexpr Triangle kNothing = {};
   constexpr std::size_t kMaxShortestLength = 24;
   constexpr std::size_t kNumbers = 3 * (3 * kMaxGroups + 2);

@@ -287,10 +287,7 @@ PIPELINE_END_KERNELS();
 
 namespace pipeline {
 
-const KernelTable<WriteFixedColumns>& fixed_printing_kernels() {
-  static constexpr KernelTable<WriteFixedColumns> kKernels = PIPELINE_KERNEL_TABLE(write_columns);
-  return kKernels;
-}
+constinit const KernelTable<WriteFixedColumns> kFixedPrintingKernels = PIPELINE_KERNEL_TABLE(write_columns);
 
 }  // namespace pipeline
 

@@ -127,7 +127,7 @@ const FixedReaders& fixed_readers();
 /// kFixedTextSlack more. The scalar kernel prints nothing.
 using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, std::size_t first, int decimals,
                                             char* out);
-const KernelTable<WriteFixedColumns>& fixed_printing_kernels();
+extern const KernelTable<WriteFixedColumns> kFixedPrintingKernels;
 
 /// The groups of numbers; three times w and a material with a separator each.
 constexpr std::size_t kMaxFixedColumnsLength = kMaxGroups * kMaxFixedTriangleLength + 3 * (26 + 11);

@@ -174,13 +174,10 @@ Coefficient::Coefficient(const Ball& number) {
                                       : std::numeric_limits<double>::quiet_NaN();
 }
 
-const KernelTable<const VertexKernel*>& vertex_kernels() {
-  static constexpr KernelTable<const VertexKernel*> kKernels = PIPELINE_KERNEL_TABLE(kKernel);
-  return kKernels;
-}
+constinit const KernelTable<const VertexKernel*> kVertexKernels = PIPELINE_KERNEL_TABLE(kKernel);
 
 const VertexKernel& vertex_kernel() {
-  static const VertexKernel& chosen = *chosen_kernel(vertex_kernels());
+  static const VertexKernel& chosen = *chosen_kernel(kVertexKernels);
   return chosen;
 }
 

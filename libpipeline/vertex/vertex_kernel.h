@@ -132,7 +132,7 @@ struct VertexKernel {
   std::size_t (*transform_normals)(const std::array<Vec3, 3>& rows, std::span<Vec3> normals);
 };
 
-const KernelTable<const VertexKernel*>& vertex_kernels();
+extern const KernelTable<const VertexKernel*> kVertexKernels;
 
 /// The kernel in use.
 const VertexKernel& vertex_kernel();

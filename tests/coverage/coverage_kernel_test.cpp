@@ -164,17 +164,17 @@ void expect_the_spans_of_the_rule(Kernel kernel) {
 }
 
 TEST_P(CoverageKernelTest, NearestSpansAreThoseOfTheRule) {
-  expect_the_spans_of_the_rule<NearestCoverage>(nearest_kernels()[GetParam()]);
+  expect_the_spans_of_the_rule<NearestCoverage>(kNearestKernels[GetParam()]);
 }
 
 TEST_P(CoverageKernelTest, CenterSpansAreThoseOfTheRule) {
-  expect_the_spans_of_the_rule<CenterCoverage>(center_kernels()[GetParam()]);
+  expect_the_spans_of_the_rule<CenterCoverage>(kCenterKernels[GetParam()]);
 }
 
 TEST_P(CoverageKernelTest, TheSmallestTrianglesOwnACenterAtTheirTopLeftCornerAlone) {
   const Viewport screen = screen_of(10, 10, -1, -1, true);
   CenterCoverage rule(screen);
-  rule.kernel = center_kernels()[GetParam()];
+  rule.kernel = kCenterKernels[GetParam()];
   // From the center of column 5 and row 4, two sides one unit of the last decimal long.
   constexpr double kLess = 0.0999999, kCenter = 0.1, kMore = 0.1000001;
   const Vec3 corner = {kCenter, kCenter, 0}, left = {kLess, kCenter, 0}, right = {kMore, kCenter, 0},
@@ -202,13 +202,13 @@ TEST_P(CoverageKernelTest, TheSmallestTrianglesOwnACenterAtTheirTopLeftCornerAlo
 TEST(Kernels, AreCompiledForEveryProcessor) {
   const auto is_family = [](std::string_view target) { return target == "avx2"; };
   const auto avx2 = static_cast<std::size_t>(std::ranges::find_if(kTargets, is_family) - kTargets.begin());
-  if (nearest_kernels()[avx2] == nullptr) GTEST_SKIP() << "not a processor with several kinds of vectors";
-  if (nearest_kernels()[avx2 - 1] == nullptr)
+  if (kNearestKernels[avx2] == nullptr) GTEST_SKIP() << "not a processor with several kinds of vectors";
+  if (kNearestKernels[avx2 - 1] == nullptr)
     GTEST_SKIP() << "the kernels for sse4 and avx512 are left out (PIPELINE_ALL_KERNELS)";
-  for (std::size_t target = avx2 - 1; target <= avx2; ++target) EXPECT_NE(center_kernels()[target], nullptr);
+  for (std::size_t target = avx2 - 1; target <= avx2; ++target) EXPECT_NE(kCenterKernels[target], nullptr);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, CoverageKernelTest, testing::ValuesIn(testable_targets(nearest_kernels())),
+INSTANTIATE_TEST_SUITE_P(Kernels, CoverageKernelTest, testing::ValuesIn(testable_targets(kNearestKernels)),
                          name_of_target);
 
 }  // namespace

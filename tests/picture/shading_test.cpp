@@ -162,7 +162,7 @@ struct RandomRun {
 };
 
 TEST(Shading, EveryKernelColorsARunAsItsPixelsOneByOne) {
-  for (const std::size_t target : testable_targets(run_shaders())) {
+  for (const std::size_t target : testable_targets(kRunShaders)) {
     SCOPED_TRACE(kTargets[target]);
     std::mt19937_64 rng(1);
     for (int i = 0; i < 400; ++i) {
@@ -171,7 +171,7 @@ TEST(Shading, EveryKernelColorsARunAsItsPixelsOneByOne) {
       const int first = i % 5, count = 1 + i % (kColumns - first);
       const Color untouched(1, 2, 3);
       std::vector<Color> colors(kColumns + kMaxLanesShaded, untouched);
-      run_shaders()[target](
+      kRunShaders[target](
           {run.weights, run.corners, is_lit ? &run.material : nullptr, run.grid, kRow, first, count},
           run.lighting, &colors[0]);
       const auto end = static_cast<std::size_t>(count);

@@ -28,7 +28,7 @@ FixedTextPart read_columns(const std::string& text, TriangleFrame frame, const G
 /// and prints nothing. There is one for reading: the last with vectors of sixteen characters.
 class FixedText : public testing::TestWithParam<std::size_t> {
  protected:
-  static WriteFixedColumns kernel() { return fixed_printing_kernels()[GetParam()]; }
+  static WriteFixedColumns kernel() { return kFixedPrintingKernels[GetParam()]; }
 
   static FixedTextPart read(const std::string& text, std::vector<Triangle>& triangles, int decimals = 7) {
     return read_columns(text, TriangleFrame::stage_text, {decimals}, {{triangles}, {}});
@@ -648,7 +648,7 @@ TEST(FixedTextDecimals, AreThoseOfTheFirstNumber) {
 }
 
 std::vector<std::size_t> printing_targets() {
-  std::vector<std::size_t> targets = testable_targets(fixed_printing_kernels());
+  std::vector<std::size_t> targets = testable_targets(kFixedPrintingKernels);
   targets.erase(targets.begin());
   return targets;
 }

@@ -45,7 +45,7 @@ VertexBlock block_of(const Vec3& p) {
 
 class VertexKernels : public testing::TestWithParam<std::size_t> {
  protected:
-  static const VertexKernel& kernel() { return *vertex_kernels()[GetParam()]; }
+  static const VertexKernel& kernel() { return *kVertexKernels[GetParam()]; }
   static ImageBlock image_of(const AffineCoefficients& coefficients, const Vec3& p,
                              const RoundingTest& test = kNearest) {
     ImageBlock image;
@@ -237,7 +237,7 @@ TEST_P(VertexKernels, AcceptNoQuotientBehindTheEyeOrOnItsPlane) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, VertexKernels, testing::ValuesIn(testable_targets(vertex_kernels())),
+INSTANTIATE_TEST_SUITE_P(Kernels, VertexKernels, testing::ValuesIn(testable_targets(kVertexKernels)),
                          name_of_target);
 
 }  // namespace
