@@ -82,9 +82,7 @@ Attenuation read_attenuation(LineScanner& line) {
 
 Light read_light(LineScanner& line) {
   Light light;
-  light.position.x = line.number("the x of the light");
-  light.position.y = line.number("the y of the light");
-  light.position.z = line.number("the z of the light");
+  light.position = line.point("the light");
   light.intensity = read_intensity(line, "the light");
   return light;
 }

@@ -12,8 +12,7 @@ namespace {
 
 LineScanner required_line(TextReader& text, const std::string& expected) {
   LineScanner line;
-  if (!text.next_filled_line(line))
-    throw InputError(text.end_location(), expected_but_found(expected, "the end of the input"));
+  text.expect_filled_line(line, expected);
   return line;
 }
 

@@ -51,10 +51,7 @@ Located<Projection> SceneReader::read_camera_projection() {
 
 /// Moves on to the next line that is not blank, unless a word is left on the command's own line.
 void SceneReader::next_argument_line(std::string_view expected, std::string_view of) {
-  if (line_.at_end() && !text_.next_filled_line(line_))
-    throw InputError(
-        text_.end_location(),
-        expected_but_found(std::string(expected) + (of.empty() ? "" : quoted(of)), "the end of the input"));
+  if (line_.at_end()) text_.expect_filled_line(line_, expected, of);
 }
 
 std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>& p_model,
@@ -80,9 +77,7 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
 
 // S10
 Command SceneReader::next() {
-  if (!text_.next_filled_line(line_))
-    throw InputError(text_.end_location(),
-                     expected_but_found("'end', which closes a scene", "the end of the input"));
+  text_.expect_filled_line(line_, "'end', which closes a scene");
   location_ = line_.location();
   const SceneCommand* command = find_scene_command(line_.peek());
   if (command == nullptr || !is_allowed(*command)) refuse(command);
@@ -245,9 +240,7 @@ SphereCommand SceneReader::read_sphere() {
   SphereCommand command;
   command.center_location = {line_.line_number(), line_.column()};
   Vec3& center = command.center;
-  center.x = line_.number("the x of the center");
-  center.y = line_.number("the y of the center");
-  center.z = line_.number("the z of the center");
+  center = line_.point("the center");
   const auto is_seen_in = [](double coordinate, double radius) {
     return std::isfinite(coordinate + radius) && coordinate + radius > coordinate;
   };

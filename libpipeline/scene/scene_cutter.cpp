@@ -34,18 +34,14 @@ void write_repeated(TextWriter& part, std::string_view command, std::uint64_t co
 
 /// Moves on to the next line that is not blank, unless a word is left on this one.
 void next_argument_line(TextReader& text, LineScanner& line, std::string_view keyword) {
-  if (line.at_end() && !text.next_filled_line(line))
-    throw InputError(text.end_location(),
-                     expected_but_found("the arguments of " + quoted(keyword), "the end of the input"));
+  if (line.at_end()) text.expect_filled_line(line, "the arguments of ", keyword);
 }
 
 }  // namespace
 
 SceneCutter::SceneCutter(TextReader& text) : text_(text) {
   for (int camera_line = 0; camera_line < 4; ++camera_line) {
-    if (!text_.next_filled_line(line_))
-      throw InputError(text_.end_location(),
-                       expected_but_found("the four lines of the camera", "the end of the input"));
+    text_.expect_filled_line(line_, "the four lines of the camera");
     (preamble_.back().text += line_.rest()) += '\n';
   }
   find_triangle(nullptr);
@@ -93,9 +89,7 @@ void SceneCutter::find_triangle(TextWriter* part) {
   while (true) {
     while (text_.buffered().starts_with('\n')) text_.skip(1, 1);
     if (length_of_triangle(text_.buffered()) > 0) return;
-    if (!text_.next_filled_line(line_))
-      throw InputError(text_.end_location(),
-                       expected_but_found("'end', which closes a scene", "the end of the input"));
+    text_.expect_filled_line(line_, "'end', which closes a scene");
     line_is_pending_ = is_object(line_.peek());
     if (line_is_pending_) return;
     if (line_.peek() == "end") {

@@ -57,9 +57,7 @@ VertexLineReader::VertexLineReader(const AttributeSet& attributes, RangeOfW rang
 void VertexLineReader::read(LineScanner& line, std::size_t vertex, const std::string& name,
                             TriangleLines& triangle) const {
   VertexLine& values = triangle.vertices[vertex];
-  values.position.x = line.number("the x of ", name);
-  values.position.y = line.number("the y of ", name);
-  values.position.z = line.number("the z of ", name);
+  values.position = line.point(name);
   for_each_attribute([&](const auto& attribute) {
     if (!(attributes_.*attribute.is_there)) return;
     const bool has_range = attribute.name != kW.name || range_of_w_ == RangeOfW::above_zero;

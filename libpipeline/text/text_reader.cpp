@@ -100,11 +100,13 @@ bool LineScanner::take_plain(DecimalNumber& number) {
   return true;
 }
 
+Vec3 LineScanner::point(std::string_view of) {
+  const double x = number("the x of ", of), y = number("the y of ", of);
+  return {x, y, number("the z of ", of)};
+}
+
 Vec3 LineScanner::vec3(std::string_view of) {
-  Vec3 v;
-  v.x = number("the x of ", of);
-  v.y = number("the y of ", of);
-  v.z = number("the z of ", of);
+  const Vec3 v = point(of);
   expect_end("the z of ", of);
   return v;
 }
@@ -200,6 +202,13 @@ bool TextReader::next_filled_line(LineScanner& line) {
   while (next_line(line))
     if (!line.at_end()) return true;
   return false;
+}
+
+void TextReader::expect_filled_line(LineScanner& line, std::string_view expected, std::string_view word) {
+  if (next_filled_line(line)) return;
+  const std::string of_word = word.empty() ? "" : quoted(word);
+  throw InputError(end_location(),
+                   expected_but_found(std::string(expected) + of_word, "the end of the input"));
 }
 
 bool TextReader::has_buffered_lines(std::size_t count) const {

@@ -31,7 +31,9 @@ class LineScanner {
   /// Takes the next word as a decimal number; an error names `expected` followed by `of` as the missing thing
   /// ("the x of " "the eye").
   double number(std::string_view expected, std::string_view of = {});
-  /// Takes three numbers, which must end the line; `of` names the point or direction in errors.
+  /// Takes three numbers; `of` names the point or direction in errors.
+  Vec3 point(std::string_view of);
+  /// The same; they must end the line.
   Vec3 vec3(std::string_view of);
   /// Takes the next word as a whole number without a sign.
   std::uint64_t count(std::string_view expected);
@@ -85,6 +87,8 @@ class TextReader {
   bool next_line(LineScanner& line);
   /// The next line that holds a word; false at the end of the text.
   bool next_filled_line(LineScanner& line);
+  /// The same; at the end of the text, an InputError that names `expected`, followed by `word` in quotes.
+  void expect_filled_line(LineScanner& line, std::string_view expected, std::string_view word = {});
   /// True if the next `count` lines that hold a word are buffered, so that reading them will not block.
   [[nodiscard]] bool has_buffered_lines(std::size_t count) const;
   /// True if the line read last ended with a newline, not with the text.
