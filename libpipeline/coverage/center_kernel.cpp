@@ -77,17 +77,6 @@ struct AxisLanes {
   Doubles largest;
 };
 
-/// A vertex of each of some triangles on the grid.
-struct GridPoints {
-  Doubles u;
-  Doubles v;
-  Doubles z;
-};
-
-HWY_INLINE GridPoints choose(Mask mask, const GridPoints& yes, const GridPoints& no) {
-  return {choose(mask, yes.u, no.u), choose(mask, yes.v, no.v), choose(mask, yes.z, no.z)};
-}
-
 struct Edges {
   Doubles crossing;
   Doubles row_step;
@@ -125,12 +114,12 @@ struct TriangleLanes {
   HWY_INLINE TriangleLanes(const AxisLanes& columns, const AxisLanes& rows, const TaggedTriangle* triangles,
                            const RowRange& range) {
     const auto [a, b, c] = vertices_of(triangles);
-    const GridPoints p = on_grid(columns, rows, a);
-    const GridPoints q = on_grid(columns, rows, b);
-    const GridPoints r = on_grid(columns, rows, c);
+    const Vectors p = on_grid(columns, rows, a);
+    const Vectors q = on_grid(columns, rows, b);
+    const Vectors r = on_grid(columns, rows, c);
 
-    const Doubles u_left = hn::Min(r.u, hn::Min(q.u, p.u)), u_right = hn::Max(r.u, hn::Max(q.u, p.u));
-    const Doubles v_top = hn::Min(r.v, hn::Min(q.v, p.v)), v_bottom = hn::Max(r.v, hn::Max(q.v, p.v));
+    const Doubles u_left = hn::Min(r.x, hn::Min(q.x, p.x)), u_right = hn::Max(r.x, hn::Max(q.x, p.x));
+    const Doubles v_top = hn::Min(r.y, hn::Min(q.y, p.y)), v_bottom = hn::Max(r.y, hn::Max(q.y, p.y));
     const Mask fits = hn::And(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
     // A column at or before the first that may be covered.
     const Doubles left = hn::Max(all(0), hn::Round(u_left * columns.inverse) - all(1));
@@ -145,13 +134,13 @@ struct TriangleLanes {
     sources.first_column = left;
     sources.column_count = columns.count - left;
     // Sorted from the top by the first row at or below a vertex, then by the vertex number.
-    const Doubles p_row = rows.pixel(p.v), q_row = rows.pixel(q.v), r_row = rows.pixel(r.v);
+    const Doubles p_row = rows.pixel(p.y), q_row = rows.pixel(q.y), r_row = rows.pixel(r.y);
     const Doubles high_row = hn::Min(q_row, p_row), low_row = hn::Max(q_row, p_row);
     sources.first_row = hn::Min(r_row, high_row);
     sources.middle_row = hn::Max(hn::Min(r_row, low_row), high_row);
     const Mask q_first = hn::Lt(q_row, p_row);
     const Mask r_before_high = hn::Lt(r_row, high_row), r_before_low = hn::Lt(r_row, low_row);
-    const GridPoints high = choose(q_first, q, p), low = choose(q_first, p, q);
+    const Vectors high = choose(q_first, q, p), low = choose(q_first, p, q);
     set_corners(columns, rows, left, choose(r_before_high, r, high),
                 choose(r_before_high, high, choose(r_before_low, r, low)), choose(r_before_low, low, r),
                 hn::Min(all(range.end), hn::Max(r_row, low_row)), is_beside);
@@ -166,24 +155,24 @@ struct TriangleLanes {
   Numbers half_slope;
 
  private:
-  HWY_INLINE static GridPoints on_grid(const AxisLanes& columns, const AxisLanes& rows, const Vectors& p) {
+  /// Vertices on the grid: x to the right and y down, in its units; z stays.
+  HWY_INLINE static Vectors on_grid(const AxisLanes& columns, const AxisLanes& rows, const Vectors& p) {
     return {columns.origin + columns.scaled(p.x), rows.origin - rows.scaled(p.y), p.z};
   }
-  HWY_INLINE void set_corners(const AxisLanes& columns, const AxisLanes& rows, Doubles left,
-                              const GridPoints& a, const GridPoints& b, const GridPoints& c, Doubles end_row,
-                              Mask is_beside) {
-    const Doubles weight = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+  HWY_INLINE void set_corners(const AxisLanes& columns, const AxisLanes& rows, Doubles left, const Vectors& a,
+                              const Vectors& b, const Vectors& c, Doubles end_row, Mask is_beside) {
+    const Doubles weight = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     sources.longest_is_left = hn::Lt(all(0), weight);
     // All weights and their sum have the same sign, whichever it is.
-    set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.v - a.v), columns.step * (a.v - b.v));
+    set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.y - a.y), columns.step * (a.y - b.y));
 
     const Mask is_empty = hn::Or(hn::Eq(weight, all(0)), is_beside);
     sources.end_row = choose(is_empty, sources.first_row, end_row);
 
     const Doubles first_u = left * columns.step, first_v = sources.first_row * rows.step;
-    const auto edge = [&](const GridPoints& from, const GridPoints& to) HWY_ATTR {
-      const Doubles du = to.u - from.u, dv = to.v - from.v, column_step = columns.step * dv;
-      return Edges{(from.u - first_u) * dv + (first_v - from.v) * du, rows.step * du, column_step,
+    const auto edge = [&](const Vectors& from, const Vectors& to) HWY_ATTR {
+      const Doubles du = to.x - from.x, dv = to.y - from.y, column_step = columns.step * dv;
+      return Edges{(from.x - first_u) * dv + (first_v - from.y) * du, rows.step * du, column_step,
                    all(1) / column_step};
     };
     sources.longest = edge(a, c);

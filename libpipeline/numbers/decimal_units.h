@@ -2,31 +2,21 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace pipeline {
 
-/// 10^n for every n for which a double holds it exactly.
-constexpr auto kPowersOfTen = [] {
-  std::array<double, 23> powers{};
-  double power = 1;
-  for (double& p : powers) {
-    p = power;
-    power *= 10;
-  }
+/// 10^0, 10^1 and so on.
+template <typename Number, std::size_t kCount>
+constexpr std::array<Number, kCount> powers_of_ten() {
+  std::array<Number, kCount> powers{1};
+  for (std::size_t n = 1; n < kCount; ++n) powers[n] = 10 * powers[n - 1];
   return powers;
-}();
-
-/// 10^n for every n for which it fits in 64 bits.
-constexpr auto kWholePowersOfTen = [] {
-  std::array<std::uint64_t, 20> powers{};
-  std::uint64_t power = 1;
-  for (std::uint64_t& p : powers) {
-    p = power;
-    power *= 10;
-  }
-  return powers;
-}();
+}
+/// 10^n for every n for which a double holds it exactly, and for which it fits in 64 bits.
+constexpr auto kPowersOfTen = powers_of_ten<double, 23>();
+constexpr auto kWholePowersOfTen = powers_of_ten<std::uint64_t, 20>();
 
 // Rounding to n decimals. Such a decimal is a whole number of units of 10^-n, so a number is scaled by 10^n
 // and rounded to a whole number. The scaled number is rounded to a double; the result is accepted only if

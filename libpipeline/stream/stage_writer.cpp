@@ -25,6 +25,10 @@ void print_header_numbers(TextWriter& text, std::string_view keyword, std::initi
   text.append("\n");
 }
 
+void print_vec3(TextWriter& text, std::string_view keyword, const std::optional<Located<Vec3>>& v) {
+  if (v) print_header_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
+}
+
 void print_projection(TextWriter& text, const Projection& projection) {
   if (const auto* p = std::get_if<Perspective>(&projection)) {
     print_numbers(text, "perspective", {p->fov_y_degrees, p->aspect, p->near, p->far});
@@ -38,9 +42,6 @@ void print_projection(TextWriter& text, const Projection& projection) {
 }
 
 void print_appearance(TextWriter& text, const Appearance& appearance) {
-  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Located<Vec3>>& v) {
-    if (v) print_header_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
-  };
   if (appearance.attributes) text.append(attributes_line(appearance.attributes->value) + "\n");
   if (appearance.background) {
     const auto& [color, alpha] = appearance.background->value;
@@ -48,7 +49,7 @@ void print_appearance(TextWriter& text, const Appearance& appearance) {
     if (alpha < 255) print_numbers(text, "", {alpha});
     text.append("\n");
   }
-  print_vec3("ambient", appearance.ambient);
+  print_vec3(text, "ambient", appearance.ambient);
   for (const auto& [m, location] : appearance.materials) {
     print_numbers(text, "material", {m.ambient, m.diffuse, m.specular});
     text.append(" ");
@@ -80,12 +81,9 @@ void StageWriter::write_header(const StageHeader& header) {
   framed_ = header.framed;
   if (framed_) text_.append("framed\n");
   const CameraParameters& camera = header.camera;
-  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Located<Vec3>>& v) {
-    if (v) print_header_numbers(text_, keyword, {v->value.x, v->value.y, v->value.z});
-  };
-  print_vec3("eye", camera.eye);
-  print_vec3("look", camera.look);
-  print_vec3("up", camera.up);
+  print_vec3(text_, "eye", camera.eye);
+  print_vec3(text_, "look", camera.look);
+  print_vec3(text_, "up", camera.up);
   if (camera.projection) print_projection(text_, camera.projection->value);
   if (header.projected) {
     text_.append("projected ");
@@ -154,7 +152,7 @@ void StageWriter::write_clipped(const ClipTriangle& unclipped, const AttributeAr
   const std::array<Triangle, 1> positions = {{{a.position, b.position, c.position}}};
   AttributeSet names = columns_;
   names.w = true;
-  clipped_.clear();
+  clipped_.truncate(0);
   clipped_.add({unclipped, names.material ? attributes.materials[index] : 0}, names);
   write_columns(fixed_columns(positions, std::as_const(clipped_), names, 0, 1), nullptr, kShortest, text_);
 }

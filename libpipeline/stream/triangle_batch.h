@@ -29,7 +29,6 @@ class TriangleTexts {
     const std::size_t begin = end_of(index);
     return std::string_view(lines_).substr(begin, ends_[index] - begin);
   }
-  void clear() { truncate(0); }
   /// Keeps the first `count` triangles, or all if there are fewer.
   void truncate(std::size_t count) {
     ends_.resize(std::min(count, size()));
@@ -115,17 +114,7 @@ struct TriangleBatch {
   [[nodiscard]] std::uint64_t number_of(std::size_t object) const {
     return object < size() ? numbers[object] : spheres[object - size()].number;
   }
-  void clear() {
-    triangles.clear();
-    low_parts.clear();
-    numbers.clear();
-    locations.clear();
-    decimal_marks.clear();
-    attributes.clear();
-    unclipped.clear();
-    texts.clear();
-    spheres.clear();
-  }
+  void clear() { truncate(0); }
   /// Keeps the first `count` triangles and spheres.
   void truncate(std::size_t count) {
     texts.truncate(count);

@@ -56,7 +56,6 @@ struct AttributeArrays {
 
   /// Those whose arrays are not empty.
   [[nodiscard]] AttributeSet names() const;
-  void clear() { truncate(0); }
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count);
   /// Makes the arrays that `attributes` names `count` triangles long.

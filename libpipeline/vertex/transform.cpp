@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include "libpipeline/numbers/angle.h"
 #include "libpipeline/text/number_printer.h"
@@ -60,34 +61,24 @@ ProjectionTransform perspective(const Perspective& p, const SourceLocation& loca
   return transform;
 }
 
+/// A Frustum, or an Orthographic, whose window is at every distance as at 1.
 // P3
-ProjectionTransform frustum(const Frustum& f) {
-  const Ball width = Ball(f.right) - Ball(f.left);
-  const Ball height = Ball(f.top) - Ball(f.bottom);
+template <typename Volume>
+ProjectionTransform volume(const Volume& v) {
+  constexpr bool kIsPerspective = std::is_same_v<Volume, Frustum>;
+  const double at = kIsPerspective ? v.near : 1;
+  const auto offset = [](const Ball& sum) { return kIsPerspective ? sum : -sum; };
+  const Ball width = Ball(v.right) - Ball(v.left);
+  const Ball height = Ball(v.top) - Ball(v.bottom);
   ProjectionTransform transform;
-  transform.x_scale = Ball(2) * Ball(f.near) / width;
-  transform.x_offset = (Ball(f.right) + Ball(f.left)) / width;
-  transform.y_scale = Ball(2) * Ball(f.near) / height;
-  transform.y_offset = (Ball(f.top) + Ball(f.bottom)) / height;
-  transform.near = f.near;
-  transform.far = f.far;
-  transform.sides = {VolumeSides{f.near, f.left, f.right}, VolumeSides{f.near, f.bottom, f.top}};
-  return transform;
-}
-
-// P3
-ProjectionTransform orthographic(const Orthographic& o) {
-  const Ball width = Ball(o.right) - Ball(o.left);
-  const Ball height = Ball(o.top) - Ball(o.bottom);
-  ProjectionTransform transform;
-  transform.is_perspective = false;
-  transform.x_scale = Ball(2) / width;
-  transform.x_offset = -(Ball(o.right) + Ball(o.left)) / width;
-  transform.y_scale = Ball(2) / height;
-  transform.y_offset = -(Ball(o.top) + Ball(o.bottom)) / height;
-  transform.near = o.near;
-  transform.far = o.far;
-  transform.sides = {VolumeSides{1, o.left, o.right}, VolumeSides{1, o.bottom, o.top}};
+  transform.is_perspective = kIsPerspective;
+  transform.x_scale = Ball(2) * Ball(at) / width;
+  transform.x_offset = offset(Ball(v.right) + Ball(v.left)) / width;
+  transform.y_scale = Ball(2) * Ball(at) / height;
+  transform.y_offset = offset(Ball(v.top) + Ball(v.bottom)) / height;
+  transform.near = v.near;
+  transform.far = v.far;
+  transform.sides = {VolumeSides{at, v.left, v.right}, VolumeSides{at, v.bottom, v.top}};
   return transform;
 }
 
@@ -139,8 +130,8 @@ ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up)
 ProjectionTransform clip_from_view(const Located<Projection>& projection) {
   if (const auto* p = std::get_if<Perspective>(&projection.value))
     return perspective(*p, projection.location);
-  if (const auto* f = std::get_if<Frustum>(&projection.value)) return frustum(*f);
-  return orthographic(std::get<Orthographic>(projection.value));
+  if (const auto* f = std::get_if<Frustum>(&projection.value)) return volume(*f);
+  return volume(std::get<Orthographic>(projection.value));
 }
 
 Projection volume_of(const Located<Projection>& projection, const ProjectionTransform& transform) {

@@ -1,8 +1,6 @@
 // No include guard: included once for each target, see numbers/vector_targets.h.
 
 #include <bit>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 
