@@ -29,7 +29,7 @@ class Camera:
 
     @staticmethod
     def of(eye, look, up):
-        """From the words of a header."""
+        """The Camera in the words of a header."""
         eye_at, look_at, up_to = (tuple(map(float, words)) for words in (eye, look, up))
         return Camera(eye_at, *axes(eye_at, look_at, up_to), math.dist(eye_at, look_at), normalized(up_to),
                       (list(eye), list(look), list(up)))
@@ -39,7 +39,7 @@ class Camera:
         return self.words or (plain(self.eye), plain(self.look), plain(self.up))
 
     def stepped(self, right, up, forward):
-        """Moved by the given number of steps along each axis."""
+        """The camera after the given number of steps along each axis."""
         step = STEP * self.distance
         eye = moved(self.eye, (right * step, self.right), (up * step, self.up),
                     (forward * step, self.forward))
@@ -50,8 +50,8 @@ class Camera:
         return moved(self.eye, (self.distance, self.forward))
 
     def orbited(self, right, up):
-        """Moved around the point looked at, by angles in radians: to the right about the vertical, and up,
-        but never past it."""
+        """The camera moved around the point looked at, by angles in radians: to the right about the
+        vertical, and up, but never past it."""
         height = math.asin(max(-1.0, min(1.0, -dot(self.forward, self.vertical))))
         up = max(min(-STEEPEST, height), min(max(STEEPEST, height), height + up)) - height
         ways = [
@@ -62,18 +62,18 @@ class Camera:
                                    forward=forward, words=None)
 
     def neared(self, steps):
-        """Moved towards the point looked at; away from it for negative steps."""
+        """The camera moved toward the point looked at; away from it for negative steps."""
         distance = self.distance * CLOSER**steps
         return dataclasses.replace(self, eye=moved(self.look, (-distance, self.forward)), distance=distance,
                                    words=None)
 
     def framing(self, center, distance):
-        """Looking at a point, in the same direction, from a distance."""
+        """The camera looking at a point, in the same direction, from a distance."""
         return dataclasses.replace(self, eye=moved(center, (-distance, self.forward)), distance=distance,
                                    words=None)
 
     def turned(self, right, up):
-        """Turned on the spot, by the given numbers of turns."""
+        """The camera turned on the spot, by the given numbers of turns."""
         def turn(a, b, angle):
             c, s = math.cos(angle), math.sin(angle)
             return normalized(tuple(c * x + s * y for x, y in zip(a, b))), normalized(

@@ -17,7 +17,7 @@ class Ball:
 
     @staticmethod
     def around(model_text):
-        """From the bytes of model's output; None of a scene with neither."""
+        """The Ball of model's output, in bytes; None for a scene with neither."""
         lines = model_text.splitlines(keepends=True)
         points = [point_of(line) for _, corners in triangle_lines(lines) for line in corners]
         spheres = [
@@ -35,7 +35,7 @@ class Ball:
 
     @staticmethod
     def of_sphere(center, *ends):
-        """Around a sphere that the scene may have stretched along its axes."""
+        """The Ball around a sphere that the scene may have stretched along its axes."""
         return Ball(center, max(math.dist(center, end) for end in ends))
 
 
@@ -44,9 +44,9 @@ def point_of(line):
 
 
 def framing_distance(ball, header):
-    """From the ball's center to an eye that has all of it in its window, between near and far as well as that
-    can be. `header` has the projection's words by its keyword. A parallel projection shows the same from
-    everywhere between its planes."""
+    """The distance from the ball's center to an eye that has all of it in its window, between near and far
+    as well as that can be. `header` has the projection's words by its keyword. A parallel projection shows
+    the same from everywhere between its planes."""
     left, right, bottom, top, near, far = window_of(header)
     reach = ROOM * ball.radius or 1.0
     if "ortho" in header:

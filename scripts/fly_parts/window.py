@@ -148,7 +148,7 @@ class FlyWindow:
         self.bind_pointer()
 
     def first_size(self):
-        """The config's, enlarged to the least width, and made smaller where the screen is."""
+        """The size of the config, enlarged to the least width, and made smaller where the screen is."""
         width, height = self.whole
         scale = max(1, self.least_width / width)
         scale = min(scale, 0.9 * self.root.winfo_screenwidth() / width,

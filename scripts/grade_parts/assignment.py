@@ -115,7 +115,7 @@ def read_settings(data, path, tests):
 
 
 def set_one(settings, word, rest, tests):
-    """Does what a line asks for."""
+    """Applies a line."""
     if word == "hints":
         settings.hints = one_of(LEVELS, rest)
     elif word == "points":
@@ -136,7 +136,7 @@ def set_one(settings, word, rest, tests):
 
 
 def complete(settings, others):
-    """Puts what is about the program into it."""
+    """Adds the settings about the program."""
     program = settings.program
     if not program and others:
         raise ValueError(f"expected a line 'program STAGE' for '{min(others)}', found none")
@@ -220,7 +220,7 @@ def optional(path):
 
 
 def right_picture(reference):
-    """None where our project refuses the scene, as for a vertex too near to the eye."""
+    """The right picture; None where our project refuses the scene, as for a vertex too near to the eye."""
     try:
         return reference.picture(reference.stage3)
     except ToolOutOfMemory:

@@ -181,7 +181,7 @@ class TarContents(Contents):
 
 
 def unpacked(file):
-    """The tar in a compressed one."""
+    """The tar file in a compressed one."""
     data = gzip.GzipFile(fileobj=file).read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:
         raise ContentsError(f"it swells to more than {MOST_BYTES >> 20} MiB")

@@ -251,7 +251,7 @@ class Running:
         return graded
 
     def stop(self, others):
-        """Ends the process, and all that it has started, which the `others` have not."""
+        """Ends the process, and all that it has started and the `others` have not."""
         self.process.kill()
         self.process.join()
         end_all(keep={one.process.pid for one in others if one is not self})

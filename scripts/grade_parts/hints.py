@@ -45,7 +45,7 @@ def in_words(verdict, level):
 
 
 def fixes(verdict, level):
-    """Sentences on how to mend the mistakes."""
+    """Sentences on how to fix the mistakes."""
     if not gives(level, "fix"):
         return []
     known = dict.fromkeys(

@@ -102,5 +102,5 @@ def judged(hand_in, most_seconds=120, most_mebibytes=2048):
 
 
 def put(folder, name, data):
-    """Writes a result. A link in its place goes: a hand-in may have put it there."""
+    """Writes a result. A link in its place is removed: a hand-in may have put it there."""
     WorkFolder(folder, "grade").write(name, data)

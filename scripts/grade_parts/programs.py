@@ -80,8 +80,8 @@ def right_ones():
 
 
 def expect_protection(hidden):
-    """Raises the CommandFailure of a machine that protects from no program, before there is any work. Tells
-    what is not held without a sandbox; whether there is none."""
+    """Raises a CommandFailure, before there is any work, if nothing protects this machine from programs.
+    Without a sandbox, prints the risks and returns True."""
     box = protection(["true"], (), hidden, take_user())
     if box.user is not None:
         places_for_all()

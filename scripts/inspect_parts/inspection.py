@@ -116,7 +116,7 @@ class Inspection:
             "numbers": packed("i", [number for number, _ in lines]) if self.step > 1 else None}
 
     def thinned(self, read):
-        """Of a long text the header, the drawn triangles and all spheres, each behind a line with its number;
+        """The header of a long text, its drawn triangles and all spheres, each after a line with its number;
         (number, line) of each line, 0 for one that was added."""
         triangles = zip(read.first_lines, read.names)
         pieces = [(line, 3, name) for line, name in triangles if name % self.step == 0]

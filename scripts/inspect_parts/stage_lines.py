@@ -17,7 +17,7 @@ class StageLines:
 
     @staticmethod
     def of(text):
-        """Faster than parse_stage_text, which has to expect any text."""
+        """Parses our own text, faster than parse_stage_text, which accepts any."""
         lines = text.split("\n")
         found = StageLines(lines, {}, [], [], [])
         number, corners = 0, 0  # of the next triangle, and how many lines of the one before are still to come

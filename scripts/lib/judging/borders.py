@@ -17,9 +17,8 @@ class Borders:
         self.planes, self.boxes = {}, {}
 
     def plane(self, t):
-        """Of a triangle in pixels: its edges as (a, b, c) with a column + b row + c the distance from the
-        inside, its depth as (per column, per row, at 0 0), and from where to where its columns, rows and
-        depths go."""
+        """A triangle in pixels: its edges as (a, b, c) with a column + b row + c the distance from the
+        inside, its depth as (per column, per row, at 0 0), and the ranges of its columns, rows and depths."""
         if t not in self.planes:
             self.planes[t] = self.make_plane(t)
         return self.planes[t]

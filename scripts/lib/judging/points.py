@@ -19,7 +19,7 @@ class Points:
     points: list
     lines: list
     digits: Digits = EXACT
-    strays: str = ""  # lines that do not belong into a stage text, in words
+    strays: str = ""  # lines that do not belong in a stage text, in words
     has_more: bool = False  # numbers behind x, y and z, which nobody judges
 
     def __len__(self):

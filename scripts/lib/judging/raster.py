@@ -349,7 +349,7 @@ class Drawing:
         return owner, depth
 
     def reach(self, row):
-        """Of each span of a row: the ends that it may have, those that it has for certain, and its depths."""
+        """For each span of a row: its possible ends, its certain ones, and its depths."""
         if row not in self.reaches:
             self.reaches[row] = [(span, ends_of(
                 span, self.rule, self.width, 1.0), ends_of(

@@ -102,7 +102,7 @@ def used_digits(theirs):
 
 
 def nearest(ways, theirs, digits):
-    """The Difference from what is nearest of that which some Ways give."""
+    """The Difference from the nearest points that some Ways give."""
     return min((difference(theirs.points, digits, images) for way in ways for images in way.images(ALL)),
                key=lambda result: result.differing)
 
@@ -165,8 +165,8 @@ def wrong(stage, name, theirs, result):
 
 
 def outcome_of_few_digits(ways, name, theirs):
-    """Of a text with too few digits to name a mistake by. It is wrong if it differs from all that is right by
-    more than those digits hide."""
+    """The Outcome of a text with too few digits to name a mistake by. It is wrong if it differs from all
+    that is right by more than those digits hide."""
     result = nearest(ways.right, theirs, theirs.digits)
     if not result.differing:
         return Outcome(FileVerdict(ways.stage, name, TOO_FEW_DIGITS, remarks=[f"it shows {theirs.digits}"]))

@@ -102,7 +102,7 @@ class ModelWays:
         return [self.place(result)]
 
     def add_matrix(self, verdict, theirs):
-        """There is none."""
+        """Adds nothing: model has no matrix."""
 
 
 class MatrixWays:
@@ -139,13 +139,13 @@ class MatrixWays:
         return itertools.starmap(self.way, candidates)
 
     def single(self):
-        """As of ModelWays."""
+        """As in ModelWays."""
         unchanged = Cause("", UNCHANGED), IDENTITY, False
         yield self.made([unchanged, *listed(self.stage, self.scene)])
         yield self.made(other_forms(self.stage, self.ours, self.divides))
 
     def several(self):
-        """As of ModelWays: one element, or two mistakes."""
+        """As in ModelWays: one element, or two mistakes."""
         yield self.made(changed_elements(self.stage, self.ours, self.divides)), 1
         yield self.made(pairs(self.stage, self.scene)), MOST_PAIRS
 

@@ -1,4 +1,4 @@
-"""Lines of a stage text that do not belong into one: they are counted, by triangle, and the first one is
+"""Lines of a stage text that do not belong there: they are counted, by triangle, and the first one is
 named."""
 from lib.rim.command import shown
 from lib.text.plain_stage_text import KEYWORD, NO_KEYWORDS, real
@@ -26,7 +26,7 @@ def kind_of(line, columns):
 
 
 def of_a_text(text):
-    """Names what does not belong into a stage text; empty if all does."""
+    """Names the lines that do not belong in a stage text; empty if there are none."""
     lines = text.split("\n")
     columns = None if any(line.split()[:1] == ["attributes"] for line in lines) else 3
     strays, blocks, in_block = [], [], []

@@ -98,9 +98,9 @@ class PixelOfTriangle:
         return min(edge.distance for edge in self.edges) if self.has_area else -math.inf
 
     def is_covered(self, rule):
-        """By the rule `center`, if the center is inside or on top and left edges alone, exactly. By the rule
-        `nearest`, if it is one of the pixels of the row from that nearest to the left end to that nearest to
-        the right, in zbuf's doubles."""
+        """True by the rule `center` if the center is inside or on top and left edges alone, exactly; by the
+        rule `nearest` if it is one of the pixels of the row from the one nearest to the left end to the one
+        nearest to the right, in zbuf's doubles."""
         if rule == "center":
             return self.has_area and all(edge.is_owned for edge in self.edges)
         span = self.span_in_doubles()
@@ -108,14 +108,14 @@ class PixelOfTriangle:
 
     @property
     def weights(self):
-        """Of the three vertices at the pixel's center: each the share of the area between the center and the
-        opposite edge."""
+        """The weights of the three vertices at the pixel's center: each is the share of the area between
+        the center and the opposite edge."""
         ab, bc, ca = (edge.value / abs(self.doubled_area) for edge in self.edges)
         return bc, ca, ab
 
     def depth(self, rule):
-        """Of the triangle's plane at the pixel's center, exactly; but by the rule `nearest` that of the point
-        of the row's crossing, if it is a single one."""
+        """The depth of the triangle's plane at the pixel's center, exactly; but by the rule `nearest` the
+        depth where the row crosses the triangle, if that is a single point."""
         end = self.single_crossing(rule)
         return end if end is not None else sum(weight * p[2] for weight, p in zip(self.weights, self.points))
 

@@ -113,7 +113,7 @@ class CommandParser(argparse.ArgumentParser):
             help="the config of zbuf (default: the config.txt beside SCENE); - is standard input")
 
     def take_config(self, options):
-        """Chooses that one."""
+        """Takes CONFIG, or the config.txt beside SCENE."""
         options.config = options.config or config_beside(options.scene)
         if options.config is None:
             self.error("expected CONFIG, found no config.txt beside SCENE")
