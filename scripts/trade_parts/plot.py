@@ -104,7 +104,7 @@ def plot(rows, chosen, limits, times):
     verdict = "the cheapest with" if limits.are_met_by(chosen) else "the nearest to"
     parts = [
         text(20, 30, f"{chosen.setting}: {verdict} {asked(limits)}",
-             'class="title"'), *panel(cpu, "CPU time", "seconds; grey: four processes start", most, bottom),
+             'class="title"'), *panel(cpu, "CPU time", "seconds; gray: four processes start", most, bottom),
         *panel(wrong, "wrong pixels", "% of those covered", limits.percent_wrong, bottom),
         *panel(last, *words, None, bottom)]
     for i, row in enumerate(rows):

@@ -57,7 +57,7 @@ void TraceOptions::add_color_and_light(CommandLine& options) {
   add_background(options);
   options.add_flag("--no-shadows", without_shadows, "Light every surface that faces a light, as zbuf does");
   options.add_flag("--no-recursion", without_recursion,
-                   "Draw mirrors and glass matt and opaque, as zbuf does");
+                   "Draw mirrors and glass matte and opaque, as zbuf does");
   options.add_number(
       "--min-contribution", "E", min_contribution, [](double part) { return part >= 0 && part <= 1; },
       "a number from 0 to 1", "Cut rays that can bring less than this part of a pixel's color");

@@ -7,7 +7,7 @@ VALUES = {
     "--max-depth": ("N", "how often a ray may be mirrored or refracted")}
 FLAGS = {
     "--no-shadows": "light all that faces a lamp",
-    "--no-recursion": "draw what mirrors or is clear opaque and matt"}
+    "--no-recursion": "draw mirrors and glass matte and opaque"}
 
 
 def attribute(option):
