@@ -31,29 +31,7 @@ std::size_t first_surface(std::span<const SurfaceShader::SurfaceId> ids) {
   return static_cast<std::size_t>(std::ranges::find_if(ids, is_surface) - ids.begin());
 }
 
-bool differ_visibly(Color a, Color b) {
-  const auto differ = [](int p, int q) { return std::abs(p - q) > 1; };
-  return differ(a.red(), b.red()) || differ(a.green(), b.green()) || differ(a.blue(), b.blue()) ||
-         differ(a.alpha(), b.alpha());
-}
-
 }  // namespace
-
-void ShownColors::add_triangle(const std::array<Vec3, 3>& colors) {
-  if (greatest_channel.value_or(0) > 1) return;
-  for (const Vec3& c : colors) greatest_channel = std::max({greatest_channel.value_or(0), c.x, c.y, c.z});
-}
-
-void ShownColors::add_pixel(Color color, Color background) {
-  if (!show_something) show_something = differ_visibly(color, background);
-}
-
-void ShownColors::add(const ShownColors& others) {
-  show_something = show_something || others.show_something;
-  if (others.light_in_front) light_in_front = std::max(light_in_front.value_or(0), *others.light_in_front);
-  if (others.greatest_channel)
-    greatest_channel = std::max(greatest_channel.value_or(0), *others.greatest_channel);
-}
 
 /// The triangle with its attributes; for a piece, the triangle it was clipped from.
 SurfaceShader::KeptTriangle SurfaceShader::unclipped(const TriangleBatch& p_ndc, std::size_t index,
@@ -77,7 +55,6 @@ SurfaceShader::KeptTriangle SurfaceShader::unclipped(const TriangleBatch& p_ndc,
 }
 
 SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
-  if (!p_ndc.attributes.colors.empty()) shown_.add_triangle(p_ndc.attributes.colors[index]);
   const KeptTriangle kept = unclipped(p_ndc, index, own_color);
   has_normals_ = !p_ndc.attributes.normals.empty();
   triangles_.push_back(kept);
@@ -112,7 +89,7 @@ void SurfaceShader::keep(const KeptIds& kept) {
   assert(kept.size() == triangles_.size());
   triangles_.keep(kept);
   materials_.keep(kept);
-  for (Worker& worker : workers_) worker.cache.clear();
+  for (Worker& worker : workers_) worker.cache.clear(), worker.dark_pixels.clear(), worker.seen.clear();
 }
 
 void SurfaceShader::light_corners(Surface& surface) const {
@@ -130,28 +107,80 @@ std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> 
   if (worker.cache.empty()) worker.cache.resize(std::min(std::bit_ceil(ids.size()), kMaxCached));
   const std::size_t first = first_surface(ids);
   std::fill_n(worker.row.begin(), first, setup_.background);
+  if (first < ids.size()) worker.shown.has_surface = true;
+  const bool is_looking =
+      !worker.shown.is_varied ||
+      (row % row_stride() == 0 && static_cast<double>(worker.shown.visible) < enough_visible());
   // Neighbors mostly show the same triangle, which is looked up once.
   for (std::size_t column = first, end; column < ids.size(); column = end) {
     end = column + 1;
     while (end < ids.size() && ids[end] == ids[column]) ++end;
     shade_columns(row, column, end, ids[column], worker);
+    if (is_looking && ids[column] != kNoSurface)
+      look_at_run(ids[column], std::span(worker.row).subspan(column, end - column), worker);
   }
   worker.row.resize(ids.size());
-  if (!worker.shown.show_something && first < ids.size()) look_for_something(first, ids, worker);
   return worker.row;
 }
 
-void SurfaceShader::look_for_something(std::size_t first, std::span<const SurfaceId> ids,
-                                       Worker& worker) const {
+void SurfaceShader::look_at_run(SurfaceId id, std::span<const Color> colors, Worker& worker) const {
   ShownColors& shown = worker.shown;
-  const auto shows = [&](Color color) { return differ_visibly(color, setup_.background); };
-  shown.show_something =
-      std::any_of(worker.row.begin() + static_cast<std::ptrdiff_t>(first), worker.row.end(), shows);
-  if (shown.show_something || setup_.model == ShadingModel::none) return;
-  for (std::size_t i = first; i < ids.size(); ++i)
-    if (ids[i] != kNoSurface && (i == first || ids[i] != ids[i - 1]))
-      shown.light_in_front =
-          std::max(shown.light_in_front.value_or(0), light_in_front_of(surface(ids[i], worker)));
+  std::uint32_t dark_count = 0;
+  for (const Color color : colors) {
+    if (shown.is_varied && setup_.background.rgb() == 0 && looks_colored(color))
+      ++shown.visible;
+    else if (shown.add(color, setup_.background, is_lit()))
+      ++dark_count;
+  }
+  const auto entry_of = [&](auto& of_ids) {
+    if (of_ids.size() <= id) of_ids.resize(triangles_.size());
+    return of_ids.begin() + id;
+  };
+  if (dark_count > 0) *entry_of(worker.dark_pixels) += dark_count;
+  if (!shown.is_varied) *entry_of(worker.seen) = true;
+}
+
+ShownColors SurfaceShader::shown() const {
+  ShownColors all;
+  for (const Worker& worker : workers_) all.add(worker.shown);
+  // Where enough shows, nobody asks why the others are black.
+  if (static_cast<double>(all.visible) >= enough_visible()) return all;
+  Worker alone = {std::vector<CachedSurface>(1), {}, {}, {}, {}};
+  for (const Worker& worker : workers_)
+    for (std::size_t id = 0; id < worker.dark_pixels.size(); ++id)
+      if (const std::uint32_t count = worker.dark_pixels[id]; count > 0)
+        all.add(dark_surface(triangles_[id], surface(static_cast<SurfaceId>(id), alone)), count,
+                setup_.lighting, is_lit());
+  return all;
+}
+
+DarkSurface SurfaceShader::dark_surface(const KeptTriangle& kept, const Surface& surface) const {
+  double greatest = 0;
+  for (const VertexLine& corner : kept.corners)
+    greatest = std::max({greatest, corner.color.x, corner.color.y, corner.color.z});
+  if (!is_lit()) return {greatest};
+  const double light = light_in_front_of(surface);
+  return {greatest, setup_.materials[surface.material], light, light};
+}
+
+bool SurfaceShader::is_plane() const {
+  constexpr double kFlat = 1e-4;  // more than the decimals of a text lose
+  Vec3 normal;                    // of length 1, once there is one
+  double offset = 0;
+  for (std::size_t id = 0; id < triangles_.size(); ++id) {
+    const auto has_seen = [id](const Worker& worker) { return id < worker.seen.size() && worker.seen[id]; };
+    if (std::ranges::none_of(workers_, has_seen)) continue;
+    if (!triangles_[id].is_divided) return false;
+    const auto& [a, b, c] = triangles_[id].corners;
+    const Triangle p = {a.position, b.position, c.position};
+    if (normal == Vec3() && face_normal(p) != Vec3()) {
+      normal = unit_vector(face_normal(p));
+      offset = dot(normal, p[0]);
+    }
+    for (const Vec3& corner : p)
+      if (std::fabs(dot(normal, corner) - offset) > kFlat) return false;
+  }
+  return true;
 }
 
 /// The greatest intensity of the lights in front of a surface, where it is lit once, or at a corner: those

@@ -9,6 +9,7 @@
 
 #include "libpipeline/picture/corner_weights.h"
 #include "libpipeline/picture/shading.h"
+#include "libpipeline/picture/shown_colors.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/kept_ids.h"
@@ -16,23 +17,6 @@
 #include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
-
-/// Color statistics for the note on an invisible picture.
-struct ShownColors {
-  /// A triangle's colors; keeps the greatest channel, or some channel above 1.
-  void add_triangle(const std::array<Vec3, 3>& colors);
-  void add_pixel(Color color, Color background);
-  void add(const ShownColors& others);
-
-  /// True if some pixel differs from the background, by more than one step in a channel.
-  bool show_something = false;
-  /// The largest channel of all colors that triangles carry, or some channel above 1; none if they carry
-  /// none.
-  std::optional<double> greatest_channel;
-  /// While nothing shows: the greatest intensity of the lights in front of a surface that is seen, 0 if none
-  /// is; none if that was not looked at.
-  std::optional<double> light_in_front;
-};
 
 /// Gives pixels their colors once the triangle that each one shows is known: keeps the triangles of a scene
 /// with colors or lights, each under an id by which the visibility algorithm refers to it. So hidden surfaces
@@ -86,15 +70,17 @@ class SurfaceShader {
   }
   /// Its color at the center of a pixel.
   [[nodiscard]] Color color_at(const Surface& surface, int row, int column) const;
-  /// Adds the statistics of such colors.
-  void add_shown(const ShownColors& shown) { shown_.add(shown); }
-
-  /// The colors of all triangles added and pixels shaded so far.
-  [[nodiscard]] ShownColors shown() const {
-    ShownColors all = shown_;
-    for (const Worker& worker : workers_) all.add(worker.shown);
-    return all;
+  /// Why its surface may look black.
+  [[nodiscard]] DarkSurface dark_surface(const TriangleBatch& p_ndc, std::size_t index, Color own_color,
+                                         const Surface& surface) const {
+    return dark_surface(unclipped(p_ndc, index, own_color), surface);
   }
+
+  /// The colors of the pixels shaded so far; or of some, once they show enough.
+  [[nodiscard]] ShownColors shown() const;
+  /// True if the corners of all triangles seen, while they showed one color, lie in one plane.
+  [[nodiscard]] bool is_plane() const;
+  [[nodiscard]] bool is_lit() const { return setup_.model != ShadingModel::none; }
   [[nodiscard]] const Setup& setup() const { return setup_; }
   [[nodiscard]] const PixelGrid& grid() const { return grid_; }
 
@@ -110,7 +96,9 @@ class SurfaceShader {
   struct Worker {
     std::vector<CachedSurface> cache;  // each id has one entry; those of a row are mostly seen in the next
     std::vector<Color> row;
-    ShownColors shown;
+    ShownColors shown;                       // but for those that look black,
+    std::vector<std::uint32_t> dark_pixels;  // the pixels of an id; empty if there are none
+    std::vector<bool> seen;                  // by id, while all have one color
   };
 
   [[nodiscard]] KeptTriangle unclipped(const TriangleBatch& p_ndc, std::size_t index, Color own_color) const;
@@ -121,7 +109,14 @@ class SurfaceShader {
     return lit_color(point, setup_.lighting, setup_.materials[surface.material]);
   }
   void light_corners(Surface& surface) const;
-  void look_for_something(std::size_t first, std::span<const SurfaceId> ids, Worker& worker) const;
+  void look_at_run(SurfaceId id, std::span<const Color> colors, Worker& worker) const;
+  /// Of a high picture, the statistics are of every fourth row.
+  [[nodiscard]] int row_stride() const { return grid_.rows > 256 ? 4 : 1; }
+  /// So many pixels that the others need no look.
+  [[nodiscard]] double enough_visible() const {
+    return ShownColors::kVisibleShare * grid_.columns * (grid_.rows / row_stride());
+  }
+  [[nodiscard]] DarkSurface dark_surface(const KeptTriangle& kept, const Surface& surface) const;
   [[nodiscard]] double light_in_front_of(const Surface& surface) const;
   void shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id, Worker& worker) const;
   void shade_run(const Surface& surface, int row, int column, int count, Color* colors) const;
@@ -132,7 +127,6 @@ class SurfaceShader {
   ChunkedArray<std::uint32_t> materials_;  // of the triangles; empty if there is one for all
   bool has_normals_ = false;
   std::vector<Worker> workers_ = std::vector<Worker>(1);
-  ShownColors shown_;
 };
 
 }  // namespace pipeline

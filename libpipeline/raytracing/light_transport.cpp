@@ -56,7 +56,7 @@ void LightTransport::RayCounts::add(const RayCounts& other) {
 
 Vec3 LightTransport::radiance(SurfaceId seen, const Ray& ray) {
   cut_weight_ = 0;
-  shown_.has_seen = true;
+  dark_ = {};
   Path path = {1, 0, 0, 0};
   if (log_ != nullptr)
     path.log_entry = log_->add({.kind = RayKind::primary, .depth = 0, .weight = 1, .origin = ray.origin});
@@ -117,7 +117,7 @@ Vec3 LightTransport::follow(RayKind kind, const SurfaceRay& ray, const Path& pat
                                 .is_cut = is_cut});
   if (is_cut) {
     ++counts_.cut;
-    shown_.is_cut = true;
+    dark_.has_cut_rays = true;
     cut_weight_ += next.weight;
     return {};
   }
@@ -134,7 +134,8 @@ Vec3 LightTransport::follow(RayKind kind, const SurfaceRay& ray, const Path& pat
 /// As SurfaceShader lights it, but with the light that arrives here. A ray that has been turned is seen by an
 /// eye at the end of its way, stretched to a line.
 Vec3 LightTransport::local_color(const SurfaceHit& hit, const Ray& ray, const Path& path) {
-  shown_.greatest_channel = std::max(shown_.greatest_channel.value_or(0), largest(hit.color));
+  dark_.material = material(hit);
+  dark_.greatest_channel = std::max(dark_.greatest_channel.value_or(0), largest(hit.color));
   if (setup_.model == ShadingModel::none) return hit.color;
   const Lighting& lighting = setup_.lighting;
   const Vec3 back = scaled(unit_vector(ray.direction), -1);
@@ -161,12 +162,12 @@ Vec3 LightTransport::local_color(const SurfaceHit& hit, const Ray& ray, const Pa
 
 /// The part of a light that arrives at a hit.
 Vec3 LightTransport::part_of_light(const SurfaceHit& hit, std::size_t light, const Path& path) {
-  shown_.has_facing_light = true;
-  shown_.has_arriving_light |= !setup_.has_shadows;
-  if (!setup_.has_shadows) return {1, 1, 1};
+  const Light& from = setup_.lighting.lights[light];
+  const Vec3 part = setup_.has_shadows ? part_through(hit, from.position) : Vec3{1, 1, 1};
+  dark_.light_in_front = std::max(dark_.light_in_front, largest(from.intensity));
+  dark_.light_arriving = std::max(dark_.light_arriving, largest(product(part, from.intensity)));
+  if (!setup_.has_shadows) return part;
   ++counts_.shadow;
-  const Vec3 part = part_through(hit, setup_.lighting.lights[light].position);
-  shown_.has_arriving_light |= largest(part) > 0;
   if (log_ != nullptr)
     log_->add({.kind = RayKind::shadow,
                .depth = path.depth + 1,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libpipeline/picture/shading.h"
+#include "libpipeline/picture/shown_colors.h"
 #include "libpipeline/raytracing/bvh.h"
 #include "libpipeline/raytracing/ray_log.h"
 #include "libpipeline/raytracing/surface_caster.h"
@@ -53,8 +54,8 @@ class LightTransport {
   /// The radiance of a primary ray from the surface that it is known to see.
   [[nodiscard]] Vec3 radiance(SurfaceId seen, const Ray& ray);
   [[nodiscard]] const RayCounts& counts() const { return counts_; }
-  /// The rays' facts, but for the colors shown, which are the caller's.
-  [[nodiscard]] const ShownLight& shown() const { return shown_; }
+  /// Why the radiance returned last may be black.
+  [[nodiscard]] const DarkSurface& dark_surface() const { return dark_; }
   /// From now on, adds every ray to a log.
   void log_to(RayLog& log) { log_ = &log; }
 
@@ -80,7 +81,7 @@ class LightTransport {
   const LightTransportSetup& setup_;
   SurfaceCaster caster_;
   RayCounts counts_;
-  ShownLight shown_;
+  DarkSurface dark_;
   double cut_weight_ = 0;
   std::vector<SurfaceCaster::Crossing> crossings_;
   RayLog* log_ = nullptr;

@@ -43,6 +43,8 @@ struct Attenuation {
   double constant = 1;
   double linear = 0;
   double quadratic = 0;
+
+  [[nodiscard]] bool weakens() const { return constant > 1 || linear != 0 || quadratic != 0; }
 };
 
 /// The color of a pixel without a triangle.

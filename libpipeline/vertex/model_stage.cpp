@@ -81,6 +81,7 @@ bool ModelStage::read(TriangleBatch& batch) {
 
 void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) {
   if (!has_area_) look_for_area(batch);
+  odd_transforms_.add(batch);
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const auto& [first, world_from_model, world_normal_from_model] = runs_[i];
     const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : batch.object_count();

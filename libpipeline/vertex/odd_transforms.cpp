@@ -6,10 +6,13 @@
 #include <cstdio>
 #include <numbers>
 
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/error.h"
 
 namespace pipeline {
 namespace {
+
+constexpr std::uint64_t kMostTyped = 100;  // triangles; models may have a few without area
 
 /// How many decimals a number was written with, as far as its double shows; 10 for more.
 int decimal_count(double value) {
@@ -32,6 +35,13 @@ bool looks_like_radians(double angle) {
   });
 }
 
+/// True for three points, no two of them equal, on a line, but for the rounding of decimals.
+bool are_on_line(const Triangle& p) {
+  constexpr double kSine = 1e-12;
+  const Vec3 normal = cross(unit_vector(difference(p[1], p[0])), unit_vector(difference(p[2], p[0])));
+  return dot(normal, normal) < kSine * kSine;
+}
+
 std::string in_degrees(double radians) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.0f", radians * 180 / std::numbers::pi);
@@ -52,6 +62,17 @@ void OddTransforms::add(const RotateCommand& rotate, const SourceLocation& locat
   angle_ = angle;
 }
 
+void OddTransforms::add(const TriangleBatch& p_model) {
+  for (std::size_t i = 0; i < p_model.size() && ++triangle_count_ <= kMostTyped; ++i) {
+    const Triangle& p = p_model.triangles[i];
+    const bool has_equal_vertices = p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
+    if (!has_equal_vertices && !are_on_line(p)) continue;
+    if (without_area_count_++ > 0) continue;
+    without_area_ = p_model.locations[i][0];
+    has_equal_vertices_ = has_equal_vertices;
+  }
+}
+
 std::vector<std::string> OddTransforms::notes(const std::string& file, bool has_objects) const {
   std::vector<std::string> notes;
   const auto add = [&](LineAndColumn place, const std::string& note) {
@@ -60,6 +81,12 @@ std::vector<std::string> OddTransforms::notes(const std::string& file, bool has_
   };
   add(in_radians_, "this angle looks like radians, but angles are in degrees: try " + in_degrees(angle_));
   add(without_angle_, "this rotate turns by 0 degrees: the angle comes first, then the axis");
+  if (triangle_count_ <= kMostTyped)
+    add(without_area_,
+        std::string(has_equal_vertices_ ? "two vertices of this triangle are equal"
+                                        : "the vertices of this triangle lie on a line") +
+            ", so it has no area" +
+            (without_area_count_ > 1 ? ", like " + std::to_string(without_area_count_ - 1) + " more" : ""));
   if (saved_count_ > 0)
     add(first_saved_, counted(saved_count_, "push command") +
                           " without a pop, the first of them here: the scene's end undoes "

@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "libpipeline/scene/scene.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/source_location.h"
 
 namespace pipeline {
 
-/// Legal transforms of a scene that hardly do what was meant; of each kind the first is noted.
+/// Legal transforms and triangles of a scene that hardly do what was meant; of each kind the first is noted.
 class OddTransforms {
  public:
   void add(const RotateCommand& rotate, const SourceLocation& location);
@@ -25,6 +26,8 @@ class OddTransforms {
   }
   /// An object, which is the purpose of the transforms before it.
   void add_object() { last_transform_ = {}; }
+  /// Triangles in model space, of which some may have no area.
+  void add(const TriangleBatch& p_model);
 
   /// The notes at the scene's end; `has_objects` is true if it has any object.
   [[nodiscard]] std::vector<std::string> notes(const std::string& file, bool has_objects) const;
@@ -35,6 +38,9 @@ class OddTransforms {
   LineAndColumn in_radians_, without_angle_, last_transform_, first_saved_;  // unknown: none
   double angle_ = 0;                                                         // that at in_radians_
   std::uint64_t saved_count_ = 0;
+  LineAndColumn without_area_;  // a triangle; of few
+  std::uint64_t triangle_count_ = 0, without_area_count_ = 0;
+  bool has_equal_vertices_ = false;  // that at without_area_
 };
 
 }  // namespace pipeline

@@ -8,18 +8,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// True if the area of a triangle in x and y is more than the rounding of its coordinates to doubles, and of
-/// the calculation here, can make it.
-bool has_area(const Triangle& p) {
-  const auto& [a, b, c] = p;
-  const double forward = (b.x - a.x) * (c.y - a.y);
-  const double backward = (c.x - a.x) * (b.y - a.y);
-  const auto size = [](double first, double second) { return std::fabs(first) + std::fabs(second); };
-  const double error = size(b.x, a.x) * std::fabs(c.y - a.y) + std::fabs(b.x - a.x) * size(c.y, a.y) +
-                       size(c.x, a.x) * std::fabs(b.y - a.y) + std::fabs(c.x - a.x) * size(b.y, a.y);
-  return !(std::fabs(forward - backward) <= 0x1p-52 * error);
-}
-
 /// How far a fragment's depth may lie outside the triangle's own depths: the rule `nearest` follows the plane
 /// of a triangle up to half a pixel outside it. Infinite where the plane is so steep that rounding matters.
 double depth_reach(const Triangle& p, const BoundingBox& extent, double dx) {
@@ -35,6 +23,18 @@ double depth_reach(const Triangle& p, const BoundingBox& extent, double dx) {
 }
 
 }  // namespace
+
+// True if the area in x and y is more than the rounding of its coordinates to doubles, and of the calculation
+// here, can make it.
+bool has_area(const Triangle& p) {
+  const auto& [a, b, c] = p;
+  const double forward = (b.x - a.x) * (c.y - a.y);
+  const double backward = (c.x - a.x) * (b.y - a.y);
+  const auto size = [](double first, double second) { return std::fabs(first) + std::fabs(second); };
+  const double error = size(b.x, a.x) * std::fabs(c.y - a.y) + std::fabs(b.x - a.x) * size(c.y, a.y) +
+                       size(c.x, a.x) * std::fabs(b.y - a.y) + std::fabs(c.x - a.x) * size(b.y, a.y);
+  return !(std::fabs(forward - backward) <= 0x1p-52 * error);
+}
 
 bool may_be_visible(const Triangle& p_ndc, const BoundingBox& extent, const Viewport& screen) {
   const auto& [low, high] = extent;
@@ -57,7 +57,7 @@ UnseenPlace unseen_place(const Triangle& p_ndc, const BoundingBox& extent, const
   if (low.x > -screen.left) return UnseenPlace::right;
   if (high.y < screen.bottom) return UnseenPlace::below;
   if (low.y > -screen.bottom) return UnseenPlace::above;
-  if (!has_area(p_ndc)) return UnseenPlace::without_area;
+  if (fragments.visible || !has_area(p_ndc)) return UnseenPlace::without_area;
   if (fragments.before_front) return UnseenPlace::near;
   if (fragments.beyond_rear) return UnseenPlace::far;
   return UnseenPlace::between_centers;

@@ -28,8 +28,11 @@ UnseenPlace unseen_place(const Triangle& p_ndc, const BoundingBox& extent, const
 /// False only if the triangle surely shows at no pixel: a quick test by the box `extent` around it.
 bool may_be_visible(const Triangle& p_ndc, const BoundingBox& extent, const Viewport& screen);
 
-/// Watches the triangles of a stream until the first that shows at a pixel; if none does, the picture is
-/// empty.
+/// False for a triangle seen edge-on, or whose corners lie on a line.
+bool has_area(const Triangle& p_ndc);
+
+/// Watches the triangles of a stream until the first with an area shows at a pixel; if none does, the picture
+/// is empty or shows lines alone.
 class EmptyPicture {
  public:
   EmptyPicture(const PixelRules& rules, const Viewport& screen)
@@ -40,11 +43,13 @@ class EmptyPicture {
 
   /// Looks at the next triangles, unless one before them shows.
   void add(const TriangleBatch& p_ndc) {
-    for (std::size_t i = 0; i < p_ndc.size() && is_empty_; ++i) add(exact_triangle(p_ndc, i));
+    for (std::size_t i = 0; i < p_ndc.size() && !shows_area_; ++i) add(exact_triangle(p_ndc, i));
   }
   /// True while no triangle shows.
   [[nodiscard]] bool is_empty() const { return is_empty_; }
-  /// The triangles before the first that shows.
+  /// True if none but triangles without area shows.
+  [[nodiscard]] bool has_no_area() const { return !shows_area_; }
+  /// The triangles before the first that shows an area.
   [[nodiscard]] const UnseenPlaces& triangles() const { return triangles_; }
 
  private:
@@ -52,8 +57,9 @@ class EmptyPicture {
     const BoundingBox extent(triangle.p_ndc);
     FragmentDepths found;
     if (may_be_visible(triangle.p_ndc, extent, screen_)) found = fragments(triangle);
-    is_empty_ = !found.visible;
-    if (found.visible) return;
+    is_empty_ &= !found.visible;
+    shows_area_ = found.visible && has_area(triangle.p_ndc);
+    if (shows_area_) return;
     triangles_.add(unseen_place(triangle.p_ndc, extent, found, screen_), extent);
   }
 
@@ -80,7 +86,7 @@ class EmptyPicture {
   AnyCoverage coverage_;
   AnyDepth format_;
   double rear_;
-  bool is_empty_ = true;
+  bool is_empty_ = true, shows_area_ = false;
   UnseenPlaces triangles_;
 };
 

@@ -92,18 +92,21 @@ TEST(SurfaceShader, ColorsOfTrianglesThatAreNotKeptAreTheSame) {
   }
 }
 
-TEST(SurfaceShader, WhatThreadsHaveShownCounts) {
-  ShownColors first, second;
-  first.add_triangle(kColors);
-  second.add_pixel({0, 0, 1}, {});
-  SurfaceShader shader(kOnePixel, {});
-  shader.add_shown(first);
-  shader.add_shown(second);
-  EXPECT_FALSE(shader.shown().show_something);
-  EXPECT_GT(shader.shown().greatest_channel, 1);
-  second.add_pixel({0, 2, 0}, {});
-  shader.add_shown(second);
-  EXPECT_TRUE(shader.shown().show_something);
+TEST(SurfaceShader, CountsWhatThreadsHaveShown) {
+  const TriangleBatch batch = batch_of({{1, 1, 1}, {2, 2, 2}});
+  SurfaceShader shader({2, 2}, {});
+  for (std::size_t i = 0; i < batch.size(); ++i) shader.add(batch, i, Color());
+  shader.set_workers(2);
+  const std::array<SurfaceShader::SurfaceId, 2> dark = {0, SurfaceShader::kNoSurface}, both = {0, 1};
+  shader.shade(0, dark, 1);
+  EXPECT_FALSE(shader.shown().is_varied);
+  shader.shade(1, both, 0);
+  const ShownColors shown = shader.shown();
+  EXPECT_TRUE(shown.is_varied);
+  EXPECT_EQ(shown.visible, 0u);
+  const auto& small = shown.dark[static_cast<std::size_t>(Darkness::small_color)];
+  EXPECT_EQ(small.count, 3u);
+  EXPECT_EQ(small.greatest, 2);
 }
 
 }  // namespace

@@ -107,7 +107,8 @@ NOTES = [
         "ambient light with channels up to 255", "ambient 0 64 0\n" + LIT + TRIANGLE,
         "model: note: <stdin>:5:9: ambient light of 64 is 64 times full light: 1 is full, so divide by 255 "
         "if this is a color"),
-    claim("a bright light", "light 0 0 5 16 8 4\n" + TRIANGLE),
+    claim("a bright light", "light 0 0 5 16 8 4\n" + TRIANGLE,
+          "zbuf: note: the picture is white: the light is too bright (1 is full; several lights add up)"),
     claim("a bright light that fades", "attenuation 0 0 1\nlight 0 0 5 100 100 100\n" + TRIANGLE),
     claim("a telescope", TRIANGLE, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n"),
     # Noted by zbuf.
@@ -135,6 +136,7 @@ NOTES = [
     claim("between pixel centers but on samples", "scale 0.4 0.4 1\ntranslate -0.9 -0.9 0\n" + TRIANGLE,
           zbuf=["--samples", "4"]),
     claim("without area", "triangle\n0 0 0\n1 0 0\n2 0 0\n",
+          "model: note: <stdin>:6:1: the vertices of this triangle lie on a line, so it has no area",
           EMPTY + "the triangle is without area on the screen, as when seen edge-on"),
     claim(
         "several reasons", "translate 100 0 0\n" + 2 * TRIANGLE + "translate -200 0 0\n" + TRIANGLE,

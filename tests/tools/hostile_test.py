@@ -119,7 +119,7 @@ class Hostile(ToolTest):
         # Linux would allocate it, and kill whoever fills it.
         pathlib.Path("meminfo").write_text(
             "MemTotal: 99999999 kB\nMemAvailable: 16000 kB\nSwapFree: 300 kB\n")
-        pathlib.Path("whole.txt").write_text("-1 -1 0\n3 -1 0\n-1 3 0\n\n")
+        pathlib.Path("whole.txt").write_text("-1 -1 0\n2.9 -1 0\n-1 2.9 0\n\n")
         for size, depth, is_refused in (("1000x1000", "f64", False), ("1000x2200", "u24", True),
                                         ("2000x2000", "f64", True)):
             words = command("zbuf", "--size", size, "--depth", depth, "--threads", "2", "--z-buffer", "none",

@@ -223,7 +223,7 @@ class VertexPlaces(ToolTest):
         # 1e30 is added before a rotation and subtracted after it: none of 31 digits is left.
         scene = (
             CAMERA +
-            "translate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\ntriangle\n  1 2 3\n4 5 6\n7 8 9\nend\n"
+            "translate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\ntriangle\n  1 2 3\n4 5 6\n7 8 8\nend\n"
         )
         done = run("model", stdin=scene)
         self.assertEqual(
@@ -240,7 +240,7 @@ class VertexPlaces(ToolTest):
             (lost + lights + "pop\n" + triangles, [f"10:7: the digits of this light {beyond}"]),
             (lost + 3 * lights + "pop\n" + triangles, [
                 f"10:7: the digits of this light and of 2 more {beyond}"]),
-            (triangles + lost + "scale 0 0 1\ntriangle\n0 0 0\n0 0 0\n0 0 0\npop\n", [
+            (triangles + lost + "scale 0 0 1\ntriangle\n0 0 0\n1 0 0\n0 1 0\npop\n", [
                 f"16:1: the digits of this vertex and of 2 more {beyond}"]),
                 # Enough for more than one part of a text; what stands behind it takes the parts back.
             (lost + lights + 3000 * triangles + "pop\n" + triangles, [

@@ -26,11 +26,11 @@ class SeparateOutputs(ToolTest):
                 f"{second} "
                 "(try zbuf --help)")
 
-    def check_refused(self, words, first, second, **settings):
-        """The run is refused, and every file stays as it was."""
+    def check_refused(self, words, first, second, note="", **settings):
+        """The run is refused, after a note if there is one, and every file stays as it was."""
         before = {name: pathlib.Path(name).read_bytes() for name in self.files()}
         done = run("zbuf", "config.txt", "stage3.txt", *words.split(), **settings)
-        self.assert_fails(done, 2, self.refused(first, second))
+        self.assert_fails(done, 2, note + self.refused(first, second))
         self.assertEqual({name: pathlib.Path(name).read_bytes() for name in self.files()}, before)
 
     def check_fine(self, words, **settings):
@@ -91,12 +91,13 @@ class SeparateOutputs(ToolTest):
         self.check_refused("--image x.bmp --z-buffer y.txt", "--image 'x.bmp'", "--z-buffer 'y.txt'")
 
     def test_standard_output_may_be_the_file(self):
+        note = "zbuf: note: depths go to standard output, here out.bmp; the picture: -o out.png\n"
         for mode in ("wb", "ab"):
             with open("out.bmp", mode) as output:
-                self.check_refused("", "--image 'out.bmp'", "standard output", stdout=output)
+                self.check_refused("", "--image 'out.bmp'", "standard output", note, stdout=output)
         with open("out.bmp", "wb") as output:
             self.check_refused("--image x.bmp --fragments out.bmp", "standard output",
-                               "--fragments 'out.bmp'", stdout=output)
+                               "--fragments 'out.bmp'", note, stdout=output)
 
     def test_standard_output_without_depths_is_no_output(self):
         with open("z.txt", "wb") as output:

@@ -379,11 +379,12 @@ class EmptyPictures(ToolTest):
         wall, lid = "triangle\n-9 -9 -4\n9 -9 -4\n0 9 -4\n", "triangle\n-30 -30 7\n30 -30 7\n0 30 7\n"
         self.expect(shadow, "light 0 0 9 1 1 1\n", wall, lid)
         self.expect("", "light 0 0 9 1 1 1\n", wall)
-        weak = (black +
-                "the light that arrives is too weak (1 is full), or the materials reflect none of it (KD and "
-                "KS are 0)")
-        self.expect(weak, "light 0 0 9 0.003 0.003 0.003\n", SPHERE)
-        self.expect(weak, "light 0 0 9 1 1 1\nmaterial 1 0 0 1\n", SPHERE)
+        self.expect(
+            black + "the light on the side that is seen is too weak (its intensity is 0.003; 1 is full)",
+            "light 0 0 9 0.003 0.003 0.003\n", SPHERE)
+        self.expect(
+            black + "the material reflects no light but the ambient (of 'material KA KD KS N', KD and KS are "
+            "0)", "light 0 0 9 1 1 1\nmaterial 1 0 0 1\n", SPHERE)
         mirror = "material 1 1 0 1 1 1 1\n"
         self.expect(black + "mirrors and glass alone are seen, and they show a black background", mirror,
                     SPHERE)

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/picture/surface_shader.h"
-#include "libpipeline/raytracing/ray_log.h"
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
@@ -148,6 +146,17 @@ std::string list_of(const std::vector<Group>& groups, const std::string& none_of
   return "none of " + counted(count, thing) + " " + none_of + list;
 }
 
+/// "97.5 %", never rounded up to 100.
+std::string percent(std::uint64_t part, std::uint64_t all) {
+  const double share = static_cast<double>(part) / static_cast<double>(all);
+  return rounded(share < 0.9995 ? std::floor(1000 * share) / 10 : std::floor(1e6 * share) / 1e4) + " %";
+}
+
+/// True for so many pixels that the others hardly count.
+bool is_most(std::uint64_t part, std::uint64_t all) {
+  return static_cast<double>(all - part) < ShownColors::kVisibleShare * static_cast<double>(all);
+}
+
 double greatest_of(Vec3 channels) {
   return std::max({channels.x, channels.y, channels.z});
 }
@@ -163,42 +172,68 @@ constexpr const char* kReachesTheSeenSide =
     " reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 would show it from "
     "anywhere)";
 
-/// Why no light shows on surfaces whose colors are not black.
-std::string reason_of_darkness(const SurfaceShader& shader) {
-  const auto& [model, lighting, materials, view, background] = shader.setup();
-  const auto is_dark = [](const Material& material) {
-    return material.diffuse == 0 && material.specular == 0;
+/// "the picture is black: ", or "97.5 % of what is drawn is black: "
+std::string looks(std::uint64_t count, std::uint64_t all, const std::string& color, bool is_picture) {
+  if (count == all) return (is_picture ? "the picture is " : "the surfaces are ") + color + ": ";
+  return percent(count, all) + " of what is drawn is " + color + ": ";
+}
+
+std::string reason_of(Darkness darkness, double greatest, const ColorSetting& setting) {
+  const std::string materials =
+      setting.material_count == 1 ? "the material reflects " : "its materials reflect ";
+  switch (darkness) {
+    case Darkness::no_color:
+      return "every color is 0";
+    case Darkness::small_color:
+      if (greatest <= 1) return "every color is within 0 and 1, but channels run from 0 to 255";
+      return "no channel of its colors is above " + rounded(greatest) + ", but channels run from 0 to 255";
+    case Darkness::sends_rays:
+      return "mirrors and glass alone are seen, and they show a black background";
+    case Darkness::cut_rays:
+      return "rays that may bring light are cut (--max-depth, --min-contribution)";
+    case Darkness::no_reflectance:
+      return materials + "no light but the ambient (of 'material KA KD KS N', KD and KS are 0)";
+    case Darkness::highlights_alone:
+      return materials + "highlights alone (of 'material KA KD KS N', KD is 0 or hardly more)";
+    case Darkness::no_intensity:
+      return "every light has the intensity 0 (the last three numbers of 'light'; 1 is full)";
+    case Darkness::averted:
+      return "no light reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 "
+             "would "
+             "show it from anywhere)";
+    case Darkness::in_shadow:
+      return "all that is seen is in shadow (--no-shadows lights it; ambient 0.2 0.2 0.2 would show it, too)";
+    case Darkness::weak_light:
+      return "the light on the side that is seen is too weak (its intensity is " + rounded(greatest) +
+             (setting.is_weakened ? ", and attenuation weakens it: '1 0 0' would not)" : "; 1 is full)");
+    case Darkness::grazing_light:
+      break;
+  }
+  return "light only grazes the side that is seen: put the light in front of it";
+}
+
+/// Why what is drawn looks black; none if enough of it does not.
+std::optional<std::string> dark_note(const ShownColors& shown, const ColorSetting& setting) {
+  constexpr double kBright = 128;  // black before it is a silhouette
+  const double background = setting.background.is_opaque() ? greatest_of(to_vec3(setting.background)) : 255;
+  const auto is_odd = [&](Darkness reason, double greatest) {
+    if (background <= kBlackChannel) return true;
+    if (reason == Darkness::small_color) return greatest <= 1;
+    return reason >= Darkness::no_reflectance && background < kBright;
   };
-  if (std::ranges::all_of(materials, is_dark))
-    return std::string(materials.size() == 1 ? "the material reflects" : "all materials reflect") +
-           " no light but the ambient (of 'material KA KD KS N', KD and KS are 0)";
-  const auto is_off = [](const Light& light) { return greatest_of(light.intensity) == 0; };
-  if (std::ranges::all_of(lighting.lights, is_off))
-    return "every light has the intensity 0 (the last three numbers of 'light'; 1 is full)";
-  const std::optional<double> in_front = shader.shown().light_in_front;
-  if (in_front.value_or(0) == 0)  // trace does not look at each light
-    return std::string(in_front ? "no light" : "no light, or too little,") + kReachesTheSeenSide;
-  const bool is_weakened = lighting.attenuation.linear != 0 || lighting.attenuation.quadratic != 0 ||
-                           lighting.attenuation.constant > 1;
-  return "the light on the side that is seen is too weak (its intensity is " + rounded(*in_front) +
-         (is_weakened ? ", and attenuation weakens it: '1 0 0' would not)" : "; 1 is full)");
-}
-
-bool is_black(Color color) {
-  return std::max({color.red(), color.green(), color.blue()}) <= 1;
-}
-
-constexpr const char* kSmallColors =
-    "the surfaces are black: every color is within 0 and 1, but channels run from 0 to 255";
-
-constexpr const char* kColorOfBackground =
-    "the picture is empty: what is seen has the color of the background";
-
-std::optional<std::string> black_colors_note(const std::optional<double>& greatest_channel) {
-  if (greatest_channel && *greatest_channel == 0) return "the picture is black: every color is 0";
-  if (greatest_channel && *greatest_channel <= 1)
-    return "the picture is black: every color is within 0 and 1, but channels run from 0 to 255";
-  return std::nullopt;
+  std::uint64_t count = 0, of_most = 0;
+  std::string reason;
+  for (std::size_t i = 0; i < shown.dark.size(); ++i) {
+    const auto& [count_of_this, greatest] = shown.dark[i];
+    if (!is_odd(static_cast<Darkness>(i), greatest)) continue;
+    count += count_of_this;
+    if (count_of_this <= of_most) continue;
+    of_most = count_of_this;
+    reason = reason_of(static_cast<Darkness>(i), greatest, setting);
+  }
+  if (!is_most(count, shown.count())) return std::nullopt;
+  return looks(count, shown.count(), "black", background <= kBlackChannel) +
+         (is_most(of_most, count) ? "" : "for " + percent(of_most, count) + " of that, ") + reason;
 }
 
 }  // namespace
@@ -237,11 +272,12 @@ std::optional<std::string> bright_light_note(const Appearance& appearance) {
   return std::nullopt;
 }
 
-std::string unseen_note(const UnseenPlaces& unseen, const Viewport& screen) {
+std::string unseen_note(const UnseenPlaces& unseen, const Viewport& screen, bool is_empty) {
   const auto groups = groups_of(unseen, [&](UnseenPlace place, const BoundingBox& extent) {
     return where_on_screen(place, extent, screen);
   });
-  return "the picture is empty: " + (groups.empty() ? "no triangle came" : list_of(groups, "shows"));
+  return (is_empty ? "the picture is empty: " : "only lines show: ") +
+         (groups.empty() ? "no triangle came" : list_of(groups, "shows"));
 }
 
 std::string unseen_spheres_note(const UnseenSpheres& spheres) {
@@ -258,41 +294,18 @@ std::optional<std::string> opaque_note(const Appearance& appearance) {
          "light";
 }
 
-std::optional<std::string> invisible_colors_note(const SurfaceShader& shader, bool is_wireframe) {
-  const SurfaceShader::Setup& setup = shader.setup();
-  if (shader.shown().show_something) {
-    const double greatest = shader.shown().greatest_channel.value_or(0);
-    if (greatest > 0 && greatest <= 1 && !is_black(setup.background)) return kSmallColors;
-    return std::nullopt;
-  }
-  const bool is_lit = setup.model != ShadingModel::none;
-  if (is_black(setup.background)) {
-    if (auto note = black_colors_note(shader.shown().greatest_channel)) return note;
-    if (is_lit && !is_wireframe) return "the picture is black: " + reason_of_darkness(shader);
-  }
-  if (is_wireframe && !is_lit)
+std::optional<std::string> odd_colors_note(const ShownColors& shown, const ColorSetting& setting) {
+  const std::uint64_t all = shown.count();
+  if (!shown.has_surface && setting.is_wireframe)
     return "the picture is empty: --wireframe shows edges alone, and none is in sight";
-  return kColorOfBackground;
-}
-
-std::optional<std::string> invisible_light_note(const ShownLight& shown, Color background, bool is_lit) {
-  if (shown.shows_something) return std::nullopt;
-  if (is_black(background)) {
-    if (shown.is_cut)
-      return "the picture is black: rays that may bring light are cut (--max-depth, --min-contribution)";
-    if (!shown.greatest_channel)
-      return "the picture is black: mirrors and glass alone are seen, and they show a black background";
-    if (auto note = black_colors_note(shown.greatest_channel)) return note;
-    if (is_lit && !shown.has_facing_light)
-      return std::string("the picture is black: no light") + kReachesTheSeenSide;
-    if (is_lit && !shown.has_arriving_light)
-      return "the picture is black: all that is seen is in shadow (--no-shadows lights it; ambient 0.2 0.2 "
-             "0.2 would show it, too)";
-    if (is_lit)
-      return "the picture is black: the light that arrives is too weak (1 is full), or the materials reflect "
-             "none of it (KD and KS are 0)";
-  }
-  return kColorOfBackground;
+  if (all == 0) return std::nullopt;
+  if (auto note = dark_note(shown, setting)) return note;
+  if (is_most(shown.white, all) && !setting.has_noted_brightness)
+    return looks(shown.white, all, "white", true) +
+           "the light is too bright (1 is full; several lights add up)";
+  if (!is_most(shown.as_background, all)) return std::nullopt;
+  if (shown.as_background == all) return "the picture is empty: what is seen has the color of the background";
+  return percent(shown.as_background, all) + " of what is drawn has the color of the background";
 }
 
 }  // namespace pipeline

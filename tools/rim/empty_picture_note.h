@@ -4,15 +4,14 @@
 #include <optional>
 #include <string>
 
+#include "libpipeline/picture/shown_colors.h"
+#include "libpipeline/scene/color.h"
 #include "libpipeline/stream/unseen_places.h"
 #include "libpipeline/text/source_location.h"
 
 namespace pipeline {
 
 struct Appearance;
-class Color;
-struct ShownLight;
-class SurfaceShader;
 struct Viewport;
 
 // The words with which a stage notes why the picture is empty, or far from what was meant.
@@ -31,14 +30,23 @@ std::string radians_note(double fov_y_degrees, std::uint64_t hidden_count, bool 
 /// attenuation, a light may have any intensity.
 std::optional<std::string> bright_light_note(const Appearance& appearance);
 
-/// For `zbuf`: no triangle shows at a pixel.
-std::string unseen_note(const UnseenPlaces& unseen, const Viewport& screen);
+/// For `zbuf`: no triangle shows at a pixel; or not `is_empty`, and those that show are lines.
+std::string unseen_note(const UnseenPlaces& unseen, const Viewport& screen, bool is_empty);
 
 /// For `zbuf`: a material mirrors or is clear, which only rays show; none if none does.
 std::optional<std::string> opaque_note(const Appearance& appearance);
 
-/// For `zbuf`: why pixels that show triangles all look like the background; none if they do not.
-std::optional<std::string> invisible_colors_note(const SurfaceShader& shader, bool is_wireframe = false);
+/// How a picture gets its colors.
+struct ColorSetting {
+  Color background;
+  std::size_t material_count = 1;
+  bool is_weakened = false;  // light, by attenuation
+  bool is_wireframe = false;
+  bool has_noted_brightness = false;
+};
+
+/// Why hardly a pixel of what is drawn shows anything; none if enough pixels do.
+std::optional<std::string> odd_colors_note(const ShownColors& shown, const ColorSetting& setting);
 
 /// Spheres by their place in view space, of which z alone is known, and the limits there.
 struct UnseenSpheres {
@@ -49,8 +57,5 @@ struct UnseenSpheres {
 
 /// For `trace`: no ray meets a sphere.
 std::string unseen_spheres_note(const UnseenSpheres& spheres);
-
-/// For `trace`: why everything that its rays see looks like the background; none if it does not.
-std::optional<std::string> invisible_light_note(const ShownLight& shown, Color background, bool is_lit);
 
 }  // namespace pipeline

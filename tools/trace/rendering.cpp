@@ -120,7 +120,6 @@ class Rendering {
     TracedPicture picture = traced_picture(scene_, bvh, rays_, colors, pool);
     picture.work.build_seconds = build_seconds;
     picture.work.cast_seconds = seconds() - build_seconds;
-    if (shader_) shader_->add_shown(picture.shown_colors);
     for (const Pixel& pixel : probed_) add_ray_lines(pixel, scene_, bvh, screen_, light_, probe_lines_);
     return picture;
   }
@@ -143,7 +142,7 @@ class Rendering {
   /// Notes why the image is empty, if it is, or squeezed.
   void note(const TracedPicture& picture) const {
     if (!rays_.has_colors) return;
-    if (const auto note = invisible_note(picture.shown_light))
+    if (const auto note = invisible_note(picture.shown))
       tool_.note(*note);
     else if (const auto squeezed = squeezed_note(scene_.given_projection(), screen_))
       tool_.note(*squeezed);
@@ -161,13 +160,12 @@ class Rendering {
     statistics_.add("cut_rays", work.rays.cut);
   }
 
-  [[nodiscard]] std::optional<std::string> invisible_note(const ShownLight& shown) const {
-    if (has_spheres_ && !shown.has_seen) return unmet_note(scene_, tool_.timing().triangle_count);
+  [[nodiscard]] std::optional<std::string> invisible_note(const ShownColors& shown) const {
+    if (has_spheres_ && shown.count() == 0) return unmet_note(scene_, tool_.timing().triangle_count);
     if (!has_spheres_)
       if (auto unseen = unseen_triangles_note(scene_)) return unseen;
-    if (!traces_light_) return shader_ ? invisible_colors_note(*shader_) : std::nullopt;
-    return shown.has_seen ? invisible_light_note(shown, background_, light_.model != ShadingModel::none)
-                          : std::nullopt;
+    return odd_colors_note(shown,
+                           {background_, light_.materials.size(), light_.lighting.attenuation.weakens()});
   }
 
   Tool& tool_;

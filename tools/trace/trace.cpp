@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     chosen.complete(tool.options(), ::isatty(STDOUT_FILENO) == 1);
+    note_depths_in_image(tool, chosen);
     const NamedFile config = config_of(tool, chosen);
     tool.expect_separate(outputs_of(chosen, {}, statistics), {config, chosen.projection.scene()});
     const Viewport screen = read_screen(tool, chosen, config);

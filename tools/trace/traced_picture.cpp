@@ -58,15 +58,20 @@ class SampleColors {
   /// The color of a sample that shows `seen`; one that shows nothing has the background's. Rays' colors are
   /// clamped and rounded as `zbuf` does.
   Color color(int row, int column, const RayCaster::Seen& seen) {
-    Color color;
     if (light_) {
-      color = rounded_color(light_->radiance(seen.id, rays_.ray(row, column)));
-    } else {
-      const CachedSurface& shown = surface(seen.id);
-      if (setup_.shader == nullptr) return shown.own_color;
-      color = setup_.shader->color_at(shown.surface, row, column);
+      const Color color = rounded_color(light_->radiance(seen.id, rays_.ray(row, column)));
+      const bool is_lit = setup_.light->model != ShadingModel::none;
+      if (shown_.add(color, setup_.background, is_lit))
+        shown_.add(light_->dark_surface(), 1, setup_.light->lighting, is_lit);
+      return color;
     }
-    shown_.add_pixel(color, setup_.background);
+    const CachedSurface& shown = surface(seen.id);
+    if (setup_.shader == nullptr) return shown.own_color;
+    const SurfaceShader& shader = *setup_.shader;
+    const Color color = shader.color_at(shown.surface, row, column);
+    if (shown_.add(color, setup_.background, shader.is_lit()))
+      shown_.add(shader.dark_surface(triangles_.p_ndc(), seen.id, shown.own_color, shown.surface), 1,
+                 shader.setup().lighting, shader.is_lit());
     return color;
   }
   [[nodiscard]] const ShownColors& shown() const { return shown_; }
@@ -91,7 +96,6 @@ class SampleColors {
     cached.own_color = own_colors_.of(triangles_.number(id));
     if (setup_.shader == nullptr) return cached;
     const TriangleBatch& p_ndc = triangles_.p_ndc();
-    if (!p_ndc.attributes.colors.empty()) shown_.add_triangle(p_ndc.attributes.colors[id]);
     cached.surface = setup_.shader->surface_of(p_ndc, id, cached.own_color);
     return cached;
   }
@@ -137,11 +141,9 @@ class PixelTracer {
   /// Call after all threads have finished.
   void add_up(TracedPicture& picture) const {
     picture.covered_count += covered_count_;
-    picture.shown_colors.add(colors_.shown());
+    picture.shown.add(colors_.shown());
     if (!colors_.light()) return;
     picture.work.rays.add(colors_.light()->counts());
-    picture.shown_light.add(colors_.light()->shown());
-    picture.shown_light.shows_something |= colors_.shown().show_something;
   }
 
  private:

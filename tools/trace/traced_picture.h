@@ -65,8 +65,7 @@ struct TracedPicture {
   std::vector<std::int64_t> triangles;  // their numbers, -1 for none
   std::uint64_t covered_count = 0;      // of pixels whose center shows something; 0 if that is not requested
   TraceWork work;                       // without seconds
-  ShownColors shown_colors;
-  ShownLight shown_light;  // if rays bring colors
+  ShownColors shown;
 };
 
 /// Casts the rays of a picture on threads, whose number changes nothing. The shader's screen, if there is

@@ -18,8 +18,11 @@ void DrawingReport::add(const TriangleBatch& p_ndc) {
 }
 
 std::optional<std::string> DrawingReport::empty_picture_note() const {
-  const bool is_empty = at_centers_.is_empty() && (!at_samples_ || at_samples_->is_empty());
-  return is_empty ? std::optional(unseen_note(at_centers_.triangles(), screen_)) : std::nullopt;
+  const auto both = [&](bool (EmptyPicture::*holds)() const) {
+    return (at_centers_.*holds)() && (!at_samples_ || ((*at_samples_).*holds)());
+  };
+  if (!both(&EmptyPicture::has_no_area)) return std::nullopt;
+  return unseen_note(at_centers_.triangles(), screen_, both(&EmptyPicture::is_empty));
 }
 
 void DrawingReport::add_to(Statistics& statistics) const {

@@ -21,7 +21,7 @@ class DrawingReport {
 
   /// Takes the next triangles.
   void add(const TriangleBatch& p_ndc);
-  /// Why no triangle shows; none if one does.
+  /// Why no triangle shows an area; none if one does.
   [[nodiscard]] std::optional<std::string> empty_picture_note() const;
   /// Adds the counts and extents, if the report counts.
   void add_to(Statistics& statistics) const;

@@ -9,6 +9,7 @@
 #include "tools/rim/command_line.h"
 #include "tools/rim/separate_outputs.h"
 #include "tools/rim/statistics.h"
+#include "tools/rim/tool.h"
 
 namespace pipeline {
 
@@ -52,6 +53,9 @@ struct PictureOptions {
  private:
   void add_outputs(CommandLine& options, bool has_seen);
 };
+
+/// Notes depths that go to standard output, where that is a file with the name of an image.
+void note_depths_in_image(const Tool& tool, const PictureOptions& chosen);
 
 /// The files and pipes of a run that makes a picture, with those of one tool alone.
 std::vector<NamedFile> outputs_of(const PictureOptions& chosen, const std::vector<NamedFile>& others,

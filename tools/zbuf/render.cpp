@@ -118,7 +118,8 @@ void set_exact_depths(const AnyCoverage& coverage, const TriangleStore& store, i
   }
 }
 
-void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewport& screen,
+/// Writes what was drawn. True if every pixel shows one and the same triangle.
+bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewport& screen,
                const SampledDrawing& drawing, const StageReader& reader, TriangleStore& store,
                std::optional<SurfaceShader>& shader, Wireframe* wireframe,
                std::optional<CertainPixels>& certainty) {
@@ -136,11 +137,16 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
     if (seen_text != nullptr) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
   };
   std::uint64_t covered_count = 0;
+  std::optional<PixelTag> only;  // seen so far, by all pixels
+  bool is_one = true;
   const AnyCoverage coverage(chosen.rules, screen);
   int number = screen.drawn_rows().first;
   std::vector<Ball> exact;
   drawing.centers().for_each_row([&](const VisibleRow& row) {
     mark(row.tags);
+    if (!only) only = row.tags.front();
+    is_one = is_one && only != store.background() &&
+             std::ranges::all_of(row.tags, [&](PixelTag tag) { return tag == *only; });
     if (store.keeps_corners()) set_exact_depths(coverage, store, number++, row.tags, exact);
     outputs.write_depths(row.depths, exact);
     if (outputs.wants_triangles() || certainty) store.set_numbers(row.tags, numbers);
@@ -163,18 +169,35 @@ void write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
   if (seen_text != nullptr) store.write_seen(*seen_text, reader, seen);
   if (certainty) certainty_text->append(certainty->report());
   outputs.finish(covered_count);
+  return is_one;
 }
 
 /// Notes an empty or a squeezed picture. The note is about the whole picture; a band of it may well show
 /// nothing.
 void note_odd_picture(const Tool& tool, const ZbufOptions& chosen, const DrawingReport& report,
                       const Viewport& screen, const std::optional<SurfaceShader>& shader,
-                      const StageHeader& header) {
+                      const StageHeader& header, bool shows_one_triangle) {
+  constexpr std::size_t kLargePicture = 1000;  // pixels; a smaller one may well show one triangle
   if (const auto note = opaque_note(header.appearance)) tool.note(*note);
   std::optional<std::string> note;
-  if (!chosen.wireframe || !shader->shown().show_something) note = report.empty_picture_note();
+  const ShownColors shown = shader ? shader->shown() : ShownColors();
+  if (!chosen.wireframe || shown.visible == 0) note = report.empty_picture_note();
   const bool is_whole = screen.drawn_row_count() == screen.rows;
-  if (!note && shader && is_whole) note = invisible_colors_note(*shader, chosen.wireframe);
+  if (!note && shader && is_whole) {
+    const SurfaceShader::Setup& setup = shader->setup();
+    const bool is_known = bright_light_note(header.appearance).has_value();  // model has noted it
+    note = odd_colors_note(shown, {setup.background, setup.materials.size(),
+                                   setup.lighting.attenuation.weakens(), chosen.wireframe, is_known});
+  }
+  if (!note && is_whole && shows_one_triangle && pixel_count(screen) >= kLargePicture)
+    note =
+        "one triangle fills the picture, and no edge is in view: it is too large or too near, or fovY too "
+        "small";
+  if (!note && shader && is_whole && !chosen.wireframe && shown.first && !shown.is_varied &&
+      !shader->is_plane())
+    note = "all that is drawn has one color, so only its outline shows: " +
+           std::string(shader->is_lit() ? "does a light reach the side that is seen?"
+                                        : "give it a light, or triangles their own colors");
   if (!note && header.projected) note = squeezed_note_of_projected(header.projected->value, screen);
   if (note) tool.note(*note);
 }
@@ -248,8 +271,10 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
   reports.drawing.add_to(statistics);
   outputs.close_reports();
   tool.timing().lap(&Timing::work_seconds);
-  write_all(outputs, chosen, screen, drawing, reader, store, shader, wireframe.get(), reports.certainty);
-  if (chosen.has_image()) note_odd_picture(tool, chosen, reports.drawing, screen, shader, reader.header());
+  const bool shows_one_triangle =
+      write_all(outputs, chosen, screen, drawing, reader, store, shader, wireframe.get(), reports.certainty);
+  if (chosen.has_image())
+    note_odd_picture(tool, chosen, reports.drawing, screen, shader, reader.header(), shows_one_triangle);
 }
 
 }  // namespace pipeline

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     chosen.complete(::isatty(STDOUT_FILENO) == 1);
     if (chosen.seen_path == "-") tool.write_stage_text();
+    note_depths_in_image(tool, chosen);
     const NamedFile config = config_of(tool, chosen);
     tool.expect_separate(chosen.outputs(statistics), {config});
     const Viewport whole = read_screen(tool, chosen, config);
