@@ -604,7 +604,7 @@ class Wrong(HandIn):
         self.hand_in(mistake="project/depth-is-linear")
         verdict = self.assert_verdicts(["right", "right", "wrong", "right", "right"], 1)
         self.assertEqual([cause.name for cause in verdict.files[2].causes], ["project/depth-is-linear"])
-        self.assertEqual(str(verdict.files[2].matrices), "  no 4 x 4 matrix gives these numbers")
+        self.assertEqual(verdict.files[2].matrices.lines(), ["  no 4 x 4 matrix gives these numbers"])
 
     def test_numbers_of_nothing_known_have_no_cause(self):
         self.stages()

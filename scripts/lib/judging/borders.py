@@ -1,6 +1,7 @@
 """Another rule at the borders: whether each pixel that differs shows what lies within REACH of it, an edge or
 the line where two triangles meet."""
 import collections
+import functools
 import math
 
 from lib.judging.raster import kept, spend
@@ -14,19 +15,13 @@ class Borders:
     `work` is that of Drawing."""
     def __init__(self, triangles, limits, work):
         self.triangles, (self.front, self.rear), self.work = triangles, limits, work
-        self.planes, self.boxes = {}, {}
+        self.plane, self.boxes = functools.cache(self.plane), functools.cache(self.boxes)
 
     def plane(self, t):
         """A triangle in pixels: its edges as (a, b, c) with a column + b row + c the distance from the
         inside, its depth as (per column, per row, at 0 0), and the ranges of its columns, rows and depths."""
-        if t not in self.planes:
-            self.planes[t] = self.make_plane(t)
-        return self.planes[t]
-
-    def make_plane(self, t):
         grid = self.triangles.grid
-        corners = [((x - grid.left_x) / grid.dx, (grid.top_y - y) / grid.dy, z)
-                   for x, y, z in self.triangles.corners[t]]
+        corners = [(grid.column_at(x), grid.row_at(y), z) for x, y, z in self.triangles.corners[t]]
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = corners
         area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
         box = [(min(values), max(values)) for values in zip(*corners)]
@@ -75,12 +70,14 @@ class Borders:
         edges = self.plane(t)[0]
         return -REACH if edges is None else min(a * column + b * row + c for a, b, c in edges)
 
+    def boxes(self, row):
+        """The triangles on a row or beside it, each with its first and its last column."""
+        rows = self.triangles.rows[max(row - 1, 0):row + 2]
+        return [(t, *self.plane(t)[2][0]) for t in sorted(set().union(*rows))]
+
     def near(self, row, column):
         """The triangles on this row or beside it that come within a pixel of the column."""
-        if row not in self.boxes:
-            rows = self.triangles.rows[max(row - 1, 0):row + 2]
-            self.boxes[row] = [(t, *self.plane(t)[2][0]) for t in sorted(set().union(*rows))]
-        boxes = self.boxes[row]
+        boxes = self.boxes(row)
         spend(self.work, len(boxes))
         return [t for t, left, right in boxes if left - REACH <= column <= right + REACH]
 

@@ -17,7 +17,6 @@ WORST_SPREAD = 0.01  # of an element, against the largest one
 LEAST_DIFFERENCE = 1e-4  # of an element, against 1 and its own size
 # of a number that a matrix gives: against 1 and its own size, and of its last digit
 MISFIT, MISFIT_IN_UNITS = 1e-3, 20
-LEAST_LAST = 1e-6  # of a unit vector: points in a plane determine no matrix
 DECIMALS = 5
 
 
@@ -37,18 +36,12 @@ class Comparison:
         width = rows[0].index("|")
         return [f"  {'found in the points (* differs)':<{width - 2}}| right", *rows]
 
-    def __str__(self):
-        return "\n".join(self.lines())
-
 
 class NoMatrix:
     """In place of a Comparison, where no matrix comes near the points."""
     @staticmethod
     def lines():
         return ["  no 4 x 4 matrix gives these numbers"]
-
-    def __str__(self):
-        return "\n".join(self.lines())
 
 
 def cause_of_one_element(comparison):
@@ -89,21 +82,16 @@ def shown(x):
 
 
 def triangular(rows):
-    """The triangle R of the QR decomposition of a matrix, by Householder reflections (1958)."""
-    a = [list(row) for row in rows]
-    count = len(a[0])
-    for k in range(count):
-        size = math.hypot(*(row[k] for row in a[k:]))
-        if not size:
-            continue
-        v = [row[k] for row in a[k:]]
-        v[0] += math.copysign(size, v[0])
-        square = dot(v, v)
-        for j in range(k, count):
-            part = 2 * sum(x * row[j] for x, row in zip(v, a[k:])) / square
-            for x, row in zip(v, a[k:]):
-                row[j] -= part * x
-    return [row[:] for row in a[:count]]
+    """The triangle R of the QR decomposition of a matrix, by Gram-Schmidt in its modified form (Björck,
+    1967)."""
+    columns, r = [list(column) for column in zip(*rows)], []
+    for k in range(len(columns)):
+        size = math.hypot(*columns[k]) or 1.0
+        unit = [x / size for x in columns[k]]
+        r.append([0.0] * k + [dot(unit, column) for column in columns[k:]])
+        columns[k:] = [
+            [y - part * x for x, y in zip(unit, column)] for part, column in zip(r[k][k:], columns[k:])]
+    return r
 
 
 def null_vector(rows):
@@ -140,34 +128,21 @@ def moved(m, points):
     return [tuple(dot(row, (*p, 1.0)) for row in m[:3]) for p in points]
 
 
-def projective(before, after):
-    """The matrix, up to a factor, that takes points to their images after the divide by w."""
+def fitted(before, after, is_divided):
+    """The matrix that takes points to their images; only up to a factor if they are divided by w."""
     there, _ = normalizing(before)
     images, back = normalizing(after)
     rows = []
     for p, q in zip(moved(there, before), moved(images, after)):
         column = (*p, 1.0)
         for axis in range(3):
-            row = [0.0] * 16
+            row = [0.0] * 12
             row[4 * axis:4 * axis + 4] = column
-            row[12:] = [-q[axis] * x for x in column]
-            rows.append(row)
+            rows.append(row + [-q[axis] * x for x in (column if is_divided else (1.0,))])
     m = null_vector(rows)
-    return product(product(back, [tuple(m[4 * i:4 * i + 4]) for i in range(4)]), there)
-
-
-def affine_of(before, after):
-    """The matrix without a divide."""
-    there, _ = normalizing(before)
-    images, back = normalizing(after)
-    m = []
-    for axis in range(3):
-        rows = [(*p, 1.0, -q[axis]) for p, q in zip(moved(there, before), moved(images, after))]
-        *row, last = null_vector(rows)
-        if abs(last) < LEAST_LAST:
-            return None
-        m.append(tuple(x / last for x in row))
-    return product(product(back, [*m, (0.0, 0.0, 0.0, 1.0)]), there)
+    last = m[12:] if is_divided else (0.0, 0.0, 0.0, m[12])
+    m = product(product(back, [*(m[i:i + 4] for i in (0, 4, 8)), last]), there)
+    return m if is_divided else tuple(tuple(x / m[3][3] for x in row) for row in m)
 
 
 def scaled_like(m, ours):
@@ -197,7 +172,6 @@ def compare(before, after, units, ours, is_divided):
     step = max(1, len(before) // MOST_POINTS)
     chosen = [i for i in range(0, len(before), step) if all(map(math.isfinite, after[i]))]
     before, after, units = ([values[i] for i in chosen] for values in (before, after, units))
-    fit = projective if is_divided else affine_of
     if len(before) < 6:
         return None
     rng = random.Random(1)
@@ -207,10 +181,8 @@ def compare(before, after, units, ours, is_divided):
             tuple(x + (trial > 0) * rng.uniform(-0.5, 0.5) * u for x, u in zip(q, unit))
             for q, unit in zip(after, units)]
         try:
-            m = fit(before, images)
+            m = fitted(before, images, is_divided)
         except (ZeroDivisionError, OverflowError):
-            return None
-        if m is None:
             return None
         fits.append(scaled_like(m, ours) if is_divided else m)
     theirs, *others = fits

@@ -34,21 +34,15 @@ def pairs(stage, scene):
 def ways(stage, scene, names):
     """(matrix, whether it divides) of mistakes made together; none where they cannot be made, for example
     with a direction of 0 0 0."""
-    words = " ".join(names)
-    if stage == "view":
-        for spelling in range(SPELLINGS.get(words, 1)):
-            with contextlib.suppress(ZeroDivisionError):
-                m = scene.of_view(words, spelling)
-                yield m, False
-                if words == "matrix-transposed":  # its w is not 1, and some programs divide by it
-                    yield m, True
-        return
-    is_divided = next((DIVISIONS[name] for name in names if name in DIVISIONS), True)
+    words, is_view = " ".join(names), stage == "view"
+    is_divided = next((DIVISIONS[name] for name in names if name in DIVISIONS), not is_view)
     for spelling in range(SPELLINGS.get(words, 1)):
         with contextlib.suppress(ZeroDivisionError, OverflowError):
-            m = scene.of_project(words, spelling=spelling)
+            m = (scene.of_view if is_view else scene.of_project)(words, spelling=spelling)
             if m is not None:
                 yield m, is_divided
+                if is_view and words == "matrix-transposed":  # its w is not 1, and some programs divide by it
+                    yield m, True
                 if words == "depth-in-view-space":  # or the distance from the eye
                     yield (*m[:2], negative(m[2]), m[3]), is_divided
 

@@ -29,8 +29,8 @@ def by_euler_angles(order):
 @dataclasses.dataclass(frozen=True)
 class Habit:
     """How a program carries out the commands. The defaults are right."""
-    order: str = "right"  # on which side of the matrix a transform is multiplied: right, left, or
-    #                                 left if it is a rotation
+    order: str = "right"  # on which side of the matrix a transform is multiplied: right, left, left
+    #                                 if it is a rotation, or neither
     stack: str = "nested"  # what push and pop do
     radians: object = math.radians  # of degrees
     axis: object = normalized  # what becomes of the axis of a rotation
@@ -44,6 +44,8 @@ class Habit:
 
     def moved(self, matrix, made, keyword):
         """The matrix after a command for which one was made."""
+        if self.order == "neither":
+            return matrix
         if keyword == "translate" and self.offset == "put":
             return affine([row[:3] for row in matrix[:3]], [row[3] for row in made[:3]])
         is_left = self.order == "left" or keyword == "translate" and self.offset or (
@@ -85,64 +87,57 @@ MODEL_MISTAKES = {
 
 
 class Stack:
-    """The current matrix and the saved ones, under a habit."""
+    """The current matrix and the saved ones, under a habit. Two kinds save the matrix after each
+    transform."""
     def __init__(self, habit):
         self.matrix, self.saved = IDENTITY, []
         # commands: any, and the last push or pop; whether that was lost
         self.last, self.last_of_stack, self.was_lost = "", "", False
-        self.kind, _, self.empty = habit.partition(", ")
-        self.count = 0  # of the transforms since the last push, for the habit that counts them
+        self.kind, _, self.rest = habit.partition(", ")
+        self.saves_all = self.kind in ("one count", "one transform")
+        self.count = 1  # how many pop takes back; one count: all since the last push
 
     def is_lost(self):
         """True if a push that comes now saves nothing."""
         was_push = self.last_of_stack == "push"
         return {
             "adjacent lost": self.last == "push", "every other lost": was_push and not self.was_lost,
-            "all but first lost": was_push, "nested lost": bool(self.saved)}.get(self.kind, False)
+            "all but first lost": was_push, "nested lost": bool(
+                self.saved), "ignored": True, "one count": True, "one transform": bool(self.rest)}.get(
+                    self.kind, False)
 
     def moved_to(self, matrix):
         self.matrix = matrix
-        if self.kind in ("one count", "one transform"):
+        if self.saves_all:
             self.saved.append(matrix)
-            self.count += 1
+            self.count += self.kind == "one count"
 
-    def take_one_back(self, keyword):
-        """push and pop of a program that keeps all matrices, as if each transform were a push, too."""
-        if keyword == "push" and not self.empty:
-            self.saved.append(self.matrix)
-        elif keyword == "pop":
-            del self.saved[-1:]
-            self.matrix = self.saved[-1] if self.saved else IDENTITY
-
-    def count_back(self, keyword):
-        """push and pop of a program that keeps all matrices and counts those since the last push: that push
-        forgets the count of the push before it."""
-        if keyword == "push":
-            self.count = 0
-        elif keyword == "pop" and self.count:
-            del self.saved[-self.count:]
-            self.matrix = self.saved[-1] if self.saved else IDENTITY
-
-    def command(self, keyword):
-        if self.kind in ("one count", "one transform"):
-            return (self.count_back if self.kind == "one count" else self.take_one_back)(keyword)
-        is_lost = keyword == "push" and self.is_lost()
-        if keyword == "push" and self.kind != "ignored" and not is_lost:
+    def push(self):
+        self.was_lost = self.is_lost()
+        if not self.was_lost:
             if self.kind.startswith("slot"):
                 self.saved.clear()
             self.saved.append(self.matrix)
-            if self.kind == "push identity":
-                self.matrix = IDENTITY
-        elif keyword == "pop" and self.kind not in ("ignored", "no pop"):
-            if self.saved:
-                popped = self.saved[-1] if self.kind == "slot kept" else self.saved.pop()
-                self.matrix = IDENTITY if self.kind == "pop identity" else popped
-            elif self.empty == "identity":
-                self.matrix = IDENTITY
+            self.matrix = IDENTITY if self.kind == "push identity" else self.matrix
+        elif self.kind == "one count":
+            self.count = 0
+
+    def pop(self):
+        self.was_lost = False
+        if self.saves_all and self.count:
+            del self.saved[-self.count:]
+            self.matrix = self.saved[-1] if self.saved else IDENTITY
+        elif self.saved and self.kind not in ("ignored", "no pop", "one count"):
+            popped = self.saved[-1] if self.kind == "slot kept" else self.saved.pop()
+            self.matrix = IDENTITY if self.kind == "pop identity" else popped
+        elif self.rest == "identity":
+            self.matrix = IDENTITY
+
+    def command(self, keyword):
         if keyword in ("push", "pop"):
-            self.last_of_stack, self.was_lost = keyword, is_lost
+            (self.push if keyword == "push" else self.pop)()
+            self.last_of_stack = keyword
         self.last = keyword
-        return None
 
 
 def model_mistakes():

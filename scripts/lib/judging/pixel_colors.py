@@ -1,9 +1,10 @@
 """Pictures whose triangles have many colors, which no search for a rule can explain: they are looked for
 first, and the pixels are then judged as if all had one color."""
 import collections
+import dataclasses
 
 from lib.judging.pixel_words import place_in_words
-from lib.judging.verdict import WRONG, Cause, cause_of
+from lib.judging.verdict import WRONG, cause_of, joined
 
 # A picture has many colors if it has more than COLORS for each triangle and SOME more: no frame and no stray
 # pixel has so many.
@@ -49,8 +50,7 @@ class ManyColors:
         detail = f"{self.count:,} for {self.triangle_count:,} triangles"
         many = cause_of("zbuf/many-colors", detail)
         verdict.causes = [
-            Cause(" and ".join(filter(None, (cause.name, many.name))),
-                  f"{cause.text.rstrip('.')}; and: {many.text}", detail)
+            dataclasses.replace(joined([cause, many]), detail=detail)
             for cause in verdict.causes if cause.name != "zbuf/one-color"] or [many]
         if verdict.rule:
             verdict.remarks.append(f"with {verdict.rule}")

@@ -8,6 +8,8 @@ import functools
 import itertools
 import math
 
+from lib.maths import window
+
 ROUNDING = 1e-9  # of columns and rows calculated in doubles
 MOST_SPANS = 500_000
 NARROW = 1e-12
@@ -19,32 +21,14 @@ ENDS = {
     "rounded": lambda t: math.floor(t + 0.5), "truncated": math.trunc, "down": math.floor, "up": math.ceil}
 
 
-@dataclasses.dataclass(frozen=True)
-class Grid:
-    """The positions of pixel centers in NDC."""
-    width: int
-    height: int
-    left: float
-    bottom: float
-    half_x: bool = True
-    half_y: bool = True
-    is_one_less: bool = False  # the first and the last centers lie on the borders
-
-    @functools.cached_property
-    def dx(self):
-        return -2 * self.left / max(1, self.width - self.is_one_less)
-
-    @functools.cached_property
-    def dy(self):
-        return -2 * self.bottom / max(1, self.height - self.is_one_less)
-
-    @functools.cached_property
-    def left_x(self):
-        return self.left + (self.dx / 2 if self.half_x and not self.is_one_less else 0)
-
-    @functools.cached_property
-    def top_y(self):
-        return -self.bottom - (self.dy / 2 if self.half_y and not self.is_one_less else 0)
+class Grid(window.Grid):
+    """The positions of pixel centers in NDC, also by a mistake; if `is_one_less`, the first and the last of
+    them lie on the borders."""
+    def __init__(self, width, height, left, bottom, half_x=True, half_y=True, is_one_less=False):
+        super().__init__(max(1, width - is_one_less), max(1, height - is_one_less), left, bottom)
+        self.width, self.height, self.left, self.bottom = width, height, left, bottom
+        self.left_x = self.left_x if half_x and not is_one_less else left
+        self.top_y = self.top_y if half_y and not is_one_less else -bottom
 
 
 @dataclasses.dataclass(frozen=True)
@@ -118,9 +102,8 @@ FLAT = {
 def at_whole_pixels(offset):
     """Corners moved to the centers of pixels, from the place in pixels plus `offset` rounded down."""
     def moved(corners, grid):
-        return [(grid.left_x + math.floor((x - grid.left) / grid.dx + offset) * grid.dx,
-                 grid.top_y - math.floor((-grid.bottom - y) / grid.dy + offset) * grid.dy, z)
-                for x, y, z in corners]
+        return [(grid.x_of(math.floor((x - grid.left) / grid.dx + offset)),
+                 grid.y_of(math.floor((-grid.bottom - y) / grid.dy + offset)), z) for x, y, z in corners]
 
     return moved
 
@@ -147,13 +130,13 @@ class Triangles:
         near = [tuple(max(-FAR, min(x, FAR)) for x in p) for p in points]
         self.corners = [CORNERS[change](near[i:i + 3], grid) for i in range(0, len(near), 3)]
         self.units = [min(FAR, max(max(u) for u in units[i:i + 3])) for i in range(0, len(units), 3)]
-        self.rows, self.spans, self.lower, count = [[] for _ in range(grid.height)], {}, {}, 0
+        self.rows, count = [[] for _ in range(grid.height)], 0
+        self.row, self.below = functools.cache(self.row), functools.cache(self.below)
         for t, corners in enumerate(self.corners):
             lowest, _, highest = sorted(p[1] for p in corners)
             slack = self.units[t] / grid.dy + ROUNDING
-            first = max(0, bounded((grid.top_y - highest) / grid.dy - slack, grid.height))
-            last = min(grid.height - 1,
-                       bounded((grid.top_y - lowest) / grid.dy + slack, grid.height, math.floor))
+            first = max(0, bounded(grid.row_at(highest) - slack, grid.height))
+            last = min(grid.height - 1, bounded(grid.row_at(lowest) + slack, grid.height, math.floor))
             count += max(0, last - first + 1)
             if count > MOST_SPANS:
                 raise TooMuch
@@ -161,24 +144,16 @@ class Triangles:
                 self.rows[row].append(t)
 
     def row(self, row):
-        """The spans of a row."""
-        if not 0 <= row < self.grid.height:
-            return []
-        if row not in self.spans:
-            made = (self.span(t, row) for t in self.rows[row])
-            self.spans[row] = [span for span in made if span]
-        return self.spans[row]
+        """The spans of a row; none beyond the picture."""
+        return [self.span(t, row) for t in self.rows[row]] if 0 <= row < self.grid.height else []
 
     def below(self, row):
         """The spans of triangles that end on the row above, with their lowest edges extended to this one."""
-        if row not in self.lower:
-            ending = (span.triangle for span in self.row(row - 1) if span.is_last)
-            self.lower[row] = [self.span(t, row, True) for t in ending]
-        return self.lower[row]
+        return [self.span(span.triangle, row, True) for span in self.row(row - 1) if span.is_last]
 
     def span(self, t, row, is_below=False):
         grid, corners, unit = self.grid, self.corners[t], self.units[t]
-        y = grid.top_y - row * grid.dy
+        y = grid.y_of(row)
         lowest, middle, highest = sorted(p[1] for p in corners)
         slack_y = unit + ROUNDING * grid.dy
         is_certain = is_below or lowest + slack_y < y < highest - slack_y
@@ -199,7 +174,7 @@ class Triangles:
             ends = sorted(corners)
             met, is_certain = [(*ends[0][::2], unit, 0.0), (*ends[2][::2], unit, 0.0)], False
         (x_left, z_left, slack_left, dz_left), (x_right, z_right, slack_right, dz_right) = min(met), max(met)
-        left, right = (x_left - grid.left_x) / grid.dx, (x_right - grid.left_x) / grid.dx
+        left, right = grid.column_at(x_left), grid.column_at(x_right)
         slack_left, slack_right = slack_left / grid.dx + ROUNDING, slack_right / grid.dx + ROUNDING
         width = max(right - left, NARROW)
         per_column = abs(z_right - z_left) / width
@@ -209,9 +184,9 @@ class Triangles:
         is_wide = right - left > slack_left + slack_right
         if not is_wide and not self.has_area(t):
             is_certain, slack_z = False, slack_z + abs(z_right - z_left)
-        top_row = (grid.top_y - lowest) / grid.dy
         return Span(t, left, right, z_left, z_right, slack_left, slack_right, slack_z,
-                    row == math.floor(top_row + ROUNDING), y >= middle, met[0] != min(met), is_certain)
+                    row == math.floor(grid.row_at(lowest) + ROUNDING), y >= middle, met[0] != min(met),
+                    is_certain)
 
     def winding(self, t):
         """1 for counterclockwise, -1 for clockwise; 0 where the numbers' last digits decide."""
@@ -227,7 +202,7 @@ class Triangles:
         if len(common) != 2 or len(both) != 4:
             return False
         (px, py, _), (qx, qy, _) = common
-        x, y = self.grid.left_x + column * self.grid.dx - px, self.grid.top_y - row * self.grid.dy - py
+        x, y = self.grid.x_of(column) - px, self.grid.y_of(row) - py
         dx, dy = qx - px, qy - py
         sides, square = [dx * (b - py) - dy * (a - px) for a, b, _ in both - common], dx * dx + dy * dy
         is_on = abs(dx * y - dy * x) <= ROUNDING * self.grid.dx * math.sqrt(square)
@@ -300,7 +275,8 @@ class Drawing:
     """The rows of a picture under a rule. `limits` is front and rear, `work` has the number of pixels and
     spans that may yet be looked at."""
     def __init__(self, triangles, rule, limits, work):
-        self.triangles, self.rule, self.work, self.reaches = triangles, rule, work, {}
+        self.triangles, self.rule, self.work = triangles, rule, work
+        self.reach = functools.cache(self.reach)
         self.front = limits[0] if rule.has_front else -math.inf
         self.rear = 0.0 if rule.starts_at_zero else limits[1] if rule.has_rear else math.inf
         self.width = triangles.grid.width
@@ -350,11 +326,8 @@ class Drawing:
 
     def reach(self, row):
         """For each span of a row: its possible ends, its certain ones, and its depths."""
-        if row not in self.reaches:
-            self.reaches[row] = [(span, ends_of(
-                span, self.rule, self.width, 1.0), ends_of(
-                    span, self.rule, self.width, -1.0), self.line(span)) for span in self.spans(row)]
-        return self.reaches[row]
+        return [(span, *(ends_of(span, self.rule, self.width, slack)
+                         for slack in (1.0, -1.0)), self.line(span)) for span in self.spans(row)]
 
     def could_show(self, row, column, tolerance):
         """All that a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of

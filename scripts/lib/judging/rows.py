@@ -6,7 +6,7 @@ from lib.judging.fit import element_in_words
 from lib.judging.matrix_mistakes import changed_elements, listed
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.points import differs
-from lib.judging.verdict import Cause
+from lib.judging.verdict import Cause, joined
 
 AXES = range(3)
 SAME = 1e-9  # of two numbers, against 1 and their size
@@ -33,7 +33,7 @@ def causes(ways, theirs, digits, comparison):
         found[axes] = [cause for cause in found[axes] if len(found[axes]) == 1]
     for axis in wrong:
         found.setdefault(frozenset({axis}), elements(comparison, axis))
-    return joined(found, wrong)
+    return choices_of(found, wrong)
 
 
 def touched(way, right):
@@ -51,7 +51,7 @@ def elements(comparison, axis):
     return [Cause("", element_in_words(comparison, *place)) for place in places if len(places) == 1]
 
 
-def joined(found, wrong):
+def choices_of(found, wrong):
     """The fewest of {axes: Causes} that together explain all wrong axes, each once; nothing if there are more
     than MOST_PAIRS choices."""
     for count in range(2, len(wrong) + 1):
@@ -60,9 +60,5 @@ def joined(found, wrong):
             if sum(map(len, some)) == len(wrong) and frozenset().union(*some) == wrong
             for choice in itertools.product(*(found[axes] for axes in sorted(some, key=min)))]
         if choices:
-            return [
-                Cause(" and ".join(dict.fromkeys(cause.name for cause in choice
-                                                 if cause.name)), "; and: ".join(
-                                                     cause.text.rstrip(".") for cause in choice))
-                for choice in choices] if len(choices) <= MOST_PAIRS else []
+            return [*map(joined, choices)] if len(choices) <= MOST_PAIRS else []
     return []

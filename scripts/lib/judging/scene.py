@@ -42,12 +42,6 @@ class Scene:
                     yield image(stack.matrix, p, False), slack(stack.matrix, p, NO_UNITS, False)
             stack.command(keyword)
 
-    def untouched(self):
-        """The points as the scene gives them, before any transformation."""
-        return [
-            tuple(map(float, words[:3])) for command in self.commands if command.keyword == "triangle"
-            for words in command.arguments]
-
     def command_before(self, triangle):
         """The last command before a triangle that is none itself: the line after which it comes. None if
         there is none."""

@@ -69,8 +69,8 @@ def outcome(name, theirs, ways):
     def single_mistakes(parts=(ALL,)):
         return next(filter(None, (fitting(candidates, parts) for candidates in ways.single())), [])
 
-    expected = [images for way in ways.right for images in way.images(ALL)]
     if not ways.has_count(len(theirs)):
+        expected = [[*images] for way in ways.right for images in way.images(ALL)]
         return Outcome(count_verdict(ways, name, theirs, expected, digits))
     for way in ways.right:
         if fits(way):
@@ -85,8 +85,8 @@ def outcome(name, theirs, ways):
         verdict.causes = ways.with_details([way.cause for way in found], result)
     else:
         found = next(filter(None, (fitting(some, most=most) for some, most in ways.several())), [])
-        verdict.causes = [way.cause for way in found] or causes_of_order(
-            theirs, right[0].images(ALL), digits) or some_vertices.causes(
+        verdict.causes = [way.cause for way in found] or causes_of_triangles(
+            theirs, right[0].images(ALL), digits, matching.reordered) or some_vertices.causes(
                 result, count, lambda part: any(fits(way, [part]) for way in right),
                 lambda parts: [way.cause for way in single_mistakes(parts)])
         verdict.remarks += ways.remarks(result)
@@ -111,37 +111,24 @@ def count_verdict(ways, name, theirs, expected, digits):
     """The verdict on a text with more or fewer triangles than `expected`, which are lists of points with
     their slacks, right ones in the right number. The cause is which triangle is missing or too many, if all
     others are right."""
-    ours = [triangles_of(points) for points in expected]
-    count = len(theirs) // 3
-    verdict = FileVerdict(ways.stage, name, WRONG, remarks=[
-        f"{count} triangle{'' if count == 1 else 's'} in place of {len(ours[0])}"])
-    written, lines, is_same = triangles_of(theirs.points), theirs.lines[::3], same_to(digits)
-    texts = (matching.missing(written, triangles, is_same, ways.scene_lines)
-             if count < len(triangles) else matching.added(written, triangles, is_same, lines)
-             for triangles in ours)
-    verdict.causes = first_cause(texts)
-    return verdict
+    count, right_count = len(theirs) // 3, len(expected[0]) // 3
+
+    def matched(written, right, is_same):
+        return (matching.missing(written, right, is_same, ways.scene_lines)
+                if len(written) < len(right) else matching.added(written, right, is_same, theirs.lines[::3]))
+
+    return FileVerdict(ways.stage, name, WRONG, causes=causes_of_triangles(theirs, expected, digits, matched),
+                       remarks=[f"{count} triangle{'' if count == 1 else 's'} in place of {right_count}"])
 
 
-def same_to(digits):
-    return lambda triangle, right: not differs(triangle, digits, right)
-
-
-def first_cause(texts):
-    """The Cause with the first text that is not empty; a list of at most one."""
+def causes_of_triangles(theirs, expected, digits, matched):
+    """The cause that a function of `matching` finds in the triangles of a text beside those of one of the
+    lists expected; a list of at most one."""
+    written, *right = ([points[i:i + 3] for i in range(0, len(points), 3)]
+                       for points in map(list, (theirs.points, *expected)))
+    texts = (matched(written, triangles, lambda one, other: not differs(one, digits, other))
+             for triangles in right)
     return [Cause("", text) for text in itertools.islice(filter(None, texts), 1)]
-
-
-def causes_of_order(theirs, expected, digits):
-    """The cause if a text has the right triangles in another order; a list of at most one."""
-    written = triangles_of(theirs.points)
-    return first_cause(
-        matching.reordered(written, triangles_of(points), same_to(digits)) for points in expected)
-
-
-def triangles_of(points):
-    points = list(points)
-    return [points[i:i + 3] for i in range(0, len(points), 3)]
 
 
 def undecided_outcome(stage, name, why="the stages before give no points to judge it by"):

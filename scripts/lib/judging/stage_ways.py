@@ -76,10 +76,7 @@ class ModelWays:
         for chosen in (slice(1), slice(1, None)):
             yield (self.way(cause_of("model/" + name), habit) for name, habits in model_mistakes()
                    for habit in habits[chosen])
-        untouched = self.scene.untouched()
-        yield [
-            Way(Cause("", UNTOUCHED), lambda part: [((p, NO_UNITS) for p in untouched[part])],
-                lambda: untouched)]
+        yield [self.way(Cause("", UNTOUCHED), Habit(order="neither"))]
 
     def several(self):
         """(Ways, how many of them may fit before none counts)."""

@@ -26,52 +26,39 @@ def kind_of(line, columns):
 
 
 def of_a_text(text):
-    """Names the lines that do not belong in a stage text; empty if there are none."""
+    """Names the lines that do not belong in a stage text; empty if there are none. Triangles stand between
+    blank lines; a text may also go without those."""
     lines = text.split("\n")
     columns = None if any(line.split()[:1] == ["attributes"] for line in lines) else 3
-    strays, blocks, in_block = [], [], []
-    for number, line in enumerate([*lines, ""], 1):
+    strays, long, blocks = [], [], [[]]
+    for number, line in enumerate(lines, 1):
         kind = kind_of(line, columns)
-        if kind in ("stray", "long"):
-            strays.append((number, kind))
+        (strays if kind == "stray" else long if kind == "long" else []).append(number)
         if kind in ("vertex", "long"):
-            in_block.append(number)
-        elif not line.strip() and in_block:
-            blocks.append(in_block)
-            in_block = []
+            blocks[-1].append(number)
+        elif not line.strip():
+            blocks.append([])
+    blocks = [*filter(None, blocks)]
+    is_of_each = len(blocks) > 1 and strays and len(strays) % len(blocks) == 0
+    each = f", {len(strays) // len(blocks)} for each triangle" if is_of_each else ""
+
+    def quoted(number):
+        return f"line {number}, '{shown(lines[number - 1].strip()[:LONGEST])}'"
+
     return "; ".join(
         filter(None, [
-            of_lines([n for n, kind in strays if kind == "stray"], lines, blocks),
-            of_columns([n for n, kind in strays if kind == "long"], lines),
-            of_blocks(blocks)]))
+            counted(strays, "1 line is", "lines are", f"neither a vertex nor a header line{each}", quoted),
+            counted(long, "1 vertex line has", "vertex lines have",
+                    "more than three numbers, of which the first three count", quoted),
+            counted([block for block in blocks if len(block) % 3], "a triangle (between blank lines) has",
+                    f"of {len(blocks)} triangles (between blank lines) have",
+                    "another number of vertices than three",
+                    lambda block: f"the one in line {block[0]}, {len(block)}")]))
 
 
-def of_lines(strays, lines, blocks):
-    if not strays:
+def counted(some, one, many, words, first):
+    """The count of some lines or triangles in words, and the first of them; empty if there are none."""
+    if not some:
         return ""
-    first = shown(lines[strays[0] - 1].strip()[:LONGEST])
-    count = f"{len(strays)} lines are" if len(strays) > 1 else "1 line is"
-    each = f", {len(strays) // len(blocks)} for each triangle" if len(
-        blocks) > 1 and len(strays) % len(blocks) == 0 else ""
-    return (f"{count} neither a vertex nor a header line{each}: {'first ' if len(strays) > 1 else ''}line "
-            f"{strays[0]}, '{first}'")
-
-
-def of_columns(long, lines):
-    if not long:
-        return ""
-    count = f"{len(long)} vertex lines have" if len(long) > 1 else "1 vertex line has"
-    return (f"{count} more than three numbers, of which the first three count: "
-            f"{'first ' if len(long) > 1 else ''}line {long[0]}, "
-            f"'{shown(lines[long[0] - 1].strip()[:LONGEST])}'")
-
-
-def of_blocks(blocks):
-    """Triangles stand between blank lines; a text may also go without those."""
-    uneven = [block for block in blocks if len(block) % 3]
-    if not uneven:
-        return ""
-    count = f"{len(uneven)} of {len(blocks)} triangles (between blank lines) have" if len(
-        uneven) > 1 else "a triangle (between blank lines) has"
-    return (f"{count} another number of vertices than three: {'first ' if len(uneven) > 1 else ''}the one in "
-            f"line {uneven[0][0]}, {len(uneven[0])}")
+    count = f"{len(some)} {many} {words}: first " if len(some) > 1 else f"{one} {words}: "
+    return count + first(some[0])

@@ -33,11 +33,15 @@ def cause_of(name, detail=""):
 
 def cause_of_all(stage, names):
     """The cause of one mistake, or of several made together."""
-    causes = [cause_of(f"{stage}/{name}") for name in names]
+    return joined([cause_of(f"{stage}/{name}") for name in names])
+
+
+def joined(causes):
+    """One Cause or more as one."""
     if len(causes) == 1:
         return causes[0]
-    return Cause(" and ".join(cause.name for cause in causes), "; and: ".join(
-        cause.text.rstrip(".") for cause in causes))
+    names = dict.fromkeys(cause.name for cause in causes if cause.name)
+    return Cause(" and ".join(names), "; and: ".join(cause.text.rstrip(".") for cause in causes))
 
 
 @dataclasses.dataclass
