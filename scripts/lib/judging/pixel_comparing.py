@@ -165,17 +165,19 @@ class Attempt:
     def differences(self, row, drawn_row=None):
         """(column, kind) of what a row shows that the rule does not explain, colors aside. `drawn_row` is
         the one of the drawing."""
-        owner, depth = drawn_row or self.drawing.row(row)
+        owner, depth, columns = drawn_row or self.drawing.row(row)
         spend(self.drawing.work, self.width)
-        depths = self.pixels.depths[row] if self.pixels.depths else None
+        depths, seen = self.pixels.depths[row] if self.pixels.depths else None, self.pixels.seen[row]
         if self.pixels.depths and depths is None:
-            yield from self.differences_of_list(row, (owner, depth), self.pixels.listed[row])
-        drawn = self.pixels.drawn[row] if self.pixels.drawn else [z is not None for z in depths or ()]
-        if not any(drawn) and max(owner) < 0 or not depths and [t >= 0 for t in owner] == drawn:
+            yield from self.differences_of_list(row, (owner, depth, columns), self.pixels.listed[row])
+        if not seen:
             return
+        drawn, others = seen
         tolerance = self.depths.tolerance if depths else None
-        for column in [i for i, (t, is_drawn) in enumerate(zip(owner, drawn)) if t >= 0 or is_drawn]:
+        for column in range(min(columns.start, others.start), max(columns.stop, others.stop)):
             t, is_drawn = owner[column], drawn[column]
+            if t < 0 and not is_drawn:
+                continue
             z = depths[column] if depths and is_drawn else None
             if (t >= 0) == is_drawn and (z is None or abs(z - depth[column]) <= DEPTH_BASE
                                          or abs(z - depth[column]) <= tolerance(z)):
@@ -188,7 +190,8 @@ class Attempt:
     def differences_of_list(self, row, drawn_row, listed):
         """The same without a pixel for each depth: the depths of a row in their order, all or only the ones
         before the rear limit. A column beyond the picture stands for the whole row."""
-        expected = [(column, z) for column, (t, z) in enumerate(zip(*drawn_row)) if t >= 0]
+        owner, depth, columns = drawn_row
+        expected = [(column, depth[column]) for column in columns if owner[column] >= 0]
         if len(expected) > len(listed):
             expected = [(column, z) for column, z in expected if z < self.rear]
         if len(expected) != len(listed):
@@ -211,15 +214,15 @@ class Attempt:
         result = Mismatch(self.rule, self.reading, triangle_count=len(drawing.triangles.corners))
         pairs = collections.Counter()
         for row in range(self.height):
-            owner, depth = drawing.row(row)
-            if is_seen := max(owner) >= 0:
-                result.areas.update(owner)
-            for column, kind in self.differences(row, (owner, depth)):
-                self.add(result, row, column, kind, (owner, depth))
+            owner, _, columns = drawn_row = drawing.row(row)
+            part = slice(columns.start, columns.stop)
+            result.areas.update(owner[part])
+            for column, kind in self.differences(row, drawn_row):
+                self.add(result, row, column, kind, drawn_row)
             if len(result.pixels) > limit:
                 return None
-            if pixels.colors and is_seen:
-                pairs.update(zip(owner, pixels.colors[row]))
+            if pixels.colors:
+                pairs.update(zip(owner[part], pixels.colors[row][part]))
         del result.areas[-1]
         result.drawn, result.doubtful = sum(result.areas.values()), self.doubtful
         if pixels.colors:
@@ -234,7 +237,7 @@ class Attempt:
         if column == self.width:
             result.has_rows = True
             return
-        owner, depth = drawn_row
+        owner, depth, _ = drawn_row
         if owner[column] >= 0:
             result.owners[row, column] = owner[column]
         if kind == "depth":
@@ -253,11 +256,12 @@ class Attempt:
         for row in range(self.height):
             if len(result.pixels) > limit:
                 return
-            owner, _ = self.drawing.row(row)
+            owner, _, columns = self.drawing.row(row)
             depths = self.pixels.depths[row] if self.pixels.depths else None
-            shown = zip(owner, self.pixels.colors[row], self.pixels.drawn[row])
-            for column, (t, color, is_drawn) in enumerate(shown):
-                if t < 0 or not is_drawn or result.colors[t] == color or (row, column) in result.pixels:
+            colors, drawn = self.pixels.colors[row], self.pixels.drawn[row]
+            for column in columns:
+                t, color = owner[column], colors[column]
+                if t < 0 or not drawn[column] or result.colors[t] == color or (row, column) in result.pixels:
                     continue
                 z = depths[column] if depths else None
                 if not self.could_show_after_all(row, column, True, z, result.of_color(color)):

@@ -304,8 +304,9 @@ class Drawing:
         return depth_line(span, self.rule, self.width)
 
     def row(self, row):
-        """The triangle (or -1) and the depth of each pixel of a row."""
-        owner, depth = [-1] * self.width, [self.rear] * self.width
+        """The triangle (or -1) and the depth of each pixel of a row, and the range of columns beyond which
+        there is no triangle."""
+        owner, depth, start, stop = [-1] * self.width, [self.rear] * self.width, self.width, 0
         front, rear, keep = self.front, self.rear, self.rule.keep
         for span in self.spans(row):
             if self.rule.is_strict and not span.is_certain:
@@ -314,6 +315,7 @@ class Drawing:
             at_0, slope = self.line(span)
             t, columns = span.triangle, range(max(first, 0), min(last, self.width - 1) + 1)
             spend(self.work, len(columns) + 1)
+            start, stop = min(start, columns.start), max(stop, columns.stop)
             for column in columns:
                 z = at_0 + column * slope
                 if keep == "nearest":
@@ -322,7 +324,7 @@ class Drawing:
                 elif front <= z < rear and keep != "none" and (keep == "last" or owner[column] < 0
                                                                or z > depth[column]):
                     owner[column], depth[column] = t, z
-        return owner, depth
+        return owner, depth, range(start, stop)
 
     def reach(self, row):
         """For each span of a row: its possible ends, its certain ones, and its depths."""

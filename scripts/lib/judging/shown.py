@@ -30,10 +30,10 @@ class Depths:
 
 def depth_rows(text, name):
     """Rows of depths, one a line; raises a StageTextError."""
-    rows = []
+    rows, number_of = [], functools.cache(real)
     for number, line in enumerate(text.split("\n"), 1):
         try:
-            rows.append([real(word) for word in line.split()])
+            rows.append([*map(number_of, line.split())])
         except ValueError:
             raise StageTextError(
                 f"{name}:{number}: expected depths, found '{printable(line.strip()[:40])}'") from None
@@ -44,7 +44,7 @@ def depth_rows(text, name):
 
 def read_depths(data, name):
     text = text_of(data, name)
-    return Depths(depth_rows(text, name), digits_of(text.split()))
+    return Depths(depth_rows(text, name), digits_of({*text.split()}))
 
 
 def read_colors(data, name, window, background):
@@ -66,14 +66,23 @@ class Rows:
         return self.make(row)
 
 
+def range_of(shown):
+    """The range from the first to the last that is true."""
+    return range(shown.index(True),
+                 len(shown) - shown[::-1].index(True)) if True in shown else range(len(shown), 0)
+
+
 @dataclasses.dataclass
 class Pixels:
     """The visible triangle of each pixel, row by row. `drawn` and `colors` are None without a picture; a row
-    of `depths` is None if it cannot be told which pixels its numbers belong to: those are in `listed`."""
+    of `depths` is None if it cannot be told which pixels its numbers belong to: those are in `listed`. `seen`
+    is `drawn`, or without a picture the same of the depths, with the range of columns beyond which nothing
+    is; it is None where neither tells."""
     drawn: list
     colors: list
     depths: list
     listed: list
+    seen: list
 
 
 class Shown:
@@ -161,9 +170,13 @@ class Shown:
         colors = FLIPS[picture_flip](self.colors) if self.colors else None
         drawn = colors and Rows(lambda r: [color != self.background for color in colors[r]], len(colors))
         listed = self.listed_rows(text_flip, drawn) if self.depths else None
-        return Pixels(
-            drawn, colors, listed
-            and Rows(lambda r: self.aligned(drawn[r] if drawn else None, listed[r]), self.height), listed)
+        depths = listed and Rows(lambda r: self.aligned(drawn[r] if drawn else None, listed[r]), self.height)
+
+        def seen(row):
+            shown = drawn[row] if drawn else depths[row] and [z is not None for z in depths[row]]
+            return shown and (shown, range_of(shown))
+
+        return Pixels(drawn, colors, depths, listed, Rows(seen, self.height))
 
     def listed_rows(self, flip, drawn):
         rows = self.depths.rows
