@@ -383,6 +383,18 @@ class Wrong(HandIn):
         self.assertEqual((depths.cause, depths.remarks), ("", []))
         self.assertEqual([cause.name for cause in picture.causes], ["zbuf/black-picture"])
 
+    def test_a_triangle_missing_in_the_picture_alone_is_named_where_another_shows_in_its_place(self):
+        """Half of it lies in front of the first one, whose color then seems to be its own."""
+        first, second = ("triangle\n{0} -1 {1}\n{2} -1 {1}\n{2} 1 {1}\n".format(*numbers)
+                         for numbers in ((-1, 0, 1), (0, 0.5, 2)))
+        self.scene = f"0 0 5\n0 0 0\n0 1 0\n60 1 1 10\n{first}{second}end\n"
+        self.hand_in()
+        points = pathlib.Path("stage3.txt").read_text()
+        pathlib.Path("first.txt").write_text(points[:points.index("\n\n") + 2])
+        tool("zbuf", "config.txt", "first.txt", "--z-buffer", "none", "--image", "out.bmp")
+        file = self.assert_verdicts(["right"] * 4 + ["wrong"], 1).files[4]
+        self.assertEqual([cause.name for cause in file.causes], ["zbuf/last-triangle-missing"])
+
     def test_two_colors_are_not_one(self):
         """The triangle in front has its color on most pixels of the one behind, too."""
         triangle = "triangle\n-{0} -1 {1}\n{0} -1 {1}\n0 1 {1}\n"

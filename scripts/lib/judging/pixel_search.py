@@ -194,17 +194,18 @@ def with_triangle(context, best, found):
 
 def without_triangles(context, best, limit):
     """The Finding if the pixels of some triangles, all of them, are as if those were not there, and that
-    leaves no more than `limit`."""
+    leaves no more than `limit`. A pixel of one that is missing shows nothing, or another triangle, whose
+    color then seems to be its own, too."""
     counts = collections.Counter(best.owners.values())
     lost = {t for t, count in counts.items() if count >= LOST * best.areas[t]}
-    if not lost or len(lost) == len(best.areas):
-        return None
-    rules = (Rule(**ends, without=frozenset(lost)) for ends in ({}, CENTER))
+    in_another = {t for t in counts if len(best.by_color.get(best.colors.get(t), ())) > 1}
+    rules = (Rule(**ends, without=some) for some in dict.fromkeys(map(frozenset, (lost, lost | in_another)))
+             if 0 < len(some) < len(best.areas) for ends in ({}, CENTER))
     mismatches = filter(None, (context.compare(best.reading, rule, limit) for rule in rules))
     mismatch = min(mismatches, key=lambda one: len(one.pixels), default=None)
     if mismatch is None or mismatch.has_rows:
         return None
-    last = best.triangle_count - 1
+    lost, last = mismatch.rule.without, best.triangle_count - 1
     cause = cause_of("zbuf/last-triangle-missing") if lost == {last} else cause_of(
         "zbuf/triangle-missing", named(sorted(lost)))
     return Finding("mistake", mismatch, rule_in_words(mismatch.rule), [cause])
