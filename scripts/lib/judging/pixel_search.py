@@ -248,8 +248,9 @@ def of_blank(context, plain):
         drawing = context.drawing(context.first, Rule(**changes))
         return not any(t >= 0 for row in range(context.window.height) for t in drawing.row(row)[0])
 
+    blank = BLANK[:-1] if context.shown.depths else BLANK  # the last one is of pictures alone
     finding, names = unknown(plain), dict.fromkeys(
-        name for (name, *_), changes in MISTAKES if name in BLANK and draws_nothing(changes))
+        name for (name, *_), changes in MISTAKES if name in blank and draws_nothing(changes))
     if context.is_one_of_two:
         names = BLANK[-1:] if context.shown.colors else ()
     elif plain.triangle_count == 1:
