@@ -148,10 +148,10 @@ NOTES = [
         config="8 8\n-0.25\n-0.5\n-1 1\n"),
     # Triangles show, but as black as the background.
     claim("colors within 0 and 1", "color 1 0.5 0\n" + TRIANGLE,
-          "zbuf: note: the picture is black: every color is within 0 and 1, but channels run from 0 to 255"),
+          "zbuf: note: the picture is black: its colors are within 0 and 1, but channels run from 0 to 255"),
     claim("colors within 0 and 1, lit", "color 1 0.5 0\nambient 1 1 1\n" + LIT + TRIANGLE,
-          "zbuf: note: the picture is black: every color is within 0 and 1, but channels run from 0 to 255"),
-    claim("colors of 0", "color 0 0 0\n" + TRIANGLE, "zbuf: note: the picture is black: every color is 0"),
+          "zbuf: note: the picture is black: its colors are within 0 and 1, but channels run from 0 to 255"),
+    claim("colors of 0", "color 0 0 0\n" + TRIANGLE, "zbuf: note: the picture is black: its colors are 0"),
     claim("colors of 0 on another background", "background 0 9 0\ncolor 0 0 0\n" + TRIANGLE),
     claim("one color above 1",
           "color 1 1 1\n" + TRIANGLE + "color 255 0 0\n" + TRIANGLE + "translate 0 0 0.5\n" + TRIANGLE),

@@ -83,7 +83,7 @@ class KeptTriangles(ToolTest):
             return f"-9 -9 {z:.6f} 1 {color}\n{right} -9 {z:.6f} 1 {color}\n0 9 {z:.6f} 1 {color}\n\n"
 
         black = "".join(wall(-i / LEAST / 4, "0 0 0", "70" if i == 5 else "9") for i in range(3 * LEAST))
-        is_black = "zbuf: note: the picture is black: every color is 0\n"
+        is_black = "zbuf: note: the picture is black: its colors are 0\n"
         for first, z_max in ((wall(0.5, "0 0 0"), "0.5"), (wall(0.75, "0 200 0"), "0.75")):
             self.check(COLORED + first + black, "--stats", "stats.txt", config="4 4\n", note=is_black)
             lines = pathlib.Path("stats.txt").read_text().splitlines()

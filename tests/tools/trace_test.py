@@ -235,7 +235,7 @@ class Samples(ToolTest):
     def test_colors_that_nobody_can_see_are_noted(self):
         """What the threads have seen comes together."""
         view = "ortho -1 1 -1 1 1 3\nattributes color\n-1 -1 -2 %s\n1 -1 -2 0 0 0\n0 1 -2 0 0 0\n\n"
-        black = "trace: note: the picture is black: every color is 0\n"
+        black = "trace: note: the picture is black: its colors are 0\n"
         for color, why in (("0 0 0", black), ("90 0 0", "")):
             for options in ([], ["--sampling", "jittered"]):
                 done = run("trace", "--size", "40x40", "--threads", "3", *options, stdin=view % color)

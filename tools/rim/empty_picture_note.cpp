@@ -183,9 +183,9 @@ std::string reason_of(Darkness darkness, double greatest, const ColorSetting& se
       setting.material_count == 1 ? "the material reflects " : "its materials reflect ";
   switch (darkness) {
     case Darkness::no_color:
-      return "every color is 0";
+      return "its colors are 0";
     case Darkness::small_color:
-      if (greatest <= 1) return "every color is within 0 and 1, but channels run from 0 to 255";
+      if (greatest <= 1) return "its colors are within 0 and 1, but channels run from 0 to 255";
       return "no channel of its colors is above " + rounded(greatest) + ", but channels run from 0 to 255";
     case Darkness::sends_rays:
       return "mirrors and glass alone are seen, and they show a black background";
@@ -278,6 +278,15 @@ std::string unseen_note(const UnseenPlaces& unseen, const Viewport& screen, bool
   });
   return (is_empty ? "the picture is empty: " : "only lines show: ") +
          (groups.empty() ? "no triangle came" : list_of(groups, "shows"));
+}
+
+std::string speck_note(const BoundingBox& extent, const Viewport& screen) {
+  const auto pixels = [](double length, double pixel) {
+    return std::to_string(std::lround(length / pixel) + 1);
+  };
+  return "all that is drawn lies within " + pixels(extent.high.x - extent.low.x, screen.dx()) + " x " +
+         pixels(extent.high.y - extent.low.y, screen.dy()) + " pixels of " + std::to_string(screen.columns) +
+         " x " + std::to_string(screen.rows) + ": it is too small or too far away, or the view is too wide";
 }
 
 std::string unseen_spheres_note(const UnseenSpheres& spheres) {

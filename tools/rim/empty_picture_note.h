@@ -33,6 +33,9 @@ std::optional<std::string> bright_light_note(const Appearance& appearance);
 /// For `zbuf`: no triangle shows at a pixel; or not `is_empty`, and those that show are lines.
 std::string unseen_note(const UnseenPlaces& unseen, const Viewport& screen, bool is_empty);
 
+/// For `zbuf`: all triangles together are a speck.
+std::string speck_note(const BoundingBox& extent, const Viewport& screen);
+
 /// For `zbuf`: a material mirrors or is clear, which only rays show; none if none does.
 std::optional<std::string> opaque_note(const Appearance& appearance);
 

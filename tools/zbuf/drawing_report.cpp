@@ -1,5 +1,7 @@
 #include "tools/zbuf/drawing_report.h"
 
+#include <algorithm>
+
 #include "libpipeline/picture/supersampling.h"
 #include "tools/rim/empty_picture_note.h"
 
@@ -15,13 +17,30 @@ void DrawingReport::add(const TriangleBatch& p_ndc) {
   at_centers_.add(p_ndc);
   if (at_samples_) at_samples_->add(p_ndc);
   if (counter_) counter_->add(p_ndc);
+  if (is_speck_) measure(p_ndc);
+}
+
+void DrawingReport::measure(const TriangleBatch& p_ndc) {
+  constexpr double kSmall = 1.0 / 40;
+  const double width = -screen_.left, height = -screen_.bottom;
+  for (const Triangle& triangle : p_ndc.triangles) {
+    const BoundingBox box(triangle);
+    if (may_be_visible(triangle, box, screen_)) extent_.add(box);
+    is_speck_ = extent_.high.x - extent_.low.x <= 2 * width * kSmall &&
+                extent_.high.y - extent_.low.y <= 2 * height * kSmall;
+    if (!is_speck_) return;
+  }
 }
 
 std::optional<std::string> DrawingReport::empty_picture_note() const {
   const auto both = [&](bool (EmptyPicture::*holds)() const) {
     return (at_centers_.*holds)() && (!at_samples_ || ((*at_samples_).*holds)());
   };
-  if (!both(&EmptyPicture::has_no_area)) return std::nullopt;
+  if (!both(&EmptyPicture::has_no_area)) {
+    constexpr int kLeastSide = 40;  // a speck is less than a pixel of smaller pictures
+    if (!is_speck_ || std::min(screen_.columns, screen_.rows) < kLeastSide) return std::nullopt;
+    return speck_note(extent_, screen_);
+  }
   return unseen_note(at_centers_.triangles(), screen_, both(&EmptyPicture::is_empty));
 }
 

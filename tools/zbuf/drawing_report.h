@@ -21,13 +21,17 @@ class DrawingReport {
 
   /// Takes the next triangles.
   void add(const TriangleBatch& p_ndc);
-  /// Why no triangle shows an area; none if one does.
+  /// Why no triangle shows an area, or all together hardly any; none if they do.
   [[nodiscard]] std::optional<std::string> empty_picture_note() const;
   /// Adds the counts and extents, if the report counts.
   void add_to(Statistics& statistics) const;
 
  private:
+  void measure(const TriangleBatch& p_ndc);
+
   Viewport screen_;
+  BoundingBox extent_;    // of the triangles in the window, as far as
+  bool is_speck_ = true;  // it is small
   EmptyPicture at_centers_;
   std::optional<EmptyPicture> at_samples_;
   std::optional<DrawingCounter> counter_;
