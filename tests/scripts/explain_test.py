@@ -545,7 +545,8 @@ class TheScanLine(ToolTest):
             self.report(5).stdout, """<stdin>
 scan line 5 of 0 to 9, y = -0.1 in NDC, coverage center
 
-EDGE TABLE, row 5: edges begin here of none
+EDGE TABLE, row 5: the edges that begin there
+  none
 
 POLYGON TABLE, of those on this row
   polygon   rows     plane
@@ -562,7 +563,15 @@ ACTIVE EDGES: left ones turn their polygon's flag to in, right ones to out
   8        right of 2   0.2500000    0                 0
   10       right of 0   -0.5000000   none
 """)
-        self.assertIn("EDGE TABLE, row 1: edges begin here of 0, 2\n", self.report(1).stdout)
+        self.assertIn(
+            """EDGE TABLE, row 1: the edges that begin there
+  column     last row   per row      polygon
+  3.708333   7          -0.6333333   2
+  5.291667   7          0.6333333    2
+  8.25       9          -1           0
+  9.25       9          0            0
+""",
+            self.report(1).stdout)
         self.assertIn("\n  none: every pixel shows the background\n", self.report(0).stdout)
 
     def test_fits_a_terminal(self):

@@ -3,6 +3,7 @@ their in-out flags, and the polygon seen up to the next edge. The numbers are zb
 between the depth limits, and the triangles that its scan line shows."""
 import io
 import itertools
+import math
 import pathlib
 import re
 import struct
@@ -30,12 +31,12 @@ def scan_line_lines(stages, window, name, row):
         rows, depths = polygons_of(log, row)
         shown = numbers_of_row(array, window.width, row)
     y = -window.bottom + (2 * row + 1) * Fraction(window.bottom) / window.height
-    first_here = [polygon for polygon, (first, _) in sorted(rows.items()) if first == row]
+    triangles = [*corners_of(text, depths)]
     return [
         name, f"scan line {row} of 0 to {window.height - 1}, y = {short(y)} in NDC, coverage "
-        f"{stages.settings.coverage}", "", f"EDGE TABLE, row {row}: edges begin here of "
-        f"{numbers(first_here)}", "", "POLYGON TABLE, of those on this row",
-        *polygon_table(text, rows, depths), "",
+        f"{stages.settings.coverage}", "", f"EDGE TABLE, row {row}: the edges that begin there",
+        *edge_table(triangles, window, rows, row), "", "POLYGON TABLE, of those on this row",
+        *polygon_table(triangles, rows, depths), "",
         "ACTIVE EDGES: left ones turn their polygon's flag to in, right ones to out",
         *active_edges(sorted(edges_of(depths)), shown)]
 
@@ -72,28 +73,46 @@ def edges_of(depths):
                 yield column + 1, False, polygon, depth
 
 
-def polygon_table(text, rows, depths):
-    planes = dict(planes_of(text, depths))
+def corners_of(text, wanted):
+    """(number, three points) of each triangle wanted in a text of project, or piece of one."""
+    for number, lines in triangle_lines(io.BytesIO(text)):
+        if number in wanted:
+            yield number, [[decimal_or_double(word.decode()) for word in line.split()[:3]] for line in lines]
+
+
+def edge_table(triangles, window, rows, row):
+    """The edges, but horizontal ones, that a row is the first to cross, from left to right."""
+    found = []
+    for polygon, corners in triangles:
+        places, (first, last) = [window.place(p) for p in corners], rows[polygon]
+        for ends in zip(places, places[1:] + places[:1]):
+            (column, top), (other, bottom) = sorted(ends, key=lambda place: place[1])
+            if top < bottom and max(first, math.ceil(top)) == row <= bottom:
+                per_row = (other - column) / (bottom - top)
+                found.append((column + (row - top) * per_row, min(last,
+                                                                  math.floor(bottom)), per_row, polygon))
+    return aligned_left([("column", "last row", "per row", "polygon")] +
+                        [(short(column), str(end), short(per_row), str(polygon))
+                         for column, end, per_row, polygon in sorted(found)]) if found else ["  none"]
+
+
+def polygon_table(triangles, rows, depths):
+    planes = {polygon: plane(*corners) for polygon, corners in triangles}
     return aligned_left([("polygon", "rows", "plane")] +
                         [(str(polygon), "{} to {}".format(*rows[polygon]), planes[polygon])
                          for polygon in sorted(depths)])
 
 
-def planes_of(text, wanted):
-    """The plane of each triangle of a text of project, as words."""
-    for number, corners in triangle_lines(io.BytesIO(text)):
-        if number in wanted:
-            a, b, c = ([decimal_or_double(word.decode()) for word in line.split()[:3]] for line in corners)
-            u, v = ([q - p for p, q in zip(a, other)] for other in (b, c))
-            slope = u[0] * v[1] - u[1] * v[0]
-            if slope == 0:
-                yield number, "seen edge-on"
-                continue
-            along = (u[2] * v[1] - u[1] * v[2]) / slope, (u[0] * v[2] - u[2] * v[0]) / slope
-            start = a[2] - along[0] * a[0] - along[1] * a[1]
-            signs = ("-" if x < 0 else "+" for x in along)
-            yield number, f"z = {short(start)}" + "".join(f" {sign} {short(abs(x))} {axis}"
-                                                          for sign, x, axis in zip(signs, along, "xy"))
+def plane(a, b, c):
+    """The plane of a triangle, in words."""
+    u, v = ([q - p for p, q in zip(a, other)] for other in (b, c))
+    slope = u[0] * v[1] - u[1] * v[0]
+    if slope == 0:
+        return "seen edge-on"
+    along = (u[2] * v[1] - u[1] * v[2]) / slope, (u[0] * v[2] - u[2] * v[0]) / slope
+    start = a[2] - along[0] * a[0] - along[1] * a[1]
+    return f"z = {short(start)}" + "".join(f" {'-' if x < 0 else '+'} {short(abs(x))} {axis}"
+                                           for x, axis in zip(along, "xy"))
 
 
 def active_edges(edges, shown):
