@@ -11,7 +11,6 @@ configure() {
   arch=$1
   shift
   cmake -S /src -B "$arch" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPIPELINE_TESTS=OFF -DPIPELINE_ALL_KERNELS=ON -DPIPELINE_STATIC_TOOLS=ON -DPIPELINE_STATIC_TOOLS_RUN=ON \
-    -Dassimp_DIR="$(dirname "$(find "/usr/local/assimp-$arch" -name assimpConfig.cmake)")" \
     -DPIPELINE_STATIC_PNG="/usr/lib/$arch-linux-gnu/libpng.a" -DPIPELINE_STATIC_ZLIB="/usr/lib/$arch-linux-gnu/libz.a" "$@"
 }
 
@@ -21,28 +20,27 @@ pack() {
     xz -9e -T1 > "out/$1.tar.xz"
 }
 
-# Puts the programs of a processor into the folder $3.
-put_programs() {
+# Puts the program of a processor into the folder $3.
+put_program() {
   $2 -o "$3/libexec/pipeline/tools/all-tools" "$1/bin/all-tools"
-  $2 -o "$3/libexec/pipeline/mesh2scene" "$1/bin/mesh2scene"
 }
 
 mkdir -p out pack
 configure x86_64
 cmake --build x86_64
 configure aarch64 -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++
-cmake --build aarch64 --target all-tools mesh2scene
+cmake --build aarch64 --target all-tools
 
 cmake --install x86_64 --prefix /build/installed
 [ -s installed/share/doc/pipeline/THIRD-PARTY ]  # else cmake has said what has no license
-put_programs x86_64 strip installed
+put_program x86_64 strip installed
 (cd x86_64 && cpack -D CPACK_INSTALL_CMAKE_PROJECTS= -D "CPACK_INSTALLED_DIRECTORIES=/build/installed;/usr" \
   -D CPACK_DEBIAN_COMPRESSION_TYPE=xz -B /build/deb)
 cp deb/*.deb out/
 # The archives have no library.
 rm -r installed/include installed/lib
 for arch in x86_64 aarch64; do cp -a installed "pack/pipeline-$version-linux-$arch"; done
-put_programs aarch64 aarch64-linux-gnu-strip "pack/pipeline-$version-linux-aarch64"
+put_program aarch64 aarch64-linux-gnu-strip "pack/pipeline-$version-linux-aarch64"
 cp -a installed/share/pipeline/conformance "pack/pipeline-$version-conformance"
 cp /src/LICENSE "pack/pipeline-$version-conformance"
 cp -a /src "pack/pipeline-$version-source"

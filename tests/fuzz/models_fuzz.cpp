@@ -1,6 +1,6 @@
-// mesh2scene on any bytes as an OBJ, PLY or STL file: a scene that model reads, or one clear message and
-// status 1. The first byte of the input selects the format. The tools run as processes: assimp crashes on
-// some files, which mesh2scene survives by a process of its own.
+// mesh2scene on any bytes as an OBJ, PLY, glTF or STL file: a scene that model reads, or one clear message
+// and status 1. The first byte of the input selects the format. The tools run as processes, as mesh2scene
+// opens files.
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -64,7 +64,7 @@ std::size_t count_of_failures(const std::string& messages) {
 
 void check(FuzzBytes bytes) {
   const int first = bytes.byte();
-  const std::string suffix = first == 'o' ? "obj" : first == 'p' ? "ply" : "stl";
+  const std::string suffix = first == 'o' ? "obj" : first == 'p' ? "ply" : first == 'g' ? "gltf" : "stl";
   const TemporaryFolder folder;
   folder.write("model." + suffix, std::string(bytes.rest()));
   const Run done = run({MESH2SCENE, folder.path("model." + suffix)});

@@ -40,8 +40,7 @@ class MakeRelease(unittest.TestCase):
         self.out.mkdir()
         package = self.tree / "scripts/package"
         package.mkdir(parents=True)
-        for name in ("make-release", "build_assimp.sh"):
-            shutil.copy(SOURCE / "scripts/package" / name, package)
+        shutil.copy(SOURCE / "scripts/package/make-release", package)
         self.put(self.tree / "scripts/build-playground", PLAYGROUND)
         self.put(self.tree / "CMakeLists.txt", "project(pipeline VERSION 9.8.7 LANGUAGES CXX)\n")
         self.put(self.tree / "CHANGELOG.md",

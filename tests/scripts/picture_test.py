@@ -196,7 +196,7 @@ class Picture(ToolTest):
         pathlib.Path("large.obj").write_text("#" * 1_000_001)
         for words, reason in (([
                 "missing.obj"], "picture: mesh2scene: cannot open missing.obj: No such file or directory"), ([
-                    "broken.obj"], "picture: mesh2scene: broken.obj: assimp cannot read this model: "), ([
+                    "broken.obj"], "picture: mesh2scene: broken.obj:1:6: expected three coordinates, "), ([
                         "large.obj", "--max-input",
                         "1"], "picture: mesh2scene: large.obj: expected at most 1 MB "), ([
                             "vase.obj", "--fov", "0"], "picture: mesh2scene: --fov: expected "), ([

@@ -83,8 +83,7 @@ MODEL = {
 
 
 def runs_of_models():
-    """Broken models, none, one with a second file, and one of every format. (Of some broken ones assimp
-    crashes natively.)"""
+    """Broken models, none, one with a second file, and one of every format."""
     for names in ([], ["a.obj"], ["a.obj", "a.mtl"]):
         yield run_of("mesh2scene", ["--", "a.obj"], b"", {name: MODEL[name] for name in names})
     yield run_of("mesh2scene", ["a.stl"], b"", {"a.stl": b"solid"})
@@ -142,7 +141,7 @@ class ToolsOfThePage(unittest.TestCase):
     def test_the_samples_are_those_of_the_native_tools(self):
         self.check([*runs_of_samples()])
 
-    @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without assimp")
+    @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without PIPELINE_MODELS")
     def test_models_become_the_scenes_of_the_native_tool(self):
         self.check([*runs_of_models()])
 
@@ -554,7 +553,7 @@ class TheFolder(PageTest):
     def test_it_shows_the_native_picture(self):
         self.check_the_native_picture()
 
-    @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without assimp")
+    @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without PIPELINE_MODELS")
     def test_a_model_is_dropped_with_its_colors(self):
         drop = """const dataTransfer = new DataTransfer();
           for (const file of arguments[0]) dataTransfer.items.add(new File([file[1]], file[0]));

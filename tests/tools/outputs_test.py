@@ -246,7 +246,7 @@ class InputsStay(ToolTest):
         self.seen = run("zbuf", "config.txt", "stage3.txt", "--seen", "-").stdout
         for tool, inputs, more, options in RUNS:
             if not (BIN / tool).exists():
-                continue  # mesh2scene, as assimp is missing
+                continue  # mesh2scene, without PIPELINE_MODELS
             for option, taken, from_stdin, way in itertools.product((*options, None), inputs, (False, True),
                                                                     LINKS):
                 with self.subTest(tool=tool, option=option, input=taken, from_stdin=from_stdin, way=way):

@@ -85,7 +85,7 @@ def tool_inputs(scene=SCENE):
 def expect_mesh2scene():
     """Skips the tests of a module where the command has not been built."""
     if not (BIN / "mesh2scene").exists():
-        raise unittest.SkipTest("mesh2scene has not been built, as assimp is missing")
+        raise unittest.SkipTest("mesh2scene has not been built (PIPELINE_MODELS)")
 
 
 def pseudo_terminal():

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "libpipeline/numbers/vec_math.h"
@@ -12,8 +11,7 @@
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
-#include "tools/mesh2scene/crash_guard.h"
-#include "tools/mesh2scene/imported_model.h"
+#include "tools/mesh2scene/readers.h"
 #include "tools/mesh2scene/scene_materials.h"
 #include "tools/mesh2scene/scene_setting.h"
 #include "tools/mesh2scene/scene_text.h"
@@ -23,6 +21,8 @@ using namespace pipeline;
 
 namespace {
 
+constexpr Vec3 kX = {1, 0, 0}, kY = {0, 1, 0}, kZ = {0, 0, 1};
+
 struct Options {
   std::string size = "800x600";
   std::vector<std::string> eye_from, at;
@@ -30,7 +30,7 @@ struct Options {
   double crease_degrees = 40;
   bool as_nodes = false;
   int most_megabytes = 1000;
-  std::optional<UpAxis> up;
+  std::optional<Vec3> up;
   ViewChoice view;
 };
 
@@ -50,15 +50,14 @@ void add_options(CommandLine& options, Options& chosen) {
   options.add_number(
       "--fov", "DEGREES", chosen.view.fov_y_degrees, [](double value) { return value >= 1 && value <= 120; },
       "1 to 120", "The angle of view from the picture's bottom to its top");
-  options.add_choice<std::optional<UpAxis>>(
-      "--up-axis", chosen.up,
-      {{"x", UpAxis::x},
-       {"y", UpAxis::y},
-       {"z", UpAxis::z},
-       {"-x", UpAxis::minus_x},
-       {"-y", UpAxis::minus_y},
-       {"-z", UpAxis::minus_z}},
-      "The axis that is up in the picture (default: z for STL, 3DS and 3MF, else y)");
+  options.add_choice<std::optional<Vec3>>("--up-axis", chosen.up,
+                                          {{"x", kX},
+                                           {"y", kY},
+                                           {"z", kZ},
+                                           {"-x", scaled(kX, -1)},
+                                           {"-y", scaled(kY, -1)},
+                                           {"-z", scaled(kZ, -1)}},
+                                          "The axis that is up in the picture (default: z for STL, else y)");
   options.add_words("--at", 3, "X Y Z", chosen.at,
                     "Look at this point, in the model's coordinates, in place of its middle");
   options.add_number(
@@ -80,11 +79,6 @@ void add_options(CommandLine& options, Options& chosen) {
                    "Write the transforms of the model's nodes as push, translate, rotate, scale and pop");
 }
 
-// Ten times what assimp takes for the slowest of the common formats.
-constexpr double kImportSeconds = 2, kImportSecondsPerMegabyte = 2;
-// A text takes about four times its size, a compressed file more.
-constexpr double kImportMegabytes = 1000, kImportMegabytesPerMegabyte = 100;
-
 /// A number of an option that takes several.
 double number_from(const std::string& option, const std::string& word, double least, double most) {
   const ParsedNumber number = parse_number(word);
@@ -96,26 +90,8 @@ double number_from(const std::string& option, const std::string& word, double le
   return number.value;
 }
 
-std::string extension_of(const std::string& path) {
-  const std::string name = path.substr(path.rfind('/') + 1);
-  const std::size_t dot = name.rfind('.');
-  std::string extension = dot == std::string::npos ? "" : name.substr(dot + 1);
-  for (char& c : extension)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return extension;
-}
-
-/// Most programs that write these formats are for printing or building, with z up.
-UpAxis usual_up(const std::string& extension) {
-  return extension == "STL" || extension == "3DS" || extension == "3MF" ? UpAxis::z : UpAxis::y;
-}
-
-const char* name_of(UpAxis axis) {
-  return axis == UpAxis::x ? "x" : axis == UpAxis::y ? "y" : "z";
-}
-
 /// "it reaches from X Y Z to X Y Z (--at looks elsewhere, --zoom closer)", with four digits.
-std::string extent_of(const ImportedModel& model) {
+std::string extent_of(const Model& model) {
   BoundingBox box;
   model.for_each_corner([&](const Vec3& p) { box.add(Triangle{p, p, p}); });
   const auto& [low, high] = box;
@@ -125,21 +101,17 @@ std::string extent_of(const ImportedModel& model) {
   return std::string(text.data()) + " (--at looks elsewhere, --zoom closer)";
 }
 
-/// Formats that define which axis is up, or for which assimp turns the model.
-bool defines_up(const std::string& extension) {
-  return extension == "GLTF" || extension == "GLB" || extension == "DAE" || extension == "FBX";
-}
-
-/// The options' view of a model in such a file.
-ViewChoice view_of(const Options& chosen, const std::string& extension) {
+/// The options' view of a model. Most programs that write STL print or build things, and stand them on x and
+/// y.
+ViewChoice view_of(const Options& chosen, const Model& model) {
   ViewChoice view = chosen.view;
-  view.up = chosen.up.value_or(usual_up(extension));
+  view.up = chosen.up.value_or(model.format == "STL" ? kZ : kY);
   if (!chosen.eye_from.empty()) {
     view.azimuth_degrees = number_from("--eye-from AZIMUTH", chosen.eye_from[0], -360, 360);
     view.elevation_degrees = number_from("--eye-from ELEVATION", chosen.eye_from[1], -90, 90);
   }
   if (!chosen.at.empty()) {
-    constexpr double kMost = std::numeric_limits<float>::max();  // of assimp's coordinates
+    constexpr double kMost = std::numeric_limits<float>::max();  // of a scene's coordinates
     const auto number = [&](std::size_t i) { return number_from("--at", chosen.at[i], -kMost, kMost); };
     view.at = {number(0), number(1), number(2)};
   }
@@ -154,23 +126,8 @@ bool chooses_view(const CommandLine& options) {
                              [&](const char* name) { return options.is_given(name); });
 }
 
-/// Imports in a child process, within limits that grow with the file. Throws as ImportedModel does.
-ImportedModel imported(const std::string& path, const std::string& name, const Options& chosen) {
-  go_on_in_child(name);
-  auto files = std::make_unique<ModelFiles>(path, chosen.most_megabytes);
-  const double size = static_cast<double>(files->model().size()) / 1e6;
-  const ImportLimits limits(kImportSeconds + kImportSecondsPerMegabyte * size,
-                            kImportMegabytes + kImportMegabytesPerMegabyte * size);
-  return {path, std::move(files), chosen.crease_degrees};
-}
-
-std::string guessed_up_note(UpAxis up, const std::string& extension, const ImportedModel& model) {
-  return std::string(name_of(up)) + " is taken for up, as in most " +
-         (extension.empty() ? "" : extension + " ") + "files (--up-axis chooses); " + extent_of(model);
-}
-
 /// Notes on pictures that show next to nothing.
-void note_what_hides(const ImportedModel& model, const SceneSetting& setting, bool is_files_camera,
+void note_what_hides(const Model& model, const SceneSetting& setting, bool is_files_camera,
                      const Options& chosen, const Tool& tool) {
   constexpr double kLittle = 0.01;
   const double share = shown_share(model, setting);
@@ -178,10 +135,12 @@ void note_what_hides(const ImportedModel& model, const SceneSetting& setting, bo
   std::snprintf(text.data(), text.size(), share == 0 ? "nothing" : "%.2g %% of the picture", 100 * share);
   const std::string covered = text.data();
   if (share < kLittle && is_files_camera)
-    tool.note(model.name() + ": its own camera shows it on " + covered + ": --eye-from 30 15 frames it");
+    tool.note(model.name + ": its own camera shows it on " + covered + ": --eye-from 30 15 frames it");
   else if (share > 0 && share < kLittle && chosen.at.empty() && chosen.view.zoom == 1)
-    tool.note(model.name() + ": it covers " + covered +
+    tool.note(model.name + ": it covers " + covered +
               ": parts of it lie far from each other, or it is thin; --at and --zoom look closer");
+  if (chosen.color.empty() && model.is_black())
+    tool.note(model.name + ": all of it is black: --color gives it another color");
 }
 
 }  // namespace
@@ -189,7 +148,7 @@ void note_what_hides(const ImportedModel& model, const SceneSetting& setting, bo
 int main(int argc, char** argv) {
   Tool tool({"mesh2scene",
              "Turns a model file into a scene: camera, lights, and triangles with normals. Reads OBJ, STL, "
-             "PLY, glTF and whatever else assimp reads.",
+             "PLY and glTF.",
              "The model file, which may name regular files in or below its folder",
              {"mesh2scene bunny.obj > scene.txt",
               "mesh2scene --up-axis z part.obj | model | view | project | zbuf --size 800x600"},
@@ -201,29 +160,30 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     tool.expect_separate({kStandardOutput});
     const std::string& path = tool.input_path();
-    const std::string name = path == "-" ? "<stdin>" : path;
-    const std::string extension = extension_of(path);
-    const ViewChoice view = view_of(chosen, extension);
-    // Never destroyed: to free every face would keep the next stage waiting for the end of the scene.
-    static const ImportedModel& model = *new ImportedModel(imported(path, name, chosen));
+    // Never destroyed: to free all would keep the next stage waiting for the end of the scene.
+    static ModelFiles& files = *new ModelFiles(path, chosen.most_megabytes);
+    static Model& model = *new Model(read_model(path, files, chosen.crease_degrees));
     tool.timing().lap(&Timing::read_seconds);
     tool.timing().triangle_count = model.triangle_count();
-    const bool has_own_view = model.camera() && !chooses_view(tool.options());
+    const std::string& name = model.name;
+    const ViewChoice view = view_of(chosen, model);
+    const bool has_own_view = model.camera && !chooses_view(tool.options());
     SceneSetting setting = has_own_view ? setting_of_file(model, view.aspect) : framed_setting(model, view);
-    if (!has_own_view && !chosen.up && !defines_up(extension))
-      tool.note(guessed_up_note(view.up, extension, model));
-    for (const std::string& note : model.notes()) tool.note(note);
-    if (!model.ignored().empty()) tool.note(name + ": no scene can hold its " + listed(model.ignored()));
+    if (!has_own_view && !chosen.up && model.format != "glTF")
+      tool.note(std::string(view.up == kY ? "y" : "z") + " is taken for up, as in most " + model.format +
+                " files (--up-axis chooses); " + extent_of(model));
+    for (const std::string& note : model.notes) tool.note(note);
+    if (const auto& parts = model.unheld; !parts.empty())
+      tool.note(name + ": no scene can hold its " + listed({parts.begin(), parts.end()}));
     note_what_hides(model, setting, has_own_view, chosen, tool);
     setting.has_one_color = !chosen.color.empty();
     if (setting.has_one_color) setting.color = to_vec3(*parse_color(chosen.color));
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
                         ", by mesh2scene; zbuf --size " + chosen.size};
     const SceneMaterials materials(model, setting);
-    if (materials.are_too_many())
+    if (materials.are_too_many)
       tool.note(name + ": it has more than " + counted(SceneMaterials::kMaxCount, "material") +
                 "; from there on meshes have the first");
-    write_scene(model, setting, materials, chosen.as_nodes ? NodeForm::as_commands : NodeForm::applied,
-                tool.output());
+    write_scene(model, setting, materials, chosen.as_nodes, tool.output());
   });
 }

@@ -1,6 +1,5 @@
 #include "tools/mesh2scene/model_files.h"
 
-#include <assimp/MemoryIOWrapper.h>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -72,12 +71,9 @@ bool is_standard_output(int descriptor) {
 }  // namespace
 
 ModelFiles::ModelFiles(const std::string& path, std::size_t megabytes)
-    : base_name_(std::filesystem::path(path).filename()),
-      megabytes_(megabytes),
-      room_(megabytes * 1'000'000) {
+    : megabytes_(megabytes), room_(megabytes * 1'000'000) {
   if (path == "-") {
-    base_name_ = AI_MEMORYIO_MAGIC_FILENAME ".";  // the importer of its format is found by its bytes
-    contents_[base_name_] = read_standard_input();
+    model_ = read_standard_input();
     return;
   }
   struct stat status = {};
@@ -88,7 +84,7 @@ ModelFiles::ModelFiles(const std::string& path, std::size_t megabytes)
   const int model = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (model < 0 || (!folder.empty() && ::chdir(folder.c_str()) != 0)) throw IoError("open", path, errno);
-  contents_[base_name_] = map(model, path);
+  model_ = map(model, path);
   has_folder_ = true;
 }
 
@@ -117,7 +113,7 @@ std::string_view ModelFiles::map(int descriptor, const std::string& name) {
   if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) throw IoError("read", name, EINVAL);
   const auto size = static_cast<std::size_t>(status.st_size);
   take_room(size, name);
-  // An empty file cannot be mapped, and assimp's stream takes no null pointer.
+  // An empty file cannot be mapped.
   const void* const bytes = size == 0 ? "" : ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
   ::close(descriptor);
   if (bytes == MAP_FAILED) throw IoError("read", name, errno);
@@ -131,39 +127,19 @@ std::string ModelFiles::refusal() const {
   return expected_but_found(expected, pipeline::quoted(refused_));
 }
 
-void ModelFiles::expect_separate_output() const {
-  if (!output_.empty())
-    throw UsageError(expected_but_found("a place of its own for standard output",
-                                        pipeline::quoted(output_) + ", which the model names"));
-}
-
-bool ModelFiles::Exists(const char* file) const {
-  const int opened = has_folder_ ? open_below(file) : kNotThere;
-  if (opened >= 0) ::close(opened);
-  return opened >= 0 || contents_.contains(file);
-}
-
-Assimp::IOStream* ModelFiles::Open(const char* file, const char* mode) {
-  if (*mode != 'r') return nullptr;
-  if (!contents_.contains(file)) {
-    const int opened = has_folder_ ? open_below(file) : kRefused;
-    if (opened == kRefused && refused_.empty()) refused_ = file;
-    if (opened < 0) return nullptr;
-    if (is_standard_output(opened)) {
-      ::close(opened);
-      output_ = file;
-      return nullptr;
-    }
-    contents_[file] = map(opened, file);
+std::optional<std::string_view> ModelFiles::read(const std::string& file) {
+  const std::string last = std::filesystem::path(file).filename();
+  for (const std::string& name : {file, last}) {
+    const int opened = has_folder_ ? open_below(name) : kRefused;
+    if (opened == kRefused && refused_.empty()) refused_ = name;
+    if (opened < 0) continue;
+    if (is_standard_output(opened))
+      throw UsageError(expected_but_found("a place of its own for standard output",
+                                          pipeline::quoted(name) + ", which the model names"));
+    if (std::filesystem::path(refused_).filename() == last) refused_.clear();
+    return map(opened, name);
   }
-  // For a path that leads nowhere, assimp tries the file's name in the model's folder.
-  if (std::filesystem::path(refused_).filename() == std::filesystem::path(file).filename()) refused_.clear();
-  const std::string_view bytes = contents_[file];
-  return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-}
-
-void ModelFiles::Close(Assimp::IOStream* file) {
-  delete file;
+  return std::nullopt;
 }
 
 }  // namespace pipeline

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "libpipeline/numbers/angle.h"
 #include "libpipeline/numbers/vec_math.h"
@@ -27,45 +28,33 @@ struct ViewAxes {
   Vec3 right, up, back;
 };
 
-/// A point given in the axes of a camera, from the middle of the model, in distances of the eye.
-Vec3 beside(const FramingCamera& camera, const ViewAxes& axes, const Vec3& offset) {
-  return sum(camera.look, scaled(sum(sum(scaled(axes.right, offset.x), scaled(axes.up, offset.y)),
-                                     scaled(axes.back, offset.z)),
-                                 camera.distance));
-}
-
-ViewAxes axes_of(const FramingCamera& camera) {
+ViewAxes axes_of(const ModelCamera& camera) {
   const Vec3 back = unit_vector(difference(camera.eye, camera.look));
   const Vec3 right = unit_vector(cross(camera.up, back));
   return {right, cross(back, right), back};
 }
 
-/// A key light from the upper left, a weaker fill from the right, and a little from everywhere.
-void set_studio_lights(SceneSetting& setting) {
-  const ViewAxes axes = axes_of(setting.camera);
-  setting.ambient = {0.22, 0.22, 0.22};
-  setting.lights = {{beside(setting.camera, axes, {-0.7, 1, 1.4}), {0.74, 0.74, 0.72}},
-                    {beside(setting.camera, axes, {1.5, 0.3, 0.8}), {0.24, 0.24, 0.26}}};
-}
-
-void set_lights(const ImportedModel& model, SceneSetting& setting) {
-  if (model.lights().empty()) {
-    set_studio_lights(setting);
-    return;
-  }
-  setting.ambient = model.ambient();
-  setting.lights = model.lights();
+/// The file's lights; without any, a key light from the upper left, a weaker fill from the right, and a
+/// little from everywhere.
+void set_lights(const Model& model, SceneSetting& setting) {
+  const ModelCamera& camera = setting.camera;
+  const ViewAxes axes = axes_of(camera);
+  const auto beside = [&](double x, double y, double z) {  // the middle of the model, in distances of the eye
+    const Vec3 offset = sum(sum(scaled(axes.right, x), scaled(axes.up, y)), scaled(axes.back, z));
+    return sum(camera.look, scaled(offset, camera.distance));
+  };
+  setting.lights = model.lights;
   for (ModelLight& light : setting.lights)
     if (light.is_far)
-      light.position =
-          sum(setting.camera.look, scaled(unit_vector(light.position), -kFar * setting.camera.distance));
+      light.position = sum(camera.look, scaled(unit_vector(light.position), -kFar * camera.distance));
+  if (!model.lights.empty()) return;
+  setting.ambient = {0.22, 0.22, 0.22};
+  setting.lights = {{beside(-0.7, 1, 1.4), {0.74, 0.74, 0.72}}, {beside(1.5, 0.3, 0.8), {0.24, 0.24, 0.26}}};
 }
 
-SceneSetting setting_with(const FramingCamera& camera, double fov_y_degrees, double aspect,
-                          const ImportedModel& model) {
+SceneSetting setting_with(const ModelCamera& camera, double aspect, const Model& model) {
   SceneSetting setting;
   setting.camera = camera;
-  setting.fov_y_degrees = fov_y_degrees;
   setting.aspect = aspect;
   setting.background = {232, 235, 240};
   setting.color = {228, 222, 210};
@@ -99,16 +88,9 @@ constexpr double kDepthMargin = 0.5;
 /// The largest far / near at which a depth buffer is still fine enough.
 constexpr double kMostDepth = 10000;
 
-Vec3 unit_vector_of(UpAxis axis) {
-  constexpr std::array<Vec3, 6> kAxes = {
-      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
-  return kAxes[static_cast<std::size_t>(axis)];
-}
-
 /// Seen from the front, from the model's z (with z up: -y, with -y or -z up: the other side), turned by
 /// `azimuth` degrees about the up axis to the right and by `elevation` degrees, -90 to 90, upwards.
-ViewAxes view_axes(UpAxis up_axis, double azimuth_degrees, double elevation_degrees) {
-  const Vec3 up = unit_vector_of(up_axis);
+ViewAxes view_axes(const Vec3& up, double azimuth_degrees, double elevation_degrees) {
   const Vec3 front = up.z != 0 ? Vec3{0, -up.z, 0} : Vec3{0, 0, up.y < 0 ? -1.0 : 1.0};
   const Vec3 side = cross(up, front);
   const auto [cos_a, sin_a] = direction_of(azimuth_degrees);
@@ -119,126 +101,103 @@ ViewAxes view_axes(UpAxis up_axis, double azimuth_degrees, double elevation_degr
   return {right, cross(back, right), back};
 }
 
-/// The largest values that decide a framing, over all points added: how far each side of a view volume of the
-/// slopes given has to be moved out to hold them all.
-class Framing {
- public:
-  /// The picture shows angles of `fov_y_degrees` upwards; `aspect` is width / height. The points fill `share`
-  /// of its width or of its height, and at most so much of the other.
-  Framing(const ViewAxes& axes, double fov_y_degrees, double aspect, double share)
-      : axes_(axes),
-        slope_x_(share * aspect * tangent(fov_y_degrees / 2)),
-        slope_y_(share * tangent(fov_y_degrees / 2)) {}
-
-  void add(const Vec3& p) {
-    const double a = dot(p, axes_.right), b = dot(p, axes_.up), c = dot(p, axes_.back);
-    right_ = std::max(right_, a + slope_x_ * c);
-    left_ = std::max(left_, -a + slope_x_ * c);
-    top_ = std::max(top_, b + slope_y_ * c);
-    bottom_ = std::max(bottom_, -b + slope_y_ * c);
-    nearest_ = std::max(nearest_, c);
-    farthest_ = std::min(farthest_, c);
-  }
-  /// For points that do not all coincide. With `at`, it looks there instead; `zoom` divides its distance.
-  [[nodiscard]] FramingCamera camera(const std::optional<Vec3>& at, double zoom) const {
-    // An eye at (x, y, z) sees a point (a, b, c) within the share if |a - x| <= slope_x (z - c) and |b - y|
-    // <= slope_y (z - c): a + slope_x c <= x + slope_x z and -a + slope_x c <= -x + slope_x z. Added up, they
-    // give the least z.
-    const double x = (right_ - left_) / 2, y = (top_ - bottom_) / 2;
-    const double z = std::max((right_ + left_) / (2 * slope_x_), (top_ + bottom_) / (2 * slope_y_));
-    const double middle = nearest_ + (farthest_ - nearest_) / 2;
-    const auto on_axis = [&](double depth) {
-      return sum(sum(scaled(axes_.right, x), scaled(axes_.up, y)), scaled(axes_.back, depth));
-    };
-    FramingCamera camera;
-    camera.eye = on_axis(z);
-    camera.look = on_axis(middle);
-    camera.up = axes_.up;
-    camera.distance = z - middle;
-    double eye_depth = z;
-    if (at || zoom != 1) {
-      if (at) camera.look = *at;
-      camera.distance /= zoom;
-      camera.eye = sum(camera.look, scaled(axes_.back, camera.distance));
-      eye_depth = dot(camera.eye, axes_.back);
-    }
-    camera.far = (eye_depth - farthest_) + kDepthMargin * camera.distance;
-    camera.near = std::max((eye_depth - nearest_) * kDepthMargin, camera.far / kMostDepth);
-    return camera;
-  }
-
- private:
-  ViewAxes axes_;
-  double slope_x_, slope_y_;
-  // The largest a + slope c and -a + slope c of points (a, b, c), the same for b.
-  double right_ = -kInfinity, left_ = -kInfinity, top_ = -kInfinity, bottom_ = -kInfinity;
-  double nearest_ = -kInfinity, farthest_ = kInfinity;  // the largest and the smallest c
-};
-
 }  // namespace
 
-SceneSetting framed_setting(const ImportedModel& model, const ViewChoice& view) {
-  Framing framing(view_axes(view.up, view.azimuth_degrees, view.elevation_degrees), view.fov_y_degrees,
-                  view.aspect, kShare);
-  model.for_each_corner([&](const Vec3& p) { framing.add(p); });
-  FramingCamera camera = framing.camera(view.at, view.zoom);
-  if (std::fabs(view.elevation_degrees) <= kSteepestWithWorldUp) camera.up = unit_vector_of(view.up);
-  if ((view.at || view.zoom != 1) && std::isfinite(camera.far) && !(camera.far > 0))
-    throw std::runtime_error(model.name() + ": expected a point --at that has the model before the eye");
+SceneSetting framed_setting(const Model& model, const ViewChoice& view) {
+  const ViewAxes axes = view_axes(view.up, view.azimuth_degrees, view.elevation_degrees);
+  const double slope_y = kShare * tangent(view.fov_y_degrees / 2), slope_x = view.aspect * slope_y;
+  // The largest a + slope c and -a + slope c of points (a, b, c) in the view's axes, the same for b.
+  double right = -kInfinity, left = -kInfinity, top = -kInfinity, bottom = -kInfinity;
+  double nearest = -kInfinity, farthest = kInfinity;  // the largest and the smallest c
+  model.for_each_corner([&](const Vec3& p) {
+    const double a = dot(p, axes.right), b = dot(p, axes.up), c = dot(p, axes.back);
+    right = std::max(right, a + slope_x * c);
+    left = std::max(left, -a + slope_x * c);
+    top = std::max(top, b + slope_y * c);
+    bottom = std::max(bottom, -b + slope_y * c);
+    nearest = std::max(nearest, c);
+    farthest = std::min(farthest, c);
+  });
+  // An eye at (x, y, z) sees a point (a, b, c) within the share if |a - x| <= slope_x (z - c) and |b - y| <=
+  // slope_y (z - c): a + slope_x c <= x + slope_x z and -a + slope_x c <= -x + slope_x z. Added up, they give
+  // the least z.
+  const double x = (right - left) / 2, y = (top - bottom) / 2;
+  const double z = std::max((right + left) / (2 * slope_x), (top + bottom) / (2 * slope_y));
+  const double middle = nearest + (farthest - nearest) / 2;
+  const auto on_axis = [&](double depth) {
+    return sum(sum(scaled(axes.right, x), scaled(axes.up, y)), scaled(axes.back, depth));
+  };
+  const bool is_steep = std::fabs(view.elevation_degrees) > kSteepestWithWorldUp;
+  ModelCamera camera = {on_axis(z), on_axis(middle), is_steep ? axes.up : view.up, view.fov_y_degrees};
+  camera.distance = z - middle;
+  double eye_depth = z;
+  const bool is_closer = view.at || view.zoom != 1;
+  if (is_closer) {
+    camera.look = view.at.value_or(camera.look);
+    camera.distance /= view.zoom;
+    camera.eye = sum(camera.look, scaled(axes.back, camera.distance));
+    eye_depth = dot(camera.eye, axes.back);
+  }
+  camera.far = (eye_depth - farthest) + kDepthMargin * camera.distance;
+  camera.near = std::max((eye_depth - nearest) * kDepthMargin, camera.far / kMostDepth);
+  if (is_closer && std::isfinite(camera.far) && !(camera.far > 0))
+    throw std::runtime_error(model.name + ": expected a point --at that has the model before the eye");
   if (!(camera.distance > 0) || !std::isfinite(camera.far) || !(camera.near > 0))
-    throw std::runtime_error(model.name() +
-                             ": expected a model with an extent, found all vertices in one point, or farther "
-                             "apart than numbers go");
-  return setting_with(camera, view.fov_y_degrees, view.aspect, model);
+    model.fail("a model with an extent", "all vertices in one point, or farther apart than numbers go");
+  return setting_with(camera, view.aspect, model);
 }
 
-SceneSetting setting_of_file(const ImportedModel& model, double aspect) {
-  const ModelCamera& of_file = *model.camera();
-  FramingCamera camera;
-  camera.eye = of_file.eye;
-  camera.up = unit_vector(of_file.up);
-  camera.near = of_file.near;
-  camera.far = of_file.far;
+SceneSetting setting_of_file(const Model& model, double aspect) {
+  ModelCamera camera = *model.camera;
+  camera.up = unit_vector(camera.up);
   // A file says in which direction it looks, not how far; the middle of the model is what a light is to fall
   // on.
   Vec3 total;
-  double count = 0;
+  double count = 0, farthest = 0;
+  const Vec3 direction = unit_vector(difference(camera.look, camera.eye));
   model.for_each_corner([&](const Vec3& p) {
     total = sum(total, p);
+    farthest = std::max(farthest, dot(difference(p, camera.eye), direction));
     ++count;
   });
-  const Vec3 direction = unit_vector(difference(of_file.look, of_file.eye));
-  const double ahead = dot(difference(scaled(total, 1 / count), of_file.eye), direction);
-  camera.distance = ahead > of_file.near ? ahead : of_file.near;
+  const double ahead = dot(difference(scaled(total, 1 / count), camera.eye), direction);
+  camera.distance = ahead > camera.near ? ahead : camera.near;
   camera.look = sum(camera.eye, scaled(direction, camera.distance));
-  return setting_with(camera, of_file.fov_y_degrees, aspect, model);
+  // Without an end of its own, the view reaches as far as the model.
+  if (!std::isfinite(camera.far)) camera.far = 2 * std::max(camera.near, farthest);
+  return setting_with(camera, aspect, model);
 }
 
-double shown_share(const ImportedModel& model, const SceneSetting& setting) {
-  const FramingCamera& camera = setting.camera;
+double shown_share(const Model& model, const SceneSetting& setting) {
+  const ModelCamera& camera = setting.camera;
   const ViewAxes axes = axes_of(camera);
-  const double slope_y = tangent(setting.fov_y_degrees / 2), slope_x = setting.aspect * slope_y;
+  const double slope_y = tangent(camera.fov_y_degrees / 2), slope_x = setting.aspect * slope_y;
   std::array<Vec3, 3> corners;
   std::size_t count = 0;
   double area = 0;
+  int behind_count = 0;  // of a triangle's corners
+  bool is_beside_eye = false;
   model.for_each_corner([&](const Vec3& p) {
     const Vec3 offset = difference(p, camera.eye);
     const double depth = -dot(offset, axes.back);
     // In NDC; a corner that is not in the view's depth spoils its triangle.
     const bool is_seen = depth >= camera.near && depth <= camera.far;
+    if (!(depth >= camera.near)) ++behind_count;
     corners[count++] = is_seen ? Vec3{dot(offset, axes.right) / (slope_x * depth),
                                       dot(offset, axes.up) / (slope_y * depth), 0}
                                : Vec3{NAN, NAN, NAN};
     if (count < 3) return;
     count = 0;
     const auto& [a, b, c] = corners;
+    // A triangle beside the eye, as a floor, may cover much.
+    is_beside_eye = is_beside_eye || (std::exchange(behind_count, 0) % 3 != 0);
     const double width = std::min(std::max({a.x, b.x, c.x}), 1.0) - std::max(std::min({a.x, b.x, c.x}), -1.0);
     const double height =
         std::min(std::max({a.y, b.y, c.y}), 1.0) - std::max(std::min({a.y, b.y, c.y}), -1.0);
     if (width > 0 && height > 0)
       area += std::min(std::fabs(cross(difference(b, a), difference(c, a)).z) / 2, width * height);
   });
-  return area / 4 / 2;  // of the window, which is 2 by 2; a body has two sides
+  return is_beside_eye ? 1 : area / 4 / 2;  // of the window, which is 2 by 2; a body has two sides
 }
 
 }  // namespace pipeline

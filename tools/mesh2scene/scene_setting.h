@@ -5,25 +5,15 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
-#include "tools/mesh2scene/imported_model.h"
+#include "libpipeline/scene/model.h"
 
 namespace pipeline {
-
-enum class UpAxis { x, y, z, minus_x, minus_y, minus_z };
-
-/// A camera that frames points.
-struct FramingCamera {
-  Vec3 eye, look, up;
-  double near = 0, far = 0;
-  double distance = 0;  // from the eye to `look`, the middle of the points in depth
-};
 
 /// The part of a scene before its first triangle.
 struct SceneSetting {
   std::vector<std::string> comments;
-  FramingCamera camera;  // in the model's space, as are the lights
-  double scale = 1;  // of the model in the scene: a power of ten, for a size that seven decimals do not suit
-  double fov_y_degrees = 0;
+  ModelCamera camera;  // in the model's space, as are the lights
+  double scale = 1;   // of the model in the scene: a power of ten, for a size that seven decimals do not suit
   double aspect = 0;  // width / height
   Vec3 background;
   Vec3 ambient;
@@ -36,7 +26,7 @@ struct SceneSetting {
 
 /// The view of a framed model; angles in degrees.
 struct ViewChoice {
-  UpAxis up = UpAxis::y;
+  Vec3 up;  // an axis
   double azimuth_degrees = 30, elevation_degrees = 15;
   double fov_y_degrees = 30;
   double aspect = 0;
@@ -45,12 +35,12 @@ struct ViewChoice {
 };
 
 /// A camera that frames the model. std::runtime_error if all of its vertices coincide, or lie behind the eye.
-SceneSetting framed_setting(const ImportedModel& model, const ViewChoice& view);
+SceneSetting framed_setting(const Model& model, const ViewChoice& view);
 /// The file's own camera, which must be there; `aspect` is the picture's, width / height. Both settings take
 /// the file's own lights, and have a key, a fill and an ambient light only if there are none.
-SceneSetting setting_of_file(const ImportedModel& model, double aspect);
+SceneSetting setting_of_file(const Model& model, double aspect);
 
 /// The share of the picture that the model covers, about: half of its triangles' areas, overlaps included.
-double shown_share(const ImportedModel& model, const SceneSetting& setting);
+double shown_share(const Model& model, const SceneSetting& setting);
 
 }  // namespace pipeline

@@ -1,7 +1,3 @@
-#include "tools/mesh2scene/smooth_normals.h"
-
-#include <assimp/mesh.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,41 +10,28 @@
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/stream/thread_pool.h"
+#include "tools/mesh2scene/readers.h"
 
 namespace pipeline {
 namespace {
 
-Vec3 position_of(const aiMesh& mesh, std::size_t corner) {
-  const aiVector3D& v = mesh.mVertices[mesh.mFaces[corner / 3].mIndices[corner % 3]];
-  return {v.x, v.y, v.z};
-}
+constexpr auto kNone = static_cast<std::uint32_t>(-1);
 
-/// The corners of triangles, 3 t to 3 t + 2 for triangle t, by their positions: in the slots of a hash table
-/// with linear probing, one for each position.
-class CornersByPosition {
- public:
-  CornersByPosition(const aiMesh& mesh)
-      : mesh_(mesh),
-        first_(std::bit_ceil(std::size_t{3} * mesh.mNumFaces + 1), kNone),
-        next_(std::size_t{3} * mesh.mNumFaces) {
-    for (auto corner = static_cast<std::uint32_t>(next_.size()); corner-- > 0;) {
-      const Vec3 p = position(corner);
-      std::size_t slot = hash(p) & (first_.size() - 1);
-      while (first_[slot] != kNone && position(first_[slot]) != p) slot = (slot + 1) & (first_.size() - 1);
-      next_[corner] = std::exchange(first_[slot], corner);
+/// Lists of the corners of triangles, 3 t to 3 t + 2 for triangle t, at each position: in the slots of a hash
+/// table with linear probing.
+struct CornersByPosition {
+  std::vector<std::uint32_t> first, next;  // of a slot; after a corner
+
+  CornersByPosition(const ModelMesh& mesh, const std::vector<Vec3>& points)
+      : first(std::bit_ceil(mesh.corners.size() + 1), kNone), next(mesh.corners.size()) {
+    const std::size_t mask = first.size() - 1;
+    for (auto corner = static_cast<std::uint32_t>(next.size()); corner-- > 0;) {
+      const Vec3& p = points[mesh.corners[corner]];
+      std::size_t slot = hash(p) & mask;
+      while (first[slot] != kNone && points[mesh.corners[first[slot]]] != p) slot = (slot + 1) & mask;
+      next[corner] = std::exchange(first[slot], corner);
     }
   }
-
-  [[nodiscard]] std::size_t slot_count() const { return first_.size(); }
-  /// Fills `corners` with those at the position of a slot, in their order.
-  void list(std::size_t slot, std::vector<std::uint32_t>& corners) const {
-    corners.clear();
-    for (std::uint32_t corner = first_[slot]; corner != kNone; corner = next_[corner])
-      corners.push_back(corner);
-  }
-
- private:
-  static constexpr auto kNone = static_cast<std::uint32_t>(-1);
 
   static std::size_t hash(const Vec3& p) {
     // Adding 0 takes the sign from a zero, which equals the other one.
@@ -59,11 +42,6 @@ class CornersByPosition {
     mixed = (mixed ^ mixed >> 32 ^ bits(p.z)) * 0xbf58476d1ce4e5b9;
     return static_cast<std::size_t>(mixed ^ mixed >> 29);
   }
-  [[nodiscard]] Vec3 position(std::size_t corner) const { return position_of(mesh_, corner); }
-
-  const aiMesh& mesh_;
-  std::vector<std::uint32_t> first_;  // of each slot; then the next one at the same position, for each corner
-  std::vector<std::uint32_t> next_;
 };
 
 /// A triangle at one of its corners.
@@ -80,50 +58,50 @@ constexpr double kCoplanarCosine = 0.99996;
 /// A plane with more than this share of the area at a position stays a plane there.
 constexpr double kDominant = 0.8;
 
-class Smoothing {
- public:
-  Smoothing(const aiMesh& mesh, double crease_degrees, CornerNormals& normals)
-      : mesh_(mesh),
-        least_cosine_(cosine(crease_degrees)),
-        half_way_cosine_(cosine(crease_degrees / 2)),
-        normals_(normals) {}
+/// A little less, so that a crease of 0 smooths a plane.
+double cosine(double degrees) {
+  return std::cos(degrees * std::numbers::pi / 180) - 1e-6;
+}
+
+/// Makes the normals of a position's corners at a time.
+struct Smoothing {
+  const ModelMesh& mesh;
+  const std::vector<Vec3>& points;
+  double least_cosine, half_way_cosine;  // of the crease, and of half of it
+  std::vector<Floats>& normals;
+  std::vector<Share> shares{};
 
   void smooth(std::span<const std::uint32_t> corners) {
-    shares_.clear();
+    shares.clear();
     Vec3 mean;
     for (const std::uint32_t corner : corners) {
-      shares_.push_back(share_of(corner));
-      mean = sum(mean, shares_.back().direction);
+      shares.push_back(share_of(corner));
+      mean = sum(mean, shares.back().direction);
     }
     mean = unit_vector(mean);
     const bool is_few = corners.size() <= kMany;
     double widest = 0, area = 0;
-    for (Share& share : shares_) {
+    for (Share& share : shares) {
       if (is_few) share.plane_area = plane_area(share);
       widest = std::max(widest, share.plane_area);
       area += share.area;
     }
     const auto is_near_mean = [&](const Share& share) {
-      return dot(share.direction, mean) >= half_way_cosine_;
+      return dot(share.direction, mean) >= half_way_cosine;
     };
-    const bool is_one_surface = widest <= kDominant * area && std::ranges::all_of(shares_, is_near_mean);
-    const CornerNormals::value_type of_surface =
-        is_one_surface || !is_few ? unit_normal(weighted_sum(is_near_mean)) : CornerNormals::value_type{};
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      normals_[corners[i]] = is_one_surface || (!is_few && is_near_mean(shares_[i])) ? of_surface
-                             : is_few ? unit_normal(normal_beside(shares_[i]))
-                                      : unit_normal(shares_[i].direction);
-  }
-
- private:
-  static double cosine(double degrees) {
-    // A little less, so that a crease of 0 smooths a plane.
-    return std::cos(degrees * std::numbers::pi / 180) - 1e-6;
+    const bool is_one_surface = widest <= kDominant * area && std::ranges::all_of(shares, is_near_mean);
+    const Vec3 of_surface = is_one_surface || !is_few ? weighted_sum(is_near_mean) : Vec3{};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const bool is_of_surface = is_one_surface || (!is_few && is_near_mean(shares[i]));
+      normals[corners[i]] = floats(unit_vector(is_of_surface ? of_surface
+                                               : is_few      ? normal_beside(shares[i])
+                                                             : shares[i].direction));
+    }
   }
 
   [[nodiscard]] Share share_of(std::size_t corner) const {
     const auto vertex = [&](std::size_t k) {
-      return position_of(mesh_, corner - corner % 3 + (corner + k) % 3);
+      return points[mesh.corners[corner - corner % 3 + (corner + k) % 3]];
     };
     const Vec3 p = vertex(0), a = difference(vertex(1), p), b = difference(vertex(2), p), n = cross(a, b);
     const double area = std::sqrt(dot(n, n));
@@ -132,7 +110,7 @@ class Smoothing {
 
   [[nodiscard]] double plane_area(const Share& own) const {
     double area = 0;
-    for (const Share& share : shares_)
+    for (const Share& share : shares)
       if (dot(share.direction, own.direction) >= kCoplanarCosine) area += share.area;
     return area;
   }
@@ -140,18 +118,18 @@ class Smoothing {
   template <typename Predicate>
   [[nodiscard]] Vec3 weighted_sum(const Predicate& belongs) const {
     Vec3 total;
-    for (const Share& share : shares_)
+    for (const Share& share : shares)
       if (belongs(share)) total = sum(total, scaled(share.direction, share.plane_area * share.angle));
     return total;
   }
 
   [[nodiscard]] Vec3 normal_beside(const Share& own) const {
     const auto is_near = [&](const Share& share) {
-      return dot(share.direction, own.direction) >= least_cosine_;
+      return dot(share.direction, own.direction) >= least_cosine;
     };
     double area = 0;
     const Share* widest = &own;
-    for (const Share& share : shares_)
+    for (const Share& share : shares)
       if (is_near(share)) {
         area += share.area;
         if (share.plane_area > widest->plane_area) widest = &share;
@@ -161,36 +139,30 @@ class Smoothing {
       return dot(share.direction, widest->direction) >= kCoplanarCosine;
     };
     // A small turn from the plane continues it, as a fillet; a larger one makes a chamfer beside it.
-    if (dot(own.direction, widest->direction) >= half_way_cosine_) return weighted_sum(is_in_plane);
+    if (dot(own.direction, widest->direction) >= half_way_cosine) return weighted_sum(is_in_plane);
     return weighted_sum([&](const Share& share) { return is_near(share) && !is_in_plane(share); });
   }
-
-  static CornerNormals::value_type unit_normal(const Vec3& normal) {
-    const Vec3 n = unit_vector(normal);
-    return {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-  }
-
-  const aiMesh& mesh_;
-  double least_cosine_, half_way_cosine_;
-  CornerNormals& normals_;
-  std::vector<Share> shares_;
 };
 
 }  // namespace
 
-CornerNormals smooth_normals(const aiMesh& mesh, double crease_degrees) {
-  const CornersByPosition by_position(mesh);
-  CornerNormals normals(std::size_t{3} * mesh.mNumFaces);
+std::vector<Floats> smooth_normals(const ModelMesh& mesh, const std::vector<Vec3>& points,
+                                   double crease_degrees) {
+  const CornersByPosition by_position(mesh, points);
+  const std::size_t slot_count = by_position.first.size();
+  std::vector<Floats> normals(mesh.corners.size());
   constexpr std::size_t kSlotsAtOnce = 1 << 14;
-  const std::size_t task_count = by_position.slot_count() / kSlotsAtOnce + 1;
+  const std::size_t task_count = slot_count / kSlotsAtOnce + 1;
   ThreadPool pool(task_count < 4 ? 1
                                  : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)));
   pool.start(static_cast<int>(task_count), [&](int task, int) {
-    Smoothing smoothing(mesh, crease_degrees, normals);
+    Smoothing smoothing = {mesh, points, cosine(crease_degrees), cosine(crease_degrees / 2), normals};
     std::vector<std::uint32_t> corners;
     const std::size_t begin = static_cast<std::size_t>(task) * kSlotsAtOnce;
-    for (std::size_t i = begin; i < std::min(begin + kSlotsAtOnce, by_position.slot_count()); ++i) {
-      by_position.list(i, corners);
+    for (std::size_t slot = begin; slot < std::min(begin + kSlotsAtOnce, slot_count); ++slot) {
+      corners.clear();
+      for (std::uint32_t corner = by_position.first[slot]; corner != kNone; corner = by_position.next[corner])
+        corners.push_back(corner);
       if (!corners.empty()) smoothing.smooth(corners);
     }
   });

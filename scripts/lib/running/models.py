@@ -8,7 +8,8 @@ from lib.rim.input_file import read_input
 from lib.rim.output_file import write_file
 from lib.running.pipe_tools import Tools
 
-ENDINGS = (".obj", ".stl", ".ply", ".gltf", ".glb")
+# The last ones are of formats that mesh2scene refuses, and names how to convert.
+ENDINGS = (".obj", ".stl", ".ply", ".gltf", ".glb", ".3mf", ".3ds", ".dae", ".fbx", ".off", ".amf", ".x3d")
 KEPT = []  # folders, until the program ends
 
 

@@ -185,7 +185,7 @@ def hold(tools, path, accept=False, rows=ROWS):
             if nowhere:
                 comparison.skip(row, nowhere)
             elif row.tool not in there:
-                comparison.skip(row, "mesh2scene is not built, as assimp is missing")
+                comparison.skip(row, "mesh2scene is not built (PIPELINE_MODELS)")
             elif lacking := sorted(FLAGS[row.kernel] - flags):
                 comparison.skip(row, f"this processor has no {', '.join(lacking)}")
             elif row.kernel == "sse4" and lacks_kernels(tools):

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <array>
+
+#include "libpipeline/scene/model_text.h"
+#include "libpipeline/scene/spelling.h"
+#include "libpipeline/scene/stl.h"
+#include "libpipeline/text/error.h"
+#include "tools/mesh2scene/readers.h"
+
+namespace pipeline {
+namespace {
+
+/// The cure for formats that assimp reads.
+constexpr std::string_view kAssimp = "assimp export";
+
+/// A format that is not read, by its first bytes in lower case, and the cure.
+struct OtherFormat {
+  std::string_view begin, name, cure;
+};
+constexpr std::array<OtherFormat, 16> kOtherFormats = {{
+    {"version https://git-lfs", "a Git LFS pointer, which stands for the model", "git lfs pull gets it"},
+    {"\x1f\x8b", "a file packed by gzip", "gunzip unpacks it"},
+    {"\xff\xfe", "text in UTF-16", "iconv -f UTF-16 -t UTF-8 converts it"},
+    {"\xfe\xff", "text in UTF-16", "iconv -f UTF-16 -t UTF-8 converts it"},
+    {"<!doctype html", "a page of HTML in place of the file", ""},
+    {"<html", "a page of HTML in place of the file", ""},
+    {"\x89png", "a PNG picture", ""},
+    {"\xff\xd8", "a JPEG picture", ""},
+    {"iso-10303-21", "a STEP file", "a CAD program such as FreeCAD makes an STL file of it"},
+    {"blender", "a Blender file", "Blender exports glTF"},
+    {"pk\x03\x04", "3MF or another ZIP archive", kAssimp},
+    {"kaydara fbx", "FBX", kAssimp},
+    {"; fbx", "FBX", kAssimp},
+    {"off", "OFF", kAssimp},
+    {"#vrml", "VRML", kAssimp},
+    {"<", "XML, such as COLLADA, X3D or AMF", kAssimp},
+}};
+
+/// The first word of the first line that has one is a word of OBJ.
+bool is_obj(const std::string& name, std::string_view bytes) {
+  constexpr std::array<std::string_view, 13> kWords = {"v",      "vn", "vt",     "vp", "f", "o",     "g",
+                                                       "usemtl", "s",  "mtllib", "l",  "p", "cstype"};
+  ModelText text(name, bytes);
+  for (bool is_there = true; is_there; is_there = text.next_line())
+    if (const std::string_view word = text.word(); !word.empty())
+      return std::ranges::find(kWords, word) != kWords.end();
+  return false;
+}
+
+}  // namespace
+
+Model read_model(const std::string& path, ModelFiles& files, double crease_degrees) {
+  Model model;
+  model.name = path == "-" ? "<stdin>" : path;
+  const std::string_view bytes = files.model();
+  const std::string_view begin =
+      bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf"), bytes.size()));
+  const std::string name = in_lower_case(path);
+  const auto refuse = [&](std::string_view found, std::string_view cure) {
+    const std::string& file = model.name;
+    std::string text = std::string(found) + (cure.empty() ? "" : ": ") + std::string(cure);
+    if (cure == kAssimp)
+      text += " " + file + " " + file.substr(0, file.rfind('.')) + ".glb converts it (Debian: assimp-utils)";
+    model.fail("an OBJ, STL, PLY or glTF file", text);
+  };
+  for (const auto& [known, what, cure] : kOtherFormats)
+    if (in_lower_case(bytes.substr(0, known.size())) == known ||
+        in_lower_case(begin.substr(0, known.size())) == known)
+      refuse(what, cure);
+  if (begin.starts_with("ply"))
+    model.format = "PLY", read_ply(bytes, model);
+  else if (bytes.starts_with("glTF") || begin.starts_with("{"))
+    model.format = "glTF", read_gltf(bytes, files, model);
+  else if (is_stl(bytes))
+    model.format = "STL", read_stl(bytes, model);
+  else if (is_obj(model.name, bytes) || name.ends_with(".obj"))
+    model.format = "OBJ", read_obj(bytes, files, model);
+  else if (name.ends_with(".stl"))
+    model.format = "STL", read_stl(bytes, model);
+  else
+    refuse(begin.empty() ? "an empty file" : "another", begin.empty() ? "" : kAssimp);
+  if (!files.refusal().empty()) model.note(files.refusal() + ": left out");
+  complete(model);
+  for (ModelMesh& mesh : model.meshes)
+    if (mesh.normals.empty()) mesh.normals = smooth_normals(mesh, model.points, crease_degrees);
+  return model;
+}
+
+}  // namespace pipeline

@@ -1,0 +1,268 @@
+// PLY (G. Turk, The PLY polygon file format, 1994): a header of elements with properties, then their values,
+// as text or binary in either order of bytes.
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+
+#include "libpipeline/scene/model_text.h"
+#include "libpipeline/scene/polygon.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/number_parser.h"
+#include "libpipeline/text/number_printer.h"
+#include "tools/mesh2scene/readers.h"
+
+namespace pipeline {
+namespace {
+
+constexpr NumberType kInt8 = number_type<std::int8_t>(), kUint8 = number_type<std::uint8_t>(255),
+                     kInt16 = number_type<std::int16_t>(), kUint16 = number_type<std::uint16_t>(65535),
+                     kInt32 = number_type<std::int32_t>(), kUint32 = number_type<std::uint32_t>(),
+                     kFloat = number_type<float>(), kDouble = number_type<double>();
+const std::map<std::string_view, NumberType> kTypes = {
+    {"char", kInt8},   {"int8", kInt8},     {"uchar", kUint8},   {"uint8", kUint8},
+    {"short", kInt16}, {"int16", kInt16},   {"ushort", kUint16}, {"uint16", kUint16},
+    {"int", kInt32},   {"int32", kInt32},   {"uint", kUint32},   {"uint32", kUint32},
+    {"float", kFloat}, {"float32", kFloat}, {"double", kDouble}, {"float64", kDouble}};
+
+/// The meaning of a property: the place of its value in a record.
+enum Slot : std::size_t { kX, kNormal = 3, kRed = 6, kAlpha = 9, kIndices, kUnused, kSlotCount };
+
+Slot slot_of(std::string_view name, bool is_list) {
+  constexpr std::array<std::string_view, 17> kNames = {
+      "x",     "y", "z", "nx", "ny", "nz",          "red",           "green",       "blue",
+      "alpha", "r", "g", "b",  "a",  "diffuse_red", "diffuse_green", "diffuse_blue"};
+  if (is_list) return name == "vertex_indices" || name == "vertex_index" ? kIndices : kUnused;
+  const auto found = static_cast<std::size_t>(std::ranges::find(kNames, name) - kNames.begin());
+  return static_cast<Slot>(found < 10 ? found : found < 14 ? found - 4 : found < 17 ? found - 8 : kUnused);
+}
+
+struct Property {
+  NumberType type;
+  std::optional<NumberType> count_type;  // of a list
+  Slot slot;
+};
+
+struct Element {
+  std::string_view name;
+  std::uint64_t count;
+  std::vector<Property> properties;
+
+  [[nodiscard]] const Property* find(Slot slot) const {
+    const auto found = std::ranges::find(properties, slot, &Property::slot);
+    return found == properties.end() ? nullptr : &*found;
+  }
+};
+
+class PlyReader {
+ public:
+  PlyReader(std::string_view bytes, Model& model) : text_(model.name, bytes), model_(model) {}
+
+  void read() {
+    read_header();
+    mesh_ = &model_.add_mesh("");
+    const ModelText begin = text_;
+    const auto vertices = std::ranges::find(elements_, "vertex", &Element::name);
+    if (vertices == elements_.end()) model_.fail("an element vertex", "none");
+    for (auto e = elements_.begin(); e != vertices; ++e) read_records(*e, [] {});
+    read_vertices(*vertices);
+    // Faces that stand before the vertices are read after them.
+    const bool is_first = vertices == elements_.begin();
+    if (!is_first) text_ = begin;
+    for (auto e = is_first ? vertices + 1 : elements_.begin(); e != elements_.end(); ++e)
+      if (e->name == "face" || e->name == "tristrips")
+        read_faces(*e);
+      else
+        read_records(*e, [] {});
+    if (!model_.colors.empty()) scale_colors(model_, model_.colors, full_color_);
+    mesh_->has_colors = !model_.colors.empty();
+    for (const std::uint32_t corner : mesh_->corners)
+      if (!normals_.empty()) mesh_->normals.push_back(normals_[corner]);
+  }
+
+ private:
+  void read_header() {
+    for (std::string_view word; word != "end_header";) {
+      word = text_.word();
+      if (word == "format") {
+        const std::string_view form = text_.word();
+        is_text_ = form == "ascii";
+        is_big_endian_ = form == "binary_big_endian";
+        if (!is_text_ && !is_big_endian_ && form != "binary_little_endian")
+          text_.fail(form, "ascii, binary_little_endian or binary_big_endian");
+      } else if (word == "element") {
+        const std::string_view name = text_.word(), count = text_.word();
+        elements_.push_back({name, 0, {}});
+        if (!parse_count(count, elements_.back().count)) text_.fail(count, "a count");
+        if (name == "edge") model_.unheld.insert("points and lines");
+      } else if (word == "property" && !elements_.empty()) {
+        std::string_view type = text_.word();
+        Property property = {};
+        const bool is_list = type == "list";
+        if (is_list) property.count_type = type_of(text_.word());
+        property.type = type_of(is_list ? text_.word() : type);
+        property.slot = slot_of(text_.word(), is_list);
+        elements_.back().properties.push_back(property);
+      } else if (word == "comment" || word == "obj_info") {
+        if (text_.rest_of_line().starts_with("TextureFile")) model_.unheld.insert("textures");
+      } else if (word != "end_header" && word != "ply" && !word.empty()) {
+        text_.fail(word, "element, property, comment or end_header");
+      }
+      if (!text_.next_line() && word != "end_header") text_.fail(text_.rest(), "end_header");
+    }
+  }
+
+  NumberType type_of(std::string_view word) const {
+    const auto found = kTypes.find(word);
+    if (found == kTypes.end()) text_.fail(word, "a type of PLY, such as float, uchar or int");
+    return found->second;
+  }
+
+  [[noreturn]] void fail(const std::string& expected, double found) const {
+    if (is_text_) text_.fail(word_, expected);
+    model_.fail(expected + " at byte " + std::to_string(text_.offset()), shortest_text(found));
+  }
+
+  /// The next value; NaN if it is no number, and not needed.
+  double next(const NumberType& type, bool is_needed) {
+    if (is_text_) {
+      word_ = text_.word_of_any_line();
+      return is_needed || word_.empty() ? text_.number(word_, "a number") : text_.number_or_nan(word_);
+    }
+    const std::string_view bytes = text_.rest();
+    const std::size_t size = type.size;
+    if (bytes.size() < size)
+      model_.fail("more values at byte " + std::to_string(text_.offset()), "the end of the file: it is cut");
+    text_.skip(size);
+    if (!is_big_endian_) return type.value(bytes.data());
+    std::array<char, 8> reversed{};
+    std::reverse_copy(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size), reversed.begin());
+    return type.value(reversed.data());
+  }
+
+  /// Reads all records of an element, and calls `visit` after each.
+  template <typename Visit>
+  void read_records(const Element& element, const Visit& visit) {
+    std::size_t least = 0;
+    for (const Property& p : element.properties) least += is_text_ ? 2 : p.count_type.value_or(p.type).size;
+    if (least == 0) return;
+    // So that a file of a line does not get gigabytes.
+    if (element.count > (text_.rest().size() + 1) / least)
+      model_.fail(std::to_string(element.count) + " of element " + pipeline::quoted(element.name),
+                  "the end of the file: it is cut");
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const Property& p : element.properties)
+        if (p.count_type)
+          read_list(p, element.name == "tristrips");
+        else
+          record_[p.slot] = next(p.type, p.slot < kNormal);
+      visit();
+    }
+  }
+
+  void read_list(const Property& p, bool may_restart) {
+    const double count = next(*p.count_type, true);
+    if (!(count >= 0)) fail("a count", count);
+    const bool are_indices = p.slot == kIndices && has_points_;
+    if (are_indices) indices_.clear();
+    for (double n = 0; n < count; ++n) {
+      const double index = next(p.type, are_indices);
+      if (!are_indices) continue;
+      const bool is_restart = may_restart && (index == -1 || index == kRestart);
+      const bool is_index =
+          index >= 0 && index < static_cast<double>(model_.points.size()) && index == std::floor(index);
+      if (!is_index && !is_restart) fail("the index of a vertex", index);
+      indices_.push_back(is_restart ? kRestart : static_cast<std::uint32_t>(index));
+    }
+  }
+
+  [[nodiscard]] Vec3 three(Slot first) const {
+    return {record_[first], record_[first + 1], record_[first + 2]};
+  }
+
+  void read_vertices(const Element& element) {
+    const auto has = [&](std::size_t first) {
+      return element.find(Slot(first)) && element.find(Slot(first + 1)) && element.find(Slot(first + 2));
+    };
+    if (!has(kX)) model_.fail("the properties x, y and z of element vertex", "others");
+    const bool has_normals = has(kNormal), has_colors = has(kRed);
+    if (has_colors) full_color_ = element.find(kRed)->type.full;
+    const Property* const alpha = element.find(kAlpha);
+    const double opaque = alpha ? alpha->type.full : 0;
+    read_records(element, [&] {
+      model_.points.push_back(three(kX));
+      if (has_normals) normals_.push_back(floats(three(kNormal)));
+      if (has_colors) model_.colors.push_back(file_color(three(kRed)));
+      if (record_[kAlpha] < opaque) model_.unheld.insert("transparency");
+    });
+    has_points_ = true;
+  }
+
+  /// Faces, or strips, which are faces of three corners each.
+  void read_faces(const Element& element) {
+    const bool are_strips = element.name == "tristrips";
+    const Property* const red = model_.colors.empty() ? element.find(kRed) : nullptr;
+    if (red) full_color_ = red->type.full;
+    read_records(element, [&] {
+      if (red) color_corners();
+      std::span<const std::uint32_t> rest = indices_;
+      if (!are_strips) add_face();
+      while (are_strips && !rest.empty()) {
+        const auto size = static_cast<std::size_t>(std::ranges::find(rest, kRestart) - rest.begin());
+        append_strip(rest.first(size), false, mesh_->corners);
+        rest = rest.subspan(std::min(size + 1, rest.size()));
+      }
+      indices_.clear();
+    });
+  }
+
+  void add_face() {
+    if (indices_.size() > 3) {
+      std::vector<Vec3> polygon;
+      std::vector<std::uint32_t> triangles;
+      for (const std::uint32_t i : indices_) polygon.push_back(model_.points[i]);
+      append_triangles(polygon, triangles);
+      for (const std::uint32_t i : triangles) mesh_->corners.push_back(indices_[i]);
+    } else if (indices_.size() == 3) {
+      mesh_->corners.insert(mesh_->corners.end(), indices_.begin(), indices_.end());
+    } else if (!indices_.empty()) {
+      model_.unheld.insert("points and lines");
+    }
+  }
+
+  /// Replaces the corners of a face by copies with its color.
+  void color_corners() {
+    for (std::uint32_t& index : indices_) {
+      if (index == kRestart) continue;
+      const Vec3 p = model_.points[index];
+      if (!normals_.empty()) normals_.push_back(Floats(normals_[index]));
+      model_.colors.resize(model_.points.size(), kNoColor);
+      model_.colors.push_back(file_color(three(kRed)));
+      index = static_cast<std::uint32_t>(model_.points.size());
+      model_.points.push_back(p);
+    }
+  }
+
+  static constexpr auto kRestart = std::numeric_limits<std::uint32_t>::max();
+
+  ModelText text_;
+  Model& model_;
+  ModelMesh* mesh_ = nullptr;
+  bool is_text_ = true, is_big_endian_ = false, has_points_ = false;
+  double full_color_ = 1;
+  std::vector<Element> elements_;
+  std::vector<Floats> normals_;
+  // The record that is being read:
+  std::string_view word_;
+  std::array<double, kSlotCount> record_{};
+  std::vector<std::uint32_t> indices_;
+};
+
+}  // namespace
+
+void read_ply(std::string_view bytes, Model& model) {
+  PlyReader(bytes, model).read();
+}
+
+}  // namespace pipeline
