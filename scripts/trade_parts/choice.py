@@ -45,7 +45,6 @@ class Choice:
     ties: tuple = ()  # rows that cost the same, as far as anybody notices
     untold: tuple = ()  # rows that may be cheaper: the times do not decide
     lucky: tuple = ()  # rows that are wrong with the eye moved, and by how many pixels
-    uncertain: int = None  # pixels of the row; None if nobody can tell
 
 
 def least_wrong(rows, limits):

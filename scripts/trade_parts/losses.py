@@ -23,6 +23,7 @@ class Loss:
     gap: float  # between layers, in the scene's units; None with trace, which has no text of project
     levels: float  # of 256, the mean over the channels of the pixels covered; None if none was asked for
     notes: tuple = ()  # of the stages
+    uncertain: int = None  # pixels; None if nobody can tell
 
 
 class Layers:
@@ -157,7 +158,7 @@ class Truth:
             return Loss(None, None, levels)
         wrong = sum(map(operator.ne, self.pipe.owners(setting), self.marks))
         notes = tuple(without_inner_location(note, self.pipe.folder) for note in self.pipe.text(setting)[2])
-        return Loss(wrong, self.layers.gap(setting), levels, notes)
+        return Loss(wrong, self.layers.gap(setting), levels, notes, self.uncertain(setting))
 
 
 def losses(truth, settings, progress):

@@ -4,6 +4,7 @@ import math
 
 from lib.showing.svg import document, dots, line, text
 from trade_parts.report import asked
+from trade_parts.timing import CPU_TIME
 
 TOP, ROW, BOTTOM = 96, 22, 60
 CPU_LEFT, CPU_WIDTH, WRONG_LEFT, WRONG_WIDTH, LAST_LEFT, LAST_WIDTH, WIDTH = 330, 190, 560, 150, 750, 180, 960
@@ -101,10 +102,11 @@ def plot(rows, chosen, limits, times):
                                                                                              "levels of 256")
     most = None if limits.ratio is None or limits.ratio * default > cpu.high else limits.ratio * default
     height = bottom + BOTTOM
+    unit = "seconds; " if times.unit == CPU_TIME else ""
     verdict = "the cheapest with" if limits.are_met_by(chosen) else "the nearest to"
     parts = [
         text(20, 30, f"{chosen.setting}: {verdict} {asked(limits)}",
-             'class="title"'), *panel(cpu, "CPU time", "seconds; gray: four processes start", most, bottom),
+             'class="title"'), *panel(cpu, times.unit, f"{unit}gray: four processes start", most, bottom),
         *panel(wrong, "wrong pixels", "% of those covered", limits.percent_wrong, bottom),
         *panel(last, *words, None, bottom)]
     for i, row in enumerate(rows):

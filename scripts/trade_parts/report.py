@@ -33,13 +33,21 @@ def pixels(row):
     return f"{row.loss.wrong} ({percent(row.percent_wrong)})" if row.loss.wrong else "0"
 
 
+def pixels_of_uncertain(row):
+    """Of the uncertain ones, where their number is known and not 0."""
+    wrong = pixels(row)
+    count, *share = wrong.split(" ", 1)
+    return " ".join([f"{count}/{row.loss.uncertain}", *share]) if row.loss.uncertain else wrong
+
+
 def cells(row, unit):
     """As in HEADER; the last one only if colors were compared."""
     gap, levels = row.loss.gap, row.loss.levels
     return [
         str(row.setting.under_default_coverage), "-" if math.isnan(row.net) else f"{row.net:.2f}",
         seconds(row.seconds.median) if unit == CPU_TIME else f"{row.ratio:.2f}",
-        pixels(row), "-" if gap is None else number(gap), *([] if levels is None else [f"{levels:.2f}"])]
+        pixels_of_uncertain(row), "-" if gap is None else number(gap),
+        *([] if levels is None else [f"{levels:.2f}"])]
 
 
 def about_times(times):
@@ -75,8 +83,8 @@ def names(rows):
 def about_pixels(choice):
     """A sentence on the reliability of the pixels of the chosen row."""
     lines = [f"\n{row.setting}: {wrong} wrong with the eye moved a little" for row, wrong in choice.lucky]
-    if choice.uncertain is not None:
-        lines.append(f"\n{choice.uncertain} of its pixels are not certain (zbuf --certify)")
+    if choice.row.loss.uncertain is not None:
+        lines.append(f"\n{choice.row.loss.uncertain} of its pixels are not certain (zbuf --certify)")
     return "".join(lines)
 
 

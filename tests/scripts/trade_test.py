@@ -160,7 +160,7 @@ class Measures(ToolTest):
         done = trade("scene.txt", "config.txt", "--rounds", "1")
         rows = tables(done.stdout)["center"]
         covered = re.search(r"covers (\d+) pixels", done.stdout)[1]
-        self.assertEqual(rows["default"]["wrong pixels"], f"{covered} (100 %)")
+        self.assertEqual(rows["default"]["wrong pixels"], f"{covered}/{covered} (100 %)")
         self.assertEqual([rows[name]["wrong pixels"] for name in ("--digits 9", "--digits 12")], ["0"] * 2)
         self.assertLess(float(rows["--digits 9"]["gap"]), 1e-6)  # which is between the layers
         self.assertLess(1e-6, float(rows["default"]["gap"]))
