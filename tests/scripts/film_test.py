@@ -228,6 +228,11 @@ class Interruptions(FilmTest):
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
             self.assertTrue(done.stderr.startswith("film: " + reason), done.stderr)
 
+    def test_what_parallel_prints_is_passed_on(self):
+        done = film("scene.txt", "config.txt", "--turn", "1", "--fps", "9", "-o", "out", "--", "--dry-run")
+        self.assertEqual((done.returncode, done.stdout.count("; draw ")), (1, 9))
+        self.assertIn("film: 9 of 9 frames have not been drawn: the first is 00000.png (--eye ", done.stderr)
+
     def test_a_frame_that_fails_ends_the_film_and_names_its_camera(self):
         os.mkdir("bin")
         for tool in ("model", "view", "project"):

@@ -29,8 +29,8 @@ def columns(jobs, files_of, first):
 
 
 def run_parallel(folder, jobs, name, common=(), options=()):
-    """Runs the jobs in the folder; what they have printed on stdout. `common` are files that all jobs read,
-    `name` that of the command.
+    """Runs the jobs in the folder; what they print on stdout from a form feed on. `common` are files that all
+    jobs read, `name` is the command's.
 
     Another machine works in a folder of its own, which is removed afterwards: files are sent there, and those
     of a job come back."""
@@ -65,7 +65,9 @@ def run_parallel(folder, jobs, name, common=(), options=()):
             process.kill()
             raise
         printed.seek(0)
-        return printed.read()
+        others, _, failures = printed.read().partition("\f")
+        print(others, end="", flush=True)  # of an option such as --dry-run
+        return failures
 
 
 def show_files(process, files):

@@ -76,7 +76,7 @@ stage() {
   return 1
 }
 fail() {
-  echo "$2"
+  printf '\f%s\n' "$2"
   cat "$1.log"
   echo "$statuses"
   echo
