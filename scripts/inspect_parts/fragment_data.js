@@ -4,6 +4,7 @@ import {fragmentsOf} from "./fragments.js";
 import {bytesOf} from "./pack.js";
 
 const FATES = ["kept", "lost, behind", "lost, equal and later than", "lost, before the front limit", "lost, beyond the rear limit", "lost, nearer by too little than"];
+const BEYOND_LIMITS = new Set([3, 4]);
 const LOST_TO = new Set([1, 2, 5]);  // the fates that name the triangle that is shown
 
 export class FragmentData {
@@ -12,14 +13,15 @@ export class FragmentData {
     Object.assign(this, {columns: data.columns, rows: data.rows, rgb: bytesOf(data.pixels), leftOut: data.leftOut});
     this.spheres = new Set(spheres);
     const {fragments} = data;
+    this.areAll = typeof fragments === "string";  // also those that lost
     Object.assign(this, typeof fragments === "string" ? fragmentsOf(fragments, this.columns, this.columns * this.rows) : fragments);
     this.seen = new Int32Array(this.columns * this.rows).fill(-1);    // the last fragment that was kept,
     this.owners = new Int32Array(this.columns * this.rows).fill(-1);  // and its triangle
     this.shownPixels = new Int32Array(data.triangles);                // of each triangle
-    this.hasFragment = new Uint8Array(data.triangles);
+    this.hasFragment = new Uint8Array(data.triangles);                // 1, or 2 if all are beyond a limit of the depths, or 3
     for (let p = 0; p < this.seen.length; ++p) {
       for (let f = this.begins[p]; f < this.begins[p + 1]; ++f) {
-        this.hasFragment[this.triangles[f]] = 1;
+        this.hasFragment[this.triangles[f]] |= BEYOND_LIMITS.has(this.fates[f]) ? 2 : 1;
         if (this.fates[f] === 0) this.seen[p] = f;
       }
       if (this.seen[p] < 0) continue;

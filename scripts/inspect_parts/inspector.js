@@ -3,6 +3,7 @@
 import {DepthLines} from "./depth_lines.js";
 import {element} from "./element.js";
 import {ExplanationPanel} from "./explanation_panel.js";
+import {Fates} from "./fates.js";
 import {FragmentData} from "./fragment_data.js";
 import {FragmentPanel} from "./fragment_panel.js";
 import {guideOf, headerOf} from "./guide.js";
@@ -38,6 +39,7 @@ export class Inspector {
     this.header = headerOf(data.stages[0].text);
     const stages = data.stages.slice(0, 3).map(stage => this.stageData(stage));
     this.fragments = new FragmentData(data, stages[0].spheres.names);
+    this.fates = new Fates(this.fragments, stages.slice(1), {limits: data.limits, isParallel: this.header.has("ortho"), culled: Number(new Map(data.stages[2].statistics).get("culled"))});
     this.panels = stages.map((stage, i) => this.stagePanel(stage, kept && kept.poses[i]));
     this.pixels = new PicturePanel([...this.all("#pixels .pane")], this.fragments, this.palette);
     this.competitors = new FragmentPanel(this.one("#pixel-place"), this.one("#competitors"), this.fragments);
@@ -88,7 +90,7 @@ export class Inspector {
     this.one("#stages").append(element("figure", {}, element("figcaption", {}, tool, element("span", {title}, title), element("span", {title: remark}, remark && `(${remark})`), fit), pane));
     const box = element("div", {class: "text", id: "text-" + tool, tabindex: 0, role: "group", "aria-label": `text after ${tool}`});
     this.one("#texts").append(element("section", {}, element("h2", {}, tool, " ", element("span", {}, "lines from 1")), box));
-    const wire = new Wireframe(pane, stage, {start: STARTS[tool], pose}, name => this.fragments.shownPixels[name] > 0, this.palette);
+    const wire = new Wireframe(pane, stage, {start: STARTS[tool], pose}, name => this.fates.kindOf(name), this.palette);
     fit.onclick = canvas.ondblclick = () => wire.fit();
     const {numbers} = stage, text = new TextPanel(box, stage.lines, {
       numberOf: index => numbers ? numbers[index] || "" : index + 1,
@@ -202,7 +204,7 @@ export class Inspector {
   fateOf(name) {
     const count = this.fragments.shownPixels[name];
     if (count) return `shown in ${count} pixel${count === 1 ? "" : "s"}`;
-    if (this.fragments.hasFragment[name]) return "hidden in all its pixels";
+    if (this.fragments.hasFragment[name] & 1) return "hidden in all its pixels";
     return this.data.step === 1 && !this.panels[2].stage.piecesOf(name).length ? "dropped by project: outside or culled" : "without a pixel: outside, or too thin";
   }
 

@@ -1,5 +1,7 @@
 // What became of the triangles, as --stats counts them.
 
+import {element} from "./element.js";
+
 const SIDES = ["left", "right", "below", "above", "near", "far"];
 
 // The counts that the legend shows: words, number, and what it is made of. Each triangle, or piece of a cut one, is in one of them: what
@@ -12,20 +14,14 @@ function legendOf(stages) {
     return {label, kind, count: found.reduce((total, [, , count]) => total + count, 0), terms: found.map(([tool, key, count]) => `${tool}: ${count} ${key.replaceAll("_", " ")}`)};
   };
   const outside = SIDES.map(side => ["zbuf", "outside_" + side]);
-  return [sum("shown", "shown", ["zbuf", "seen"]), sum("hidden", "unshown", ["zbuf", "hidden"]), sum("outside", "unshown", ["project", "dropped"], ...outside),
-    sum("culled", "unshown", ["project", "culled"]), sum("too thin for a pixel", "unshown", ["zbuf", "without_area"], ["zbuf", "between_centers"]), sum("cut", "", ["project", "cut"])];
+  return [sum("shown", "shown", ["zbuf", "seen"]), sum("hidden", "hidden", ["zbuf", "hidden"]), sum("outside", "outside", ["project", "dropped"], ...outside),
+    sum("culled", "culled", ["project", "culled"]), sum("too thin for a pixel", "thin", ["zbuf", "without_area"], ["zbuf", "between_centers"]), sum("cut", "", ["project", "cut"])];
 }
 
 export class Legend {
   constructor(list, stages) {
-    list.replaceChildren(...legendOf(stages).filter(({label, count}) => count > 0 || /^(shown|hidden|outside|culled)$/.test(label)).map(({label, kind, count, terms}) => {
-      const item = document.createElement("li"), number = document.createElement("b");
-      item.className = kind;
-      number.textContent = count.toLocaleString("en");
-      item.append(number, " " + label);
-      item.title = terms.join("\n");
-      return item;
-    }));
+    list.replaceChildren(...legendOf(stages).filter(({label, count}) => count > 0 || /^(shown|hidden|outside|culled)$/.test(label)).map(({label, kind, count, terms}) =>
+      element("li", {class: kind, title: terms.join("\n")}, element("b", {}, count.toLocaleString("en")), " " + label)));
   }
 }
 

@@ -1,5 +1,6 @@
 // A wireframe of a stage's triangles that turns. It shows their positions; hidden surfaces are zbuf's business.
 
+import {KINDS} from "./fates.js";
 import {GridIndex} from "./grid_index.js";
 import {Ink} from "./ink.js";
 import {Turntable} from "./turntable.js";
@@ -7,7 +8,7 @@ import {Turntable} from "./turntable.js";
 const WHEEL_STEP = 0.001, TURN_STEP = 0.01, KEY_TURN = 0.1, KEY_ZOOM = 1.15;
 const CLICK_REACH = 3;     // pixels that the pointer may move during a click
 const MOST_MARKED = 3000;  // vertices that differ
-const THEIR_LAYER = 2;     // of the ink; those below are for triangles that the picture does not show, and for those it does
+const THEIR_LAYER = KINDS.length;  // of the ink, above those of the kinds
 const FADING = 8;          // tones of a ray that leaves the scene
 const GIZMO = 22;          // length of the axes in the corner
 const AXES = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
@@ -22,13 +23,12 @@ function joined(a, b) {
 
 export class Wireframe {
   // `pane` has a canvas and another one above it, for marks. It begins as it was turned and moved by a `pose`, if there is one.
-  // `isShown(name)` is true for triangles that the picture shows.
-  constructor(pane, stage, {start, pose}, isShown, palette) {
+  // `kindOf(name)` is what became of a triangle or a sphere, one of KINDS.
+  constructor(pane, stage, {start, pose}, kindOf, palette) {
     Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, rays: [], theirs: null, index: null, isDirty: false});
     [this.canvas, this.mark] = pane.querySelectorAll("canvas");
     this.view = new Turntable(start, stage.guide, joined(stage.points, stage.spheres.outermost()));
-    this.layers = Uint8Array.from(stage.names, name => isShown(name) ? 1 : 0);
-    this.sphereLayers = Uint8Array.from(stage.spheres.names, name => isShown(name) ? 1 : 0);
+    [this.layers, this.sphereLayers] = [stage.names, stage.spheres.names].map(names => Uint8Array.from(names, name => KINDS.indexOf(kindOf(name))));
     if (pose) this.view.pose = pose;
     [this.x, this.y, this.near] = this.places(3 * stage.names.length);
     new ResizeObserver(() => this.resize()).observe(pane);
@@ -50,7 +50,7 @@ export class Wireframe {
     const scale = window.devicePixelRatio || 1, width = Math.max(2, Math.round(this.pane.clientWidth * scale)), height = Math.max(2, Math.round(this.pane.clientHeight * scale));
     if (this.ink && width === this.ink.width && height === this.ink.height) return;
     this.scale = scale;
-    this.ink = new Ink(width, height, 3);
+    this.ink = new Ink(width, height, THEIR_LAYER + 1);
     for (const canvas of [this.canvas, this.mark]) Object.assign(canvas, {width, height});
     this.view.resize(width, height);
     this.draw();
@@ -81,7 +81,7 @@ export class Wireframe {
       this.view.placeAll(points, ...places);
       for (const i of triangles) this.inkTriangle(THEIR_LAYER, places[0], places[1], 3 * i);
     }
-    ink.paint(context, palette.numbers("--card"), ["--unshown", "--shown", "--theirs"].map(name => palette.numbers(name)));
+    ink.paint(context, palette.numbers("--card"), [...KINDS, "theirs"].map(kind => palette.numbers("--" + kind)));
     this.drawGuide(context);
     if (this.theirs) this.drawDifferences(context);
     this.highlight(this.highlighted);
