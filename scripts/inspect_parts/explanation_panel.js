@@ -1,26 +1,21 @@
 // What explain reports on a triangle and a pixel; of a large scene, on the pixel, and the command that prints the rest.
 
-import {asked} from "./asked.js";
+import {element} from "./element.js";
 
 // A word of a shell's command line.
 export const quoted = word => /^[\w.,\/+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 
 export class ExplanationPanel {
-  constructor(box, {scene, config, explanations, stages, spheres, explain}, report, ask) {
+  constructor(box, {scene, config, explanations, stages, spheres, options}, report) {
     const [, cut] = stages[2].statistics.find(([key]) => key === "cut");
-    Object.assign(this, {box, scene, config, explanations, spheres, explain, report, ask, isUncut: cut === "0"});
+    Object.assign(this, {box, scene, config, explanations, spheres, options, report, isUncut: cut === "0"});
   }
 
   tell(name, pixel) {
     this.wanted = [name, pixel];
     if (this.box.hidden || String(this.wanted) === this.told) return;
     this.told = String(this.wanted);
-    this.box.replaceChildren(...this.texts(name, pixel).map(text => {
-      const part = document.createElement("pre");
-      part.textContent = text;
-      return part;
-    }));
-    if (this.ask && name >= 0 && !this.spheres) this.box.append(asked("Run it here", () => this.ask(this.words(name, pixel), this.explain.files)));
+    this.box.replaceChildren(...this.texts(name, pixel).map(text => element("pre", {}, text)));
     this.box.scrollTop = 0;
   }
 
@@ -39,12 +34,7 @@ export class ExplanationPanel {
   }
 
   command(name, pixel) {
-    return ["pipeline", ...this.words(name, pixel).map(quoted)].join(" ");
-  }
-
-  words(name, pixel) {
-    const {row, column} = pixel < 0 ? {} : this.report.fragments.place(pixel), options = this.explain ? this.explain.options :
-      this.report.coverage === "center" ? ["--coverage", "center"] : [];
-    return ["explain", this.scene, this.config, ...options, "--triangle", String(name), ...(pixel < 0 ? [] : ["--pixel", `${column},${row}`])];
+    const {row, column} = pixel < 0 ? {} : this.report.fragments.place(pixel), options = this.options || (this.report.coverage === "center" ? ["--coverage", "center"] : []);
+    return ["pipeline", "explain", this.scene, this.config, ...options, "--triangle", String(name), ...(pixel < 0 ? [] : ["--pixel", `${column},${row}`])].map(quoted).join(" ");
   }
 }

@@ -1,5 +1,7 @@
 // zbuf's report on a pixel.
 
+import {element} from "./element.js";
+
 export class FragmentPanel {
   constructor(title, table, fragments) {
     Object.assign(this, {title, body: table.tBodies[0], fragments});
@@ -11,14 +13,8 @@ export class FragmentPanel {
     this.title.textContent = p < 0 ? "Point at a pixel to see every fragment that competed for it." :
       fragments.told(p) + (fragments.leftOut ? ` (${fragments.leftOut} fragments of the picture that lost are left out)` : "");
     this.body.replaceChildren(...(p < 0 ? [] : fragments.fragmentsOf(p)).map(({triangle, depth, fate, isSeen}) => {
-      const row = document.createElement("tr"), button = document.createElement("button");
-      button.textContent = triangle;
-      button.setAttribute("aria-label", `select triangle ${triangle}`);
-      row.insertCell().append(button);
-      row.insertCell().textContent = depth;
-      row.insertCell().textContent = fate === "kept" && !isSeen ? "kept, until a nearer one came" : fate;
-      row.className = isSeen ? "seen" : "";
-      row.dataset.name = triangle;
+      const cells = [element("button", {"aria-label": `select triangle ${triangle}`}, triangle), depth, fate === "kept" && !isSeen ? "kept, until a nearer one came" : fate];
+      const row = element("tr", {class: isSeen ? "seen" : "", "data-name": triangle}, ...cells.map(cell => element("td", {}, cell)));
       row.onclick = () => select(triangle);
       return row;
     }));

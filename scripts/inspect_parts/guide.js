@@ -52,5 +52,5 @@ export function guideOf(tool, header, reach) {
     corners = corners.map(p => eye.map((e, i) => e + p[0] * x[i] + p[1] * y[i] + p[2] * back[i]));
   }
   const lines = [...boxLines(corners), ...corners.slice(0, 4).map(corner => [eye, corner])];
-  return {...named(lines, corners, [{text: "eye", at: eye}]), remark: isShortened ? `far, at ${far}, is drawn nearer` : ""};
+  return {...named(lines, corners, [{text: "eye", at: eye}]), remark: isShortened ? `far is at ${far}` : ""};
 }

@@ -29,9 +29,9 @@ const NOTHING = {triangle: -1, pixel: -1};
 
 export class Inspector {
   // `root` has the elements of page.html. Unless it `hasAddress`, the page's address belongs to others. `kept` is what an inspector of the
-  // scene before an edit returned when it was disposed of. `ask(command, files)`, where there is Python, promises what a command prints.
-  constructor(root, data, {hasAddress = true, kept = null, ask = null} = {}) {
-    Object.assign(this, {root, data, hasAddress, ask, listening: new AbortController()});
+  // scene before an edit returned when it was disposed of.
+  constructor(root, data, {hasAddress = true, kept = null} = {}) {
+    Object.assign(this, {root, data, hasAddress, listening: new AbortController()});
     this.held = NOTHING;
     this.shown = NOTHING;
     this.palette = new Palette(document.documentElement, this.listening.signal);
@@ -44,7 +44,7 @@ export class Inspector {
     this.pixels = new PicturePanel([...this.all("#pixels .pane")], this.fragments, this.palette);
     this.competitors = new FragmentPanel(this.one("#pixel-place"), this.one("#competitors"), this.fragments);
     this.depthText = this.depthPanel();
-    this.explanation = new ExplanationPanel(this.one("#explanation"), data, new PixelReport(data, this.fragments, this.panels[2].stage), ask);
+    this.explanation = new ExplanationPanel(this.one("#explanation"), data, new PixelReport(data, this.fragments, this.panels[2].stage));
     this.theirs = data.theirs ? this.theirsPanel(data.theirs) : null;
     this.rays = data.rays ? this.rayPanel(data.rays) : null;
     this.tabs = new Tabs(this.one('[role="tablist"]'), () => this.explanation.refresh());
@@ -110,7 +110,7 @@ export class Inspector {
     const [model, view, project, image, depth] = this.all("figcaption");
     this.one("#tab-theirs").hidden = false;
     this.one("#legend").append(element("li", {class: "theirs"}, "theirs, where it differs"));
-    return new TheirsPanel({box: this.one("#theirs"), theirs, ask: this.ask, panels: this.panels, pictures: this.pixels, captions: [model, view, project, depth, image],
+    return new TheirsPanel({box: this.one("#theirs"), theirs, panels: this.panels, pictures: this.pixels, captions: [model, view, project, depth, image],
                             button: this.one("#whose"), select: name => this.select({triangle: name, pixel: -1})});
   }
 

@@ -36,8 +36,12 @@ export class PicturePanel {
     canvas.getContext("2d").putImageData(picture, 0, 0);
   }
 
-  // Shows a newer image, of which nothing else is there yet.
-  preview({columns, rows, pixels}) { if (columns === this.columns && rows === this.rows) this.showImage(pixels); }
+  // Shows a newer image, of which nothing else is there yet; returns whether it has the size of this one.
+  preview({columns, rows, pixels}) {
+    const fits = columns === this.columns && rows === this.rows;
+    if (fits) this.showImage(pixels);
+    return fits;
+  }
 
   showImage(rgb) {
     const picture = new ImageData(this.columns, this.rows), pixels = new Uint32Array(picture.data.buffer);

@@ -1,5 +1,7 @@
 // A text whose lines are numbered. Only the visible lines are in the document.
 
+import {element} from "./element.js";
+
 const LINE_HEIGHT = 16;
 const LONGEST = 4000;  // characters of a line
 
@@ -7,10 +9,10 @@ export class TextPanel {
   // `numberOf(index)` is the number that a line shows, `indexOf(number)` the way back.
   constructor(box, lines, {numberOf, indexOf}) {
     Object.assign(this, {box, lines, numberOf, indexOf, hot: new Set()});
-    const spacer = document.createElement("div");
+    const spacer = element("div", {});
     spacer.style.height = lines.length * LINE_HEIGHT + "px";
-    this.part = document.createElement("div");
-    this.part.className = "lines";
+    this.part = element("div", {class: "lines"});
+    this.part.style.setProperty("--digits", Math.max(2, String(numberOf(lines.length - 1)).length));
     box.replaceChildren(spacer, this.part);
     box.onscroll = () => this.draw();
     new ResizeObserver(() => this.draw()).observe(box);
@@ -23,12 +25,8 @@ export class TextPanel {
     this.part.style.top = first * LINE_HEIGHT + "px";
     const rows = [];
     for (let i = first; i < end; ++i) {
-      const row = document.createElement("div"), number = document.createElement("span");
-      number.className = "number";
-      number.textContent = row.dataset.number = this.numberOf(i);
-      row.append(number, this.lines.line(i).slice(0, LONGEST));
-      if (this.hot.has(this.numberOf(i))) row.className = "hot";
-      rows.push(row);
+      const number = this.numberOf(i);
+      rows.push(element("div", {"data-number": number, class: this.hot.has(number) ? "hot" : ""}, element("span", {class: "number"}, number), this.lines.line(i).slice(0, LONGEST)));
     }
     this.part.replaceChildren(...rows);
   }

@@ -1,6 +1,5 @@
 // A student's stages over ours: the judge's verdict, and what differs.
 
-import {asked} from "./asked.js";
 import {element} from "./element.js";
 import {bytesOf, intsOf, realsOf} from "./pack.js";
 
@@ -9,10 +8,9 @@ const FACES = [["our image", "show theirs"], ["their image", "show what differs"
 
 export class TheirsPanel {
   // `select(name)` is called for a triangle that is chosen.
-  constructor({box, theirs, ask, panels, pictures, captions, button, select}) {
+  constructor({box, theirs, panels, pictures, captions, button, select}) {
     Object.assign(this, {box, theirs, select});
     box.append(element("p", {}, `${theirs.folder}: ${theirs.sentence}.`), this.fileTable());
-    if (ask) box.append(asked("Name the mistake", () => ask(theirs.handIn.command, theirs.handIn.files), "end"));
     theirs.files.forEach((file, i) => captions[file.place ?? i].append(element("span", {class: file.isGood ? "good" : "bad", title: file.remarks}, `${file.file}: ${file.verdict}`)));
     for (const {stage, wire} of panels) {
       const given = theirs.stages[stage.tool], {matrices = []} = theirs.files.find(file => file.stage === stage.tool) || {};

@@ -10,18 +10,19 @@ import zlib from "node:zlib";
 const [npmFolder, toolsFolder, version, target, licensesFile] = process.argv.slice(2);
 const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, "../..");
 const {build} = createRequire(path.resolve(npmFolder, "package.json"))("esbuild");
+const PAGES = ["scene", "stages", "ray-tracing", "your-own-stage", "why-is-my-picture-black"];  // of docs/, that the page has
 const TITLE = "<title>Pipeline playground</title>";
 const read = (...parts) => fs.readFileSync(path.join(...parts), "utf8");
 const hashOf = script => `'sha256-${crypto.createHash("sha256").update(script).digest("base64")}'`;
 const sceneWords = [...read(root, "libpipeline/scene/scene_commands.h").matchAll(/^ *\{"(\w+)", CommandKind::/gm)].map(([, word]) => word);
-const packed = data => zlib.deflateSync(data, {level: 9}).toString("base64");
+const packed = data => zlib.deflateSync(data, {level: 9});
 
-async function bundled(entry, resources, format = "esm") {
+async function bundled(entry, isInFolder, format = "esm") {
   const {outputFiles} = await build({
     entryPoints: [path.join(here, entry)], bundle: true, minify: true, write: false, format, target: "es2022", legalComments: "none", charset: "utf8",
-    nodePaths: [path.resolve(npmFolder, "node_modules")], define: {PIPELINE_VERSION: JSON.stringify(version), SCENE_WORDS: JSON.stringify(sceneWords)},
+    nodePaths: [path.resolve(npmFolder, "node_modules")], define: {PIPELINE_VERSION: JSON.stringify(version), SCENE_WORDS: JSON.stringify(sceneWords), IN_FOLDER: String(isInFolder)},
     external: ["module", "node:*"], logOverride: {"empty-import-meta": "silent"},
-    alias: {resources: path.join(here, resources), "all-tools": path.resolve(toolsFolder, "all-tools.js"), mesh2scene: path.resolve(toolsFolder, "mesh2scene.js")},
+    alias: {"all-tools": path.resolve(toolsFolder, "all-tools.js"), mesh2scene: path.resolve(toolsFolder, "mesh2scene.js")},
   });
   return outputFiles[0].text;
 }
@@ -38,29 +39,22 @@ function pageOf(policy, style, script) {
 
 const style = `<style>\n${read(here, "../inspect_parts/page.css")}${read(here, "page.css")}</style>`;
 const samples = Object.fromEntries(fs.readdirSync(path.join(root, "samples")).filter(name => fs.existsSync(path.join(root, "samples", name, "scene.txt")))
-  .map(name => [name, {scene: read(root, "samples", name, "scene.txt"), config: read(root, "samples", name, "config.txt")}]));
+  .map(name => [name, {scene: read(root, "samples", name, "scene.txt"), config: read(root, "samples", name, "config.txt"), isTraced: fs.existsSync(path.join(root, "samples", name, "traced.bmp"))}]));
+const mistakes = Object.fromEntries([...read(root, "tests/conformance/mistakes.txt").matchAll(/^(?:judge )?(\w+\/[\w-]+): (.*)/gm)].map(([, name, sentence]) => [name, sentence]));
+const pages = Object.fromEntries(PAGES.map(name => [name, read(root, "docs", `${name}.md`)]));
 const [wasm, importer] = ["all-tools", "mesh2scene"].map(name => fs.readFileSync(path.join(toolsFolder, `${name}.wasm`)));
-const worker = await bundled("worker.js", "resources_of_page.js", "iife");
+const data = {tools: packed(wasm), mesh2scene: packed(importer), worker: packed(await bundled("worker.js", false, "iife")), texts: packed(JSON.stringify({samples, pages, mistakes}))};
 
-const inner = inPage(await bundled("main.js", "resources_of_page.js"));
-const data = (id, text) => `<script type="application/octet-stream" id="${id}">${text}</script>`;
+const inner = inPage(await bundled("main.js", false));
 const frame = hashOf((await import("./sandbox.js")).FRAME);  // of the page's only other script
 const single = pageOf(`script-src ${hashOf(inner)} ${frame} 'wasm-unsafe-eval'; worker-src blob:`, style,
-  [data("samples-data", packed(JSON.stringify(samples))), data("tools-data", packed(wasm)), data("importer-data", packed(importer)), data("worker-script", inPage(worker)), `<script type="module">${inner}</script>`].join("\n"));
+  [...Object.entries(data).map(([name, bytes]) => `<script type="application/octet-stream" id="${name}-data">${bytes.toString("base64")}</script>`), `<script type="module">${inner}</script>`].join("\n"));
 const folder = pageOf(`script-src 'self' ${frame} 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'`, style, '<script type="module" src="main.js"></script>');
-
-// The commands that run in Python, at their places.
-const COMMANDS = ["compare", "explain"], THEIR_FOLDERS = ["lib", "compare_parts"], THEIR_FILES = ["tests/conformance/mistakes.txt"];
-const modules = THEIR_FOLDERS.flatMap(folder => fs.readdirSync(path.join(root, "scripts", folder), {recursive: true}).filter(name => name.endsWith(".py")).map(name => `scripts/${folder}/${name}`));
-const sources = Object.fromEntries([...COMMANDS.map(name => `scripts/${name}`), ...modules, ...THEIR_FILES].map(name => [`/pipeline/${name}`, read(root, name)]));
-const PYODIDE = ["pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json"];
 
 // In the one page, they are a comment.
 const licenses = `${read(root, "LICENSE")}\n${read(licensesFile)}`, page = `${single}\n<!--\n${licenses.replaceAll("-->", "->")}-->\n`;
-const files = {"index.html": folder, "main.js": await bundled("main.js", "resources_of_folder.js"), "worker.js": worker,
-  "samples.json": JSON.stringify(samples), "tools.wasm": wasm, "mesh2scene.wasm": importer, "LICENSES.txt": licenses, "python.js": await bundled("python.js", "resources_of_folder.js"),
-  "commands.json": JSON.stringify({sources, driver: read(here, "run_command.py")}),
-  ...Object.fromEntries(PYODIDE.map(name => [name, fs.readFileSync(path.join(npmFolder, "node_modules/pyodide", name))]))};
+const files = {"index.html": folder, "main.js": await bundled("main.js", true), "LICENSES.txt": licenses,
+  ...Object.fromEntries(Object.entries(data).map(([name, bytes]) => [`${name}.bin`, bytes]))};
 
 // Ends with a message unless a path is free, or is of a kind, and has, if it is a folder, nothing but our files.
 function expectOurs(place, isFolder) {

@@ -1,5 +1,6 @@
 // The command line of the pipe, to read, edit and copy. The options of a tool come from its own --help-all.
 
+import {element} from "../inspect_parts/element.js";
 import {quoted} from "../inspect_parts/explanation_panel.js";
 import {STAGES, wordsOf} from "./pipe.js";
 
@@ -12,11 +13,11 @@ const TOOLS = [...STAGES, "trace"];
 export function optionsIn(help) {
   const lines = help.split("\n"), found = [];
   lines.forEach((line, i) => {
-    const [, name, values] = line.match(OPTION) || [];
+    const [beginning, name, values] = line.match(OPTION) || [];
     if (!name || OWN.test(name)) return;
     let end = i + 1;
     while (/^ {20}/.test(lines[end])) ++end;
-    const told = [line.slice(25), ...lines.slice(i + 1, end)].map(part => part.trim()).join(" ").trim().split(/[.;:] /)[0];
+    const told = [line.slice(beginning.length), ...lines.slice(i + 1, end)].map(part => part.trim()).join(" ").trim().split(/[.;:] /)[0];
     const choices = !values ? [name] : values.includes("|") ? values.split("|").map(value => `${name} ${value}`) : [`${name} ${values}`];
     found.push(...choices.map(words => [words, told]));
   });
@@ -28,13 +29,9 @@ export class CommandLine {
   constructor(box, helpOf, changed) {
     Object.assign(this, {inputs: new Map(), parts: new Map()});
     TOOLS.forEach((tool, i) => {
-      const part = document.createElement("span"), label = document.createElement("label"), input = document.createElement("input"), menu = document.createElement("select");
-      input.placeholder = "options";
-      input.spellcheck = false;
+      const input = element("input", {placeholder: "options", spellcheck: false, "aria-label": `options of ${tool}`});
+      const menu = element("select", {"aria-label": `add an option of ${tool}`}, new Option("+", ""));
       input.oninput = changed;
-      input.setAttribute("aria-label", `options of ${tool}`);
-      menu.setAttribute("aria-label", `add an option of ${tool}`);
-      menu.append(new Option("+", ""));
       helpOf(tool).then(help => { menu.append(...optionsIn(help).map(([words, told]) => new Option(`${words}  ${told}`, words))); });
       menu.onchange = () => {
         input.value = `${input.value} ${menu.value}`.trim();
@@ -44,20 +41,16 @@ export class CommandLine {
         if (blank) input.setSelectionRange(input.value.length - blank.length + 1, input.value.length);
         else changed();
       };
-      label.append((i > 0 ? "| " : "") + tool, input);
-      part.append(label, menu, ...(FILES[tool] ? [document.createTextNode(FILES[tool])] : []));
+      const part = element("span", {}, element("label", {}, (i > 0 ? "| " : "") + tool, input), menu, FILES[tool] || "");
       box.append(part);
       this.inputs.set(tool, input);
       this.parts.set(tool, part);
     });
-    this.drawing = document.createElement("select");
-    this.drawing.setAttribute("aria-label", "drawn by");
-    this.drawing.append(new Option("project | zbuf", ""), new Option("trace (rays: shadows, mirrors, glass, spheres)", "trace"));
+    this.drawing = element("select", {"aria-label": "drawn by"}, new Option("project | zbuf", ""), new Option("trace (rays: shadows, mirrors, glass, spheres)", "trace"));
     this.drawing.onchange = () => { this.isTraced = this.drawing.value === "trace"; changed(); };
     this.isTraced = false;
     box.append(this.drawing);
-    const copy = document.createElement("button");
-    copy.textContent = "Copy command";
+    const copy = element("button", {}, "Copy command");
     copy.onclick = () => navigator.clipboard.writeText(this.text).then(() => { copy.textContent = "Copied"; setTimeout(() => { copy.textContent = "Copy command"; }, 1500); });
     box.append(copy);
   }

@@ -8,7 +8,7 @@ import {EditorState} from "@codemirror/state";
 import {EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers} from "@codemirror/view";
 import {tags} from "@lezer/highlight";
 
-const WORDS = [...SCENE_WORDS, "ortho", "frustum", "ratio"];  // SCENE_WORDS: build.mjs
+import {COMPLETIONS} from "./language.js";
 
 const scenes = StreamLanguage.define({
   token(stream) {
@@ -34,7 +34,7 @@ export class Editor {
   // `changed` is called after each edit of the reader's.
   constructor(box, name, changed) {
     this.isOwn = false;
-    const language = name === "scene.txt" ? [scenes, syntaxHighlighting(colors), autocompletion({override: [completeFromList(WORDS)]})] : [scenes, syntaxHighlighting(colors)];
+    const language = name === "scene.txt" ? [scenes, syntaxHighlighting(colors), autocompletion({override: [completeFromList(COMPLETIONS)]})] : [scenes, syntaxHighlighting(colors)];
     this.extensions = [
       lineNumbers(), history(), drawSelection(), highlightActiveLine(), lintGutter(), ...language, theme, keymap.of([...defaultKeymap, ...historyKeymap]),
       EditorView.contentAttributes.of({"aria-label": name, spellcheck: "false", tabindex: "0"}),

@@ -1,10 +1,11 @@
 // The state of the page as the end of an address: JSON, deflated, in the letters of base64 that an address may have.
 
 const PREFIX = "#p=", STAGES_OF_ONES_OWN = ["model", "view", "project", "zbuf"], KINDS = ["js", "text"];
-export const LONGEST = 60000;  // characters that browsers and mail programs pass on
+const LONGEST = 60000;  // characters that browsers and mail programs pass on
 
 const MOST_BYTES = 1 << 24;       // of a state
 const LONGEST_LINE = 100000;      // that an editor can show
+const LONGEST_BEGINNING = 1 << 16;  // of a scene, with the comments before its camera
 
 // All bytes of a stream, which may be far more than went in: an error beyond MOST_BYTES.
 async function through(bytes, transform) {
@@ -20,16 +21,11 @@ async function through(bytes, transform) {
   return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
-// Letters for fromCharCode, which takes a limited number of arguments.
-function lettersOf(bytes) {
-  let letters = "";
-  for (let at = 0; at < bytes.length; at += 8192) letters += String.fromCharCode(...bytes.subarray(at, at + 8192));
-  return letters;
-}
-
+// Null for a state that is too long for an address.
 export async function hashOf(state) {
   const bytes = await through(new TextEncoder().encode(JSON.stringify(state)), new CompressionStream("deflate-raw"));
-  return PREFIX + btoa(lettersOf(bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+  if (bytes.length > LONGEST / 4 * 3 - PREFIX.length) return null;
+  return PREFIX + btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
 // The state in a hash, or null if it holds none.
@@ -43,14 +39,31 @@ export async function stateOf(hash) {
 
 // A state from elsewhere, with texts where there have to be texts and nothing else.
 export function checked(state) {
-  const {version, scene, config, words, mine} = state || {};
+  const {version, scene, config, words, mine, others} = state || {};
   if (![version, scene, config].every(text => typeof text === "string") || typeof words !== "object" || words === null) throw new Error("it is none of this page's");
   expectLines(scene);
   expectLines(config);
   const {model = "", view = "", project = "", zbuf = "", trace} = words, known = {model, view, project, zbuf, ...(trace === undefined ? {} : {trace})};
-  const stage = mine && STAGES_OF_ONES_OWN.includes(mine.tool) && KINDS.includes(mine.kind) && typeof mine.text === "string" ? {mine: {tool: mine.tool, kind: mine.kind, text: mine.text}} : {};
-  if (stage.mine) expectLines(mine.text);
-  return {...stage, version, scene, config, words: Object.fromEntries(Object.entries(known).map(([tool, text]) => [tool, String(text)]))};
+  const stages = [mine, ...Array.isArray(others) ? others : []].map(stageOf), [first, ...rest] = stages, own = {...first ? {mine: first} : {}, ...rest.length ? {others: rest.filter(stage => stage)} : {}};
+  return {...own, version, scene, config, words: Object.fromEntries(Object.entries(known).map(([tool, text]) => [tool, String(text)]))};
+}
+
+// A stage of one's own, or undefined.
+function stageOf(given) {
+  const {tool, kind, text} = given || {};
+  if (!STAGES_OF_ONES_OWN.includes(tool) || !KINDS.includes(kind) || typeof text !== "string") return undefined;
+  expectLines(text);
+  return {tool, kind, text};
+}
+
+// "scene", "config", or "" for a text that begins like neither.
+export function kindOf(text) {
+  const isNumber = word => word !== "" && Number.isFinite(Number(word));
+  const lines = text.slice(0, LONGEST_BEGINNING).split("\n").map(line => line.replace(/#.*/, "").trim().split(/\s+/)).filter(([first]) => first);
+  const isCamera = lines.length > 3 && lines.slice(0, 3).every(words => words.length === 3 && words.every(isNumber)) && (/^(perspective|frustum|ortho)$/.test(lines[3][0]) || isNumber(lines[3][0]));
+  if (isCamera) return "scene";
+  const words = lines.flat();
+  return words.length > 1 && words.length < 7 && words.every(isNumber) ? "config" : "";
 }
 
 // An error if a text has a line that would take the editor minutes.

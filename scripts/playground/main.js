@@ -1,18 +1,21 @@
 // The playground: a scene, a config and options at the left, what every stage makes of them at the right.
 
+import {element} from "../inspect_parts/element.js";
 import {Inspector} from "../inspect_parts/inspector.js";
 import {CommandLine} from "./command_line.js";
 import {Editor} from "./editor.js";
-import {LONGEST, checked, expectLines, hashOf, stateOf} from "./link.js";
+import {Enlarging} from "./enlarging.js";
+import {keep, kept} from "./keeping.js";
+import {ROWS} from "./language.js";
+import {checked, expectLines, hashOf, kindOf, stateOf} from "./link.js";
+import {OwnPanel} from "./own_panel.js";
 import {PipeClient} from "./pipe_client.js";
-import {PythonClient} from "./python_client.js";
-import {runCode} from "./sandbox.js";
-import {TEMPLATES} from "./templates.js";
 import {STEPS} from "./tour.js";
-import {VERSION, importerModule, python, samples, toolModule, workerAddress} from "resources";
+import {VERSION, importerModule, texts, toolModule, workerAddress} from "./resources.js";
 
-const FIRST_SAMPLE = "worked-example";
-const STORE = "playground", LARGEST_FILE = 1 << 26;
+const FIRST_SAMPLE = "glass-and-mirrors", FIRST_CONFIG = "320 240\n", EXAMPLE = "worked-example";
+const LARGEST_FILE = 1 << 26, LARGE_SCENE = 2e6;  // characters
+const SIZE_OF_MODELS = [800, 600];  // that of pipeline picture
 const MODEL = /\.(obj|stl|ply|gltf|glb)$/i;
 const NO_WORDS = {model: "", view: "", project: "", zbuf: ""};
 const PLACE = /^\w[\w-]*: (?:note: )?(<stdin>|config\.txt):(\d+)(?::(\d+))?: /;
@@ -20,41 +23,29 @@ const expectFits = size => { if (size > LARGEST_FILE) throw new Error(`it is lon
 const one = selector => document.querySelector(selector);
 
 class Playground {
-  constructor(given, module, worker) {
-    this.given = given;
+  constructor({samples, pages, mistakes}, module, worker) {
+    this.given = samples;
     this.inspector = null;
-    this.busy = new Set();
-    this.editors = {scene: new Editor(one("#scene"), "scene.txt", () => this.edited()), config: new Editor(one("#config"), "config.txt", () => this.edited())};
-    this.own = null;  // {tool, text} that runs in place of a stage
-    this.ownRuns = 0;
-    this.ownEditor = new Editor(one("#own-text"), "my stage", () => this.editedOwn());
-    this.ownEditor.text = TEMPLATES.view;
-    this.client = new PipeClient(module, worker, {drawn: picture => this.inspector && this.inspector.pixels.preview(picture), answered: answer => this.show(answer), busy: isBusy => this.setBusy("tools", isBusy)});
-    this.python = python && new PythonClient(module, python, isBusy => this.setBusy("Python", isBusy));
-    this.line = new CommandLine(one("#line"), tool => this.client.helpOf(tool), () => this.edited());
-    one("#samples").append(...Object.keys(given).map(name => new Option(name, name)));
+    this.editors = {scene: new Editor(one("#scene"), "scene.txt", () => this.editedInput()), config: new Editor(one("#config"), "config.txt", () => this.editedInput())};
+    this.isWork = false;  // of the reader's, more than a sample or a link
+    this.own = new OwnPanel(this, mistakes);
+    this.enlarging = new Enlarging();
+    this.client = new PipeClient(module, worker, {drawn: picture => this.preview(picture), answered: answer => this.show(answer), busy: isBusy => { one("#stop").hidden = !isBusy; }});
+    this.line = new CommandLine(one("#line"), tool => this.client.ask({help: tool}).then(({text}) => text), () => this.editedInput());
+    one("#samples").append(...Object.keys(samples).map(name => new Option(name, name)));
     one("#version").textContent = VERSION;
+    this.fillLanguage(pages);
     this.listen();
   }
 
-  get state() { return {version: VERSION, scene: this.editors.scene.text, config: this.editors.config.text, words: this.line.words, ...this.mine}; }
+  get config() { return this.editors.config.text; }
 
-  // The reader's own stage, if it is more than what was offered.
-  get mine() {
-    const tool = one("#own-tool").value, kind = one("#own-kind").value, {text} = this.ownEditor;
-    return this.own || (kind === "js" && text !== TEMPLATES[tool]) ? {mine: {tool, kind, text}} : {};
-  }
+  get isTraced() { return this.line.isTraced; }
 
-  // A stage of one's own waits for Run: it may be someone else's.
-  set state({scene, config, words, mine}) {
-    const before = this.mine.mine;
-    if (!mine || !before || ["tool", "kind", "text"].some(key => mine[key] !== before[key])) this.forgetOwn();
-    if (mine) {
-      one("#own").open = true;
-      one("#own-tool").value = mine.tool;
-      one("#own-kind").value = mine.kind;
-      this.ownEditor.text = mine.text;
-    }
+  get state() { return {version: VERSION, scene: this.editors.scene.text, config: this.config, words: this.line.words, ...this.own.state}; }
+
+  set state({scene, config, words, mine, others}) {
+    this.own.state = {mine, others};
     this.editors.scene.text = scene;
     this.editors.config.text = config;
     this.line.words = words;
@@ -63,10 +54,10 @@ class Playground {
   }
 
   async start() {
-    const kept = this.kept(), linked = await this.linked();
-    if (kept) this.open(kept);
+    const before = kept(checked), linked = await this.linked();
+    if (before) this.open(before.state, before.isWork);
     else if (linked.state) this.open(linked.state);
-    else this.choose(FIRST_SAMPLE);
+    else this.choose(FIRST_SAMPLE, FIRST_CONFIG);
     if (linked.problem) this.tell(linked.problem);
   }
 
@@ -78,48 +69,49 @@ class Playground {
     }
   }
 
-  // What was here before this tab was loaded again.
-  kept() {
-    try {
-      const {hash, state} = JSON.parse(sessionStorage.getItem(STORE));
-      return hash === location.hash ? checked(state) : null;
-    } catch {
-      return null;
-    }
-  }
-
-  keep() {
-    try { sessionStorage.setItem(STORE, JSON.stringify({hash: location.hash, state: this.state})); } catch { /* no room, or not allowed */ }
-  }
+  keep() { return keep(this.state, this.isWork); }
 
   // A state that came with a link or a file.
-  open(state) {
+  open(state, isWork = false) {
+    if (this.isWork) this.keep();
+    this.isWork = isWork;
     this.state = state;
     if (state.version !== VERSION) this.tell(`Made with version ${state.version}; this is ${VERSION}.`);
   }
 
-  choose(name) {
-    const {scene, config} = this.given[name];
-    this.state = {scene, config, words: NO_WORDS};
+  choose(name, size) {
+    const {scene, config, isTraced} = this.given[name];
+    if (this.isWork) this.keep();
+    this.isWork = this.own.drafts.size > 0;
+    this.state = {scene, config: size || config, words: isTraced ? {...NO_WORDS, trace: ""} : NO_WORDS};
     one("#samples").value = name;
+  }
+
+  // The words of scenes and configs, and the pages that say more.
+  fillLanguage(pages) {
+    for (const [title, rows] of ROWS)
+      one("#language table").append(element("tbody", {}, element("tr", {}, element("th", {colspan: 2, scope: "rowgroup"}, title)), ...rows.map(([words, line]) => element("tr", {}, element("td", {}, element("code", {}, words)), element("td", {}, line)))));
+    one("#pages").append(...Object.values(pages).map(text => element("li", {}, element("a", {target: "_blank", href: URL.createObjectURL(new Blob([text], {type: "text/plain;charset=utf-8"}))}, text.slice(2, text.indexOf("\n"))))));
   }
 
   listen() {
     one("#samples").onchange = event => { if (event.target.value) this.choose(event.target.value); };
+    one("#example").onclick = () => this.choose(EXAMPLE);
     one("#link").onclick = () => this.copyLink();
-    one("#save").onclick = () => this.save("playground.json", new Blob([JSON.stringify(this.state, null, 1)], {type: "application/json"}));
+    one("#save").onclick = () => this.saveState();
+    one("#words").onclick = () => { const {hidden} = one("#language"); one("#language").hidden = !hidden; one("#words").setAttribute("aria-expanded", hidden); };
+    // The moment before the page goes: what cannot be kept is asked about.
+    window.addEventListener("beforeunload", event => { if (!this.keep() && this.isWork) event.preventDefault(); });
+    document.addEventListener("visibilitychange", () => this.keep());
     one("#picture").onclick = () => one("#image").toBlob(blob => this.save("out.png", blob));
     one("#files").onclick = () => this.saveFiles();
-    one("#stop").onclick = () => (this.busy.has("tools") ? this.client : this.python).stop();
+    one("#stop").onclick = () => this.client.stop();
     this.step = 0;
     one("#tour").onclick = () => { const {hidden} = one("#steps"); one("#steps").hidden = !hidden; one("#tour").setAttribute("aria-expanded", hidden); if (hidden) { this.goToStep(0); one("#after").focus(); } };
     one("#before").onclick = () => this.goToStep(this.step - 1);
     one("#after").onclick = () => this.goToStep(this.step + 1);
     window.addEventListener("hashchange", async () => { const {state, problem} = await this.linked(); if (state) this.open(state); if (problem) this.tell(problem); });
     one("#end").onclick = () => one("#tour").click();
-    one("#own-run").onclick = () => this.runOwn();
-    one("#own-off").onclick = () => this.setOwn(null);
-    for (const menu of ["#own-tool", "#own-kind"]) one(menu).onchange = () => this.offerOwn();
     one("#open").onclick = () => one("#file").click();
     one("#file").onchange = event => this.take(event.target.files);
     document.addEventListener("dragover", event => event.preventDefault());
@@ -140,73 +132,33 @@ class Playground {
   }
 
   async takeModel(name, files) {
-    const {columns, rows} = this.inspector ? this.inspector.data : {columns: 800, rows: 600};
-    const contents = await Promise.all([...files].map(async file => [file.name, new Uint8Array(await file.arrayBuffer())]));
+    const [columns, rows] = SIZE_OF_MODELS, contents = await Promise.all([...files].map(async file => [file.name, new Uint8Array(await file.arrayBuffer())]));
     const model = {importer: await importerModule(), words: ["--size", `${columns}x${rows}`, "--", name], files: Object.fromEntries(contents)};
     const {scene, told, messages} = await this.client.ask({model});
-    if (scene) {
-      expectFits(scene.length);
-      this.state = {...this.state, scene, words: NO_WORDS, mine: undefined};
-    }
-    this.tell(messages ? messages[0].line : told);
+    if (!scene) return this.tell(messages ? messages[0].line : told);
+    expectFits(scene.length);
+    this.work({scene, config: `${columns} ${rows}\n`, words: {...NO_WORDS, zbuf: "--coverage center"}, mine: undefined});
+    one("#told").prepend(told, " ");
   }
 
   async takeFile(file) {
-    const text = await file.text();
-    if (file.name.endsWith(".json")) return this.open(checked(JSON.parse(text)));
+    const text = await file.text(), kind = kindOf(text);
+    if (file.name.endsWith(".json")) return this.open(checked(JSON.parse(text)), true);
+    if (!kind) throw new Error("it is no scene, config, model (OBJ, STL, PLY, glTF) or saved work");
     expectLines(text);
-    this.state = {...this.state, [/config/.test(file.name) ? "config" : "scene"]: text};
+    this.work({[kind]: text});
   }
 
-  // Something to begin with: code, or the stage's own text.
-  offerOwn() {
-    const tool = one("#own-tool").value, isCode = one("#own-kind").value === "js";
-    this.setOwn(null);
-    this.ownEditor.text = isCode ? TEMPLATES[tool] : this.textOf(tool);
+  // Changes parts of the state, for work of the reader's.
+  work(parts) {
+    this.isWork = true;
+    this.state = {...this.state, ...parts};
   }
 
   // What a stage wrote last, or what model reads.
   textOf(tool) {
     const stage = this.inspector && this.inspector.data.stages.find(other => other.tool === tool);
     return tool === "scene" ? this.editors.scene.text : stage ? stage.text : "";
-  }
-
-  // What ran is another stage now; a text runs at once, code on Run.
-  editedOwn() {
-    if (!this.own) return;
-    if (one("#own-kind").value === "text") this.runOwn(); else this.setOwn(null);
-  }
-
-  // Lets go of the stage, and of one that is still running.
-  forgetOwn() {
-    ++this.ownRuns;
-    this.own = null;
-    this.isAgain = this.isCodeRunning = false;
-    one("#own-off").disabled = true;
-  }
-
-  async runOwn() {
-    const tool = one("#own-tool").value, {text} = this.ownEditor, before = {model: "scene", view: "model", project: "view", zbuf: "project"}[tool];
-    if (this.line.isTraced) return this.tell("A stage of your own is drawn by project | zbuf.");
-    if (one("#own-kind").value === "text") return this.setOwn({tool, text});
-    const run = ++this.ownRuns;
-    this.isAgain = false;
-    this.isCodeRunning = true;
-    try {
-      const made = await runCode(text, this.textOf(before), this.editors.config.text);
-      if (run === this.ownRuns) this.setOwn({tool, text: made});
-    } catch (error) {
-      if (run !== this.ownRuns) return;
-      this.setOwn(null);
-      this.tell(`Your ${tool}: ${error.message}`);
-    }
-  }
-
-  setOwn(own) {
-    this.forgetOwn();
-    this.own = own;
-    one("#own-off").disabled = !own;
-    this.run();
   }
 
   goToStep(step) {
@@ -221,14 +173,20 @@ class Playground {
 
   async copyLink() {
     const hash = await hashOf(this.state);
-    if (hash.length > LONGEST) return this.tell("Too long for an address: use Save, and drop the file on this page.");
+    if (!hash) return this.tell("Too long for an address: use Save, and drop the file on this page.");
     history.replaceState(null, "", hash);
     this.keep();
-    await navigator.clipboard.writeText(location.href).then(() => this.tell("Copied."), () => this.tell("It is in the address now."));
+    const isCopied = await navigator.clipboard.writeText(location.href).then(() => true, () => false), told = isCopied ? "Copied." : "It is in the address now.";
+    if (location.protocol !== "file:") return this.tell(told);
+    const save = element("button", {}, "Save");
+    save.onclick = () => this.saveState();
+    this.tell(`${told} It works on this computer only, since this page is a file here. To send your work, take a file: `, save);
   }
 
+  saveState() { this.save("playground.json", new Blob([JSON.stringify(this.state, null, 1)], {type: "application/json"})); }
+
   async saveFiles() {
-    const {zip, messages} = await this.client.filesOf(this.state);
+    const {zip, messages} = await this.client.ask({saved: this.state});
     if (zip) this.save("pipeline.zip", zip); else this.tell(messages.map(({line}) => line).join(" "));
   }
 
@@ -241,31 +199,32 @@ class Playground {
     this.tell(`Saved as ${name}.`);
   }
 
-  // What is under way, "tools" or "Python", can be stopped.
-  setBusy(what, isBusy) {
-    if (isBusy) this.busy.add(what); else this.busy.delete(what);
-    one("#stop").hidden = !this.busy.size;
-  }
-
-  tell(text) { one("#told").textContent = text; }
+  tell(...parts) { one("#told").replaceChildren(...parts); }
 
   edited() {
+    this.isWork = true;
     one("#samples").value = "";
+  }
+
+  editedInput() {
+    this.edited();
     this.runAfterEdit();
   }
 
-  // Code of one's own that ran, or runs, runs again when its new input is there.
   runAfterEdit() {
-    const isAgain = this.isAgain || this.isCodeRunning || (this.own && one("#own-kind").value === "js");
-    if (isAgain) this.forgetOwn();
-    this.isAgain = isAgain;
+    this.own.awaitInput();
     this.run();
   }
 
+  // The picture of a run whose other panels are still to come.
+  preview(picture) {
+    if (this.inspector && this.inspector.pixels.preview(picture)) one("#glass").classList.add("ahead");
+  }
+
   run() {
-    this.tell("");
     const {scene, config, words} = this.state;
-    this.client.run({scene, config, words, own: this.own});
+    this.tell(scene.length > LARGE_SCENE ? `A scene of ${(scene.length / 1e6).toFixed(1)} MB: after an edit the picture comes first, and the panels take seconds.` : "");
+    this.client.run({scene, config, words, own: this.own.stage});
   }
 
   // What the worker answers: the data of an Inspector, or the stage that failed.
@@ -273,43 +232,40 @@ class Playground {
     this.keep();
     this.showMessages(messages, failed);
     one("#glass").classList.toggle("stale", Boolean(failed));
+    one("#glass").classList.remove("ahead");
+    if (failed && this.inspector) this.inspector.pixels.showImage(this.inspector.data.pixels);  // not one of a newer run
     if (failed && !this.inspector) one("#waiting").textContent = "Nothing to show yet: the messages say why.";
     if (failed) return;
     const kept = this.inspector && this.inspector.dispose(), parts = one("#inspector").content.cloneNode(true);
-    one("#glass").replaceChildren(parts);
+    one("#glass").replaceChildren(one("#older"), parts);
     if (data.isTraced) one("#glass #pixels figcaption span").textContent = "trace";
-    this.inspector = new Inspector(one("#glass"), data, {hasAddress: false, kept, ask: this.python && ((command, files) => this.python.ask(command, files))});
+    this.inspector = new Inspector(one("#glass"), data, {hasAddress: false, kept});
     document.body.dataset.runs = Number(document.body.dataset.runs || 0) + 1;
-    if (this.isAgain) this.runOwn();
+    this.enlarging.show();
+    this.own.judge(data.theirs, data.columns * data.rows);
+    if (this.own.isAgain) this.own.run();
   }
 
   showMessages(messages, failed) {
     const places = {scene: [], config: []};
     const items = messages.map(({tool, line}) => {
-      const item = document.createElement("li"), found = line.match(PLACE), isError = tool === failed && !/^\w+: note: /.test(line);
-      item.className = isError ? "error" : "";
+      const found = line.match(PLACE), isError = tool === failed && !/^\w+: note: /.test(line), item = element("li", {class: isError ? "error" : ""});
       const editor = found && (found[1] === "config.txt" ? "config" : tool === "model" ? "scene" : null);
       const shown = tool === "model" ? line.replace("<stdin>", "scene.txt") : line;
       if (!editor) return item.append(shown), item;
       places[editor].push({line: Number(found[2]), column: Number(found[3] || 1), isError, text: line.slice(found[0].length)});
-      const button = document.createElement("button");
-      button.textContent = shown;
+      const button = element("button", {}, shown);
       button.onclick = () => this.editors[editor].goTo(Number(found[2]));
       item.append(button);
       return item;
     });
-    if (!items.length) {
-      const item = document.createElement("li");
-      item.className = "quiet";
-      item.textContent = "none";
-      items.push(item);
-    }
+    if (!items.length) items.push(element("li", {class: "quiet"}, "none"));
     one("#messages").replaceChildren(...items);
     for (const name of ["scene", "config"]) this.editors[name].mark(places[name]);
   }
 }
 
-Promise.all([samples(), toolModule(), workerAddress()]).then(async parts => {
+Promise.all([texts(), toolModule(), workerAddress()]).then(async parts => {
   document.body.playground = new Playground(...parts);
   await document.body.playground.start();
   document.body.dataset.ready = "yes";

@@ -66,9 +66,8 @@ export class Pipe {
       input = tool === "view" && isTraced ? await this.faceted(results, scene) : done.output;
     }
     const [, rule] = words.zbuf.match(/--coverage[ =]+(\S+)/) || [], options = [...wordsOf(words.project), ...rule ? ["--coverage", rule] : []];
-    const explain = {files: {"scene.txt": scene, "config.txt": config}, options};
-    const data = {...this.inspected(results, config), ...picture, isTraced, explain, coverage: rule};
-    if (own && !isTraced) data.theirs = await this.withOwn(own, results, {scene, config, words, picture});
+    const data = {...this.inspected(results, config), ...picture, isTraced, options, coverage: rule};
+    if (own && !isTraced) data.theirs = await this.withOwn(own, results, {config, words, picture});
     return {data, messages, isQuick: logs[0] !== "--fragments"};
   }
 
@@ -90,27 +89,19 @@ export class Pipe {
     return {...files, [FILES.zbuf]: drawn.output, [SAVED_IMAGE]: drawn.read(SAVED_IMAGE)};
   }
 
-  // A text of the reader's in place of a stage's, what the stages behind it make of it, and the files and the command of a hand-in.
-  async withOwn({tool, text}, results, {scene, config, words, picture: ours}) {
-    const place = STAGES.indexOf(tool), files = {"scene.txt": scene, "config.txt": config};
-    results.slice(0, place).forEach((done, i) => { files[`mine/stage${i + 1}.txt`] = done.output; });
-    if (tool === "zbuf") {
-      const theirs = theirPictureOf(text, ours);
-      if (theirs.picture) files["mine/out.ppm"] = new Blob([`P6 ${ours.columns} ${ours.rows} 255\n`, theirs.picture]);
-      return {...theirs, handIn: {files, command: ["compare", "--hand-in", "mine", "scene.txt", "config.txt"]}};
-    }
-    files[`mine/stage${place + 1}.txt`] = text;
+  // A text of the reader's in place of a stage's, and what the stages behind it make of it.
+  async withOwn({tool, text}, results, {config, words, picture: ours}) {
+    if (tool === "zbuf") return theirPictureOf(text, ours);
+    const place = STAGES.indexOf(tool);
     let input = new TextEncoder().encode(text), done = null;
     for (const next of STAGES.slice(place + 1)) {
       const isLast = next === "zbuf", own = wordsOf(words[next]);
       done = await this.stage(next, isLast ? ["config.txt", ...own, "-o", IMAGE] : own, input, isLast ? {"config.txt": config} : {}, `own ${next}`);
       if (done.status !== 0) break;
       input = done.output;
-      if (!isLast) files[`mine/stage${STAGES.indexOf(next) + 1}.txt`] = input;
     }
     const picture = done.status === 0 ? imageOf(done.read(IMAGE)).pixels : null;
-    const theirs = theirsOf(tool, place, difference(text, textOf(results[place].output)), picture, ours.pixels, done.text.split("\n")[0]);
-    return {...theirs, handIn: {files, command: ["compare", "--hand-in", "mine", "scene.txt"]}};
+    return theirsOf(tool, place, difference(text, textOf(results[place].output)), picture, ours.pixels, done.text.split("\n")[0]);
   }
 
   // What project reads: the text of view, with facets in place of spheres.
@@ -121,9 +112,9 @@ export class Pipe {
   }
 
   inspected(results, config) {
-    const texts = results.slice(0, 3).map(done => new StageText(textOf(done.output))), [model] = texts, zbuf = results[3];
+    const counts = results.map(done => pairsOf(textOf(done.read(COUNTS)))), zbuf = results[3];
+    const texts = results.slice(0, 3).map(done => new StageText(textOf(done.output))), [model] = texts;
     if (model.count > MOST_TRIANGLES) throw new Error(`triangles are numbered up to ${model.count}, which is more than this page can show`);
-    const counts = results.map(done => pairsOf(textOf(done.read(COUNTS))));
     const {columns, rows} = imageOf(zbuf.read(IMAGE));
     const depths = textOf(zbuf.output), stages = texts.map((text, i) => this.stageData(results[i], text, counts[i], model.count));
     stages.push({tool: "zbuf", title: "pixels", seconds: zbuf.seconds, triangles: texts[2].names.length, bytes: zbuf.output.length, statistics: counts[3], text: depths});
@@ -134,11 +125,8 @@ export class Pipe {
     };
   }
 
-  stageData(done, text, statistics, count) {
-    return {
-      tool: done.tool, title: TITLES[done.tool], seconds: done.seconds, triangles: text.names.length, missing: count - new Set(text.names).size, bytes: done.output.length,
-      statistics, numbers: null, text: text.text,
-    };
+  stageData(done, {text, names}, statistics, count) {
+    return {tool: done.tool, title: TITLES[done.tool], seconds: done.seconds, triangles: names.length, missing: count - new Set(names).size, bytes: done.output.length, statistics, numbers: null, text};
   }
 }
 

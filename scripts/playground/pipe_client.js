@@ -35,11 +35,6 @@ export class PipeClient {
     this.timer = setTimeout(() => this.busy(true), SOON);
   }
 
-  helpOf(tool) { return this.ask({help: tool}).then(({text}) => text); }
-
-  // A zip of a state's files, or why there is none: {zip, messages}.
-  filesOf(state) { return this.ask({saved: state}); }
-
   // The worker's answer to a question; {messages} if it is stopped.
   ask(question) {
     const id = ++this.id, timer = setTimeout(() => this.busy(true), SOON);

@@ -3,23 +3,43 @@
 
 const LONGEST = 5000;   // milliseconds
 const MOST_OUT = 1 << 26;  // characters
+const MOST_PRINTED = 1000;  // lines, and characters of one
+
+// What follows the reader's function in its worker.
+const CALL = `{
+  let count = 0;
+  const wordOf = value => { try { return typeof value === "string" ? value : JSON.stringify(value) ?? String(value); } catch { return String(value); } };
+  const print = (...values) => { if (count++ < ${MOST_PRINTED}) postMessage({printed: values.map(wordOf).join(" ").slice(0, ${MOST_PRINTED})}); };
+  for (const name of ["log", "info", "warn", "error", "debug"]) console[name] = print;
+  onmessage = ({data}) => {
+    try {
+      postMessage({text: String(stage(...data))});
+    } catch (error) {
+      const [, line, column] = /blob:\\S*?:(\\d+):(\\d+)/.exec(error && error.stack) || [];
+      postMessage({error: String(error), line: line - 1, column: Number(column)});
+    }
+  };
+}`;
 
 export const FRAME = `onmessage = ({data: {code}, ports: [port]}) => {
-  const run = "onmessage = ({data}) => { try { postMessage({text: String(stage(...data))}); } catch (error) { postMessage({error: String(error)}); } };";
-  const worker = new Worker(URL.createObjectURL(new Blob(["function stage(input, config) {\\n" + code + "\\n}\\n" + run], {type: "text/javascript"})));
+  const worker = new Worker(URL.createObjectURL(new Blob(["function stage(input, config) {\\n" + code + "\\n}\\n" + ${JSON.stringify(CALL)}], {type: "text/javascript"})));
+  let count = 0;
   const answer = data => {
     worker.onmessage = worker.onerror = null;
     worker.terminate();
-    const {text, error} = data || {};
-    port.postMessage(typeof text === "string" ? {text} : {error: typeof error === "string" ? error.slice(0, 300) : "it answers by itself"});
+    const {text, error, line, column} = data || {};
+    port.postMessage(typeof text === "string" ? {text} : typeof error === "string" ? {error: error.slice(0, 300), line, column} : {error: "it answers by itself"});
   };
-  worker.onerror = event => answer({error: (event.message || "the code cannot be read") + (event.lineno > 1 ? ", line " + (event.lineno - 1) : "")});
-  worker.onmessage = ({data}) => answer(data);
+  worker.onerror = event => answer({error: event.message || "the code cannot be read", line: event.lineno - 1, column: event.colno});
+  worker.onmessage = ({data}) => {
+    if (data && typeof data.printed === "string" && ++count <= ${MOST_PRINTED}) port.postMessage({printed: data.printed.slice(0, ${MOST_PRINTED})}); else if (!data || data.printed === undefined) answer(data);
+  };
   port.onmessage = ({data}) => worker.postMessage(data);
 };`;
 
-// What the code returns of the inputs; an error after LONGEST milliseconds, or with what went wrong.
-export function runCode(code, ...inputs) {
+// What the code returns of the inputs; `print` is called with each line that it prints. An error, with its line and column where these are
+// known, after LONGEST milliseconds or with what went wrong.
+export function runCode(code, inputs, print) {
   const frame = document.createElement("iframe");
   frame.setAttribute("sandbox", "allow-scripts");
   frame.hidden = true;
@@ -28,9 +48,10 @@ export function runCode(code, ...inputs) {
   return new Promise((resolve, reject) => {
     const {port1, port2} = new MessageChannel();
     timer = setTimeout(() => reject(new Error(`it has not ended after ${LONGEST / 1000} seconds`)), LONGEST);
-    port1.onmessage = ({data: {text, error}}) => {
+    port1.onmessage = ({data: {text, error, line, column, printed}}) => {
+      if (printed !== undefined) return print(printed);
       if (typeof text === "string" && text.length <= MOST_OUT) resolve(text);
-      else reject(new Error(typeof text === "string" ? "it returned too much" : String(error)));
+      else reject(Object.assign(new Error(typeof text === "string" ? "it returned too much" : String(error)), line > 0 ? {line, column} : {}));
     };
     frame.onload = () => {
       frame.contentWindow.postMessage({code}, "*", [port2]);

@@ -23,13 +23,6 @@ export class Tools {
     return resultOf(await tool, words, given);
   }
 
-  // The same at once, which a worker can do, and Node.js cannot.
-  runNow(name, words, given) {
-    const tool = this.settingsOf(name);
-    this.createTool(tool);
-    return resultOf(tool, words, given);
-  }
-
   settingsOf(name) {
     const {module} = this;
     return {noInitialRun: true, thisProgram: name, instantiateWasm: (imports, receive) => receive(new WebAssembly.Instance(module, imports), module)};

@@ -10,8 +10,9 @@ import {zipOf} from "./zip.js";
 let pipe = null, tools = null;
 
 // What is asked for: {module} once, then {id, state, isQuick} for a run, which first answers with its picture, {id, help} for the text of a
-// tool's --help-all, {id, saved}, a state, for a zip of its files, or {id, model}, for the scene that mesh2scene makes of files.
-self.onmessage = async ({data: {module, id, state, isQuick, help, saved, model}}) => {
+// tool's --help-all, {id, saved}, a state, for a zip of its files, {id, model}, for the scene that mesh2scene makes of files, or {id, single},
+// for all that one run of a tool gives.
+self.onmessage = async ({data: {module, id, state, isQuick, help, saved, model, single}}) => {
   if (module) {
     tools = new Tools(createTool, module);
     pipe = new Pipe(tools);
@@ -20,6 +21,10 @@ self.onmessage = async ({data: {module, id, state, isQuick, help, saved, model}}
   try {
     if (help) return self.postMessage({id, text: textOf((await tools.run(help, ["--help-all"])).output)});
     if (model) return self.postMessage({id, ...await sceneOf(model)});
+    if (single) {
+      const {read, ...done} = await tools.run(single.tool, single.words, single);
+      return self.postMessage({id, ...done});
+    }
     if (saved) return self.postMessage({id, zip: zipOf(await pipe.filesOf(saved))});
     self.postMessage({id, ...await pipe.run(state, isQuick, picture => self.postMessage({id, picture}))});
     tools.prepare(STAGES);

@@ -14,15 +14,7 @@ function checksum(bytes) {
 }
 
 // Little-endian, [bytes, number] each.
-function record(...fields) {
-  const view = new DataView(new ArrayBuffer(fields.reduce((sum, [size]) => sum + size, 0)));
-  let at = 0;
-  for (const [size, number] of fields) {
-    if (size === 2) view.setUint16(at, number, true); else view.setUint32(at, number, true);
-    at += size;
-  }
-  return view;
-}
+const record = (...fields) => Uint8Array.from(fields.flatMap(([size, number]) => Array.from({length: size}, (_, i) => number >>> 8 * i)));
 
 // `files` are {name: text or bytes}, with names of ASCII.
 export function zipOf(files) {

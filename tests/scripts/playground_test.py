@@ -112,9 +112,22 @@ def native(run):
                     for name, path in files.items()}}
 
 
-FILES = ("index.html", "main.js", "mesh2scene.wasm", "samples.json", "tools.wasm", "worker.js")
-FILES_OF_PYTHON = ("commands.json", "pyodide-lock.json", "pyodide.asm.mjs", "pyodide.asm.wasm", "pyodide.mjs",
-                   "python.js", "python_stdlib.zip")
+def in_letters(runs):
+    return [{
+        **run, "input": letters(run["input"]), "files": {
+            name: letters(data)
+            for name, data in run["files"].items()}} for run in runs]
+
+
+def check_answers(case, runs, answers):
+    case.assertEqual(len(answers), len(runs))
+    for run, answer in zip(runs, answers):
+        with case.subTest(tool=run["tool"], words=run["words"], input=run["input"][:80]):
+            told = base64.b64decode(answer["messages"]).replace(WITHOUT_PNG, b"")
+            case.assertEqual({**answer, "messages": letters(told)}, native(run))
+
+
+FILES = ("LICENSES.txt", "index.html", "main.js", "mesh2scene.bin", "texts.bin", "tools.bin", "worker.bin")
 NOT_BUILT = "scripts/build-playground has not run here"
 
 
@@ -122,18 +135,9 @@ NOT_BUILT = "scripts/build-playground has not run here"
 @unittest.skipUnless(shutil.which("node"), "node is missing")
 class ToolsOfThePage(unittest.TestCase):
     def check(self, runs):
-        given = json.dumps([{
-            **run, "input": letters(run["input"]), "files": {
-                name: letters(data)
-                for name, data in run["files"].items()}} for run in runs])
         done = subprocess.run(["node", ROOT / "tests/scripts/playground_runs.mjs", BUILT / "wasm/bin"],
-                              input=given, capture_output=True, text=True, check=True)
-        answers = [json.loads(line) for line in done.stdout.splitlines()]
-        self.assertEqual(len(answers), len(runs))
-        for run, answer in zip(runs, answers):
-            with self.subTest(tool=run["tool"], words=run["words"], input=run["input"][:80]):
-                told = base64.b64decode(answer["messages"]).replace(WITHOUT_PNG, b"")
-                self.assertEqual({**answer, "messages": letters(told)}, native(run))
+                              input=json.dumps(in_letters(runs)), capture_output=True, text=True, check=True)
+        check_answers(self, runs, [json.loads(line) for line in done.stdout.splitlines()])
 
     def test_the_pack_is_that_of_the_native_tools(self):
         self.check([*runs_of_pack()])
@@ -167,7 +171,7 @@ class TheBuild(unittest.TestCase):
         for name, make in (("playground.html", link), ("playground.html", os.mkfifo), ("playground", link),
                            ("playground.html", write), ("playground", lambda path: write(path / "mine.txt")),
                            ("playground", lambda path: write(path / "index.html")),
-                           ("playground", lambda path: (path / "worker.js").mkdir(parents=True))):
+                           ("playground", lambda path: (path / "worker.bin").mkdir(parents=True))):
             with tempfile.TemporaryDirectory() as folder:
                 make(pathlib.Path(folder, name))
                 before = sorted(pathlib.Path(folder).rglob("*"))
@@ -182,12 +186,25 @@ class TheBuild(unittest.TestCase):
             for _ in range(2):
                 self.assertEqual(self.build(folder).returncode, 0)
             names = sorted(str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*"))
-            self.assertEqual(names, [
-                "playground", "playground.html", *(f"playground/{name}"
-                                                   for name in sorted((*FILES, *FILES_OF_PYTHON)))])
+            self.assertEqual(names,
+                             ["playground", "playground.html", *(f"playground/{name}" for name in FILES)])
 
 
 class TheEditor(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("node"), "node is missing")
+    def test_a_mistake_is_one_of_the_table_and_none_is_right(self):
+        script = (
+            "import {MISTAKES, codeOf} from './scripts/playground/mistakes.js'; const codes = Object.keys("
+            "MISTAKES).map(name => [name, codeOf(name)]); console.log(JSON.stringify(codes))")
+        done = subprocess.run(["node", "--input-type=module", "-e", script], cwd=ROOT, capture_output=True,
+                              text=True, check=True)
+        codes = dict(json.loads(done.stdout))
+        table = (ROOT / "tests/conformance/mistakes.txt").read_text()
+        for name in codes:
+            self.assertRegex(table, f"(?m)^(judge )?{name}: ")
+        # All differ from each other, so that none is the stage which is right but for one.
+        self.assertEqual(len(set(codes.values())), len(codes))
+
     def test_it_completes_the_commands_of_a_scene(self):
         """The words that build.mjs finds in the library's table are those that scripts know."""
         pattern = re.search(r"matchAll\(/(.*?)/gm\)", (ROOT / "scripts/playground/build.mjs").read_text())[1]
@@ -244,10 +261,16 @@ class PageTest(unittest.TestCase):
 
     def setUp(self):
         self.open("")
+        self.choose("worked-example")
+
+    def choose(self, name):
+        self.browser.run("document.body.playground.choose(arguments[0])", name)
+        self.browser.wait_for(lambda: self.browser.run(IS_DONE))
 
     def tearDown(self):
         # A run that ends now keeps nothing for the next test.
-        self.browser.run("Object.assign(document.body.playground, {keep() {}}); sessionStorage.clear()")
+        self.browser.run("Object.assign(document.body.playground, {keep: () => true}); "
+                         "sessionStorage.clear(); localStorage.clear()")
         self.browser.open("/dev/null")
 
     def open(self, hash_):
@@ -279,17 +302,24 @@ class PageTest(unittest.TestCase):
 
     OWN = """document.querySelector("#own").open = true;
       for (const [id, word] of Object.entries(arguments[0])) document.querySelector(id).value = word;
-      document.querySelector("#own-tool").onchange();
-      if (arguments[1]) document.body.playground.ownEditor.text = arguments[1];
+      document.querySelector("#own-anew").click();
+      if (arguments[1]) document.body.playground.own.editor.text = arguments[1];
       document.querySelector("#own-run").click();"""
-    TOLD = """const told = document.querySelector("#theirs p");
-      return [document.querySelector("#told").innerText, told ? told.innerText : ""];"""
+    TOLD = """const told = document.querySelector("#theirs p"), {own} = document.body.playground;
+      return [own.stage ? "" : document.querySelector("#own-told").innerText, told ? told.innerText : ""];"""
+    TYPE = """const {view} = arguments[0] === "own" ? document.body.playground.own.editor :
+        document.body.playground.editors[arguments[0]];
+      view.dispatch({changes: {from: 0, insert: arguments[1]}});"""  # as a reader's edit
 
     def own(self, tool, code="", kind="js"):
         """The page's word on a stage of one's own, when it has run."""
         self.browser.run(self.OWN, {"#own-tool": tool, "#own-kind": kind}, code)
         self.browser.wait_for(lambda: any(self.browser.run(self.TOLD)))
         return self.browser.run(self.TOLD)
+
+    DROP = """const dataTransfer = new DataTransfer();
+      for (const [name, text] of arguments[0]) dataTransfer.items.add(new File([text], name));
+      document.dispatchEvent(new DragEvent("drop", {dataTransfer}));"""
 
     def check_the_native_picture(self):
         scene, config = self.sample("shaded-torus")
@@ -304,6 +334,27 @@ class PageTest(unittest.TestCase):
 
 class ThePage(PageTest):
     """All that it does."""
+    RUNS = """const bytes = letters => Uint8Array.from(atob(letters), letter => letter.charCodeAt(0));
+      const letters = data => btoa(Array.from(data, byte => String.fromCharCode(byte)).join(""));
+      const {client} = document.body.playground, answers = [];
+      for (const {reads, ...run} of arguments[0]) {
+        const files = Object.entries(run.files).map(([name, data]) => [name, bytes(data)]);
+        const single = {...run, input: bytes(run.input), files: Object.fromEntries(files)};
+        const {status, output, messages, written: all} = await client.ask({single});
+        const read = reads.map(name => [name, all.has(name) ? letters(all.get(name)) : null]);
+        const written = Object.fromEntries(read);
+        answers.push({status, output: letters(output), messages: letters(messages), written});
+      }
+      return answers;"""
+
+    def test_the_pack_is_that_of_the_native_tools(self):
+        runs = [*runs_of_pack()]
+        script = f"return (async () => {{ {self.RUNS.replace('arguments', 'given')} }})()"
+        answers = []
+        for at in range(0, len(runs), 50):
+            answers += self.browser.run(f"const given = arguments; {script}", in_letters(runs[at:at + 50]))
+        check_answers(self, runs, answers)
+
     def test_it_shows_the_native_picture(self):
         self.check_the_native_picture()
 
@@ -358,8 +409,7 @@ class ThePage(PageTest):
         self.browser.wait_for(lambda: "cannot be read" in self.browser.run(told))
 
     def test_an_edit_outlives_a_reload_and_can_be_undone(self):
-        scene, _ = self.sample("worked-example")
-        self.edit(scene=scene.decode().replace("90 0 0 1", "45 0 0 1"))
+        self.browser.run(self.TYPE, "scene", "# 45 0 0 1\n")
         self.browser.open("/dev/null")
         self.open("")
         self.assertIn("45 0 0 1", self.browser.run("return document.body.playground.state.scene"))
@@ -367,6 +417,205 @@ class ThePage(PageTest):
         self.browser.press("#scene .cm-content", "\ue009z")
         self.browser.wait_for(
             lambda: "45 0 0 1" in self.browser.run("return document.body.playground.state.scene"))
+
+    def test_work_outlives_its_tab_and_all_stages_of_ones_own(self):
+        state = "const {version, ...state} = document.body.playground.state; return state"
+        self.browser.run(self.TYPE, "scene", "# mine\n")
+        for tool in ("view", "zbuf"):
+            self.browser.run(
+                "document.querySelector('#own-tool').value = arguments[0];"
+                "document.querySelector('#own-tool').onchange()", tool)
+            self.browser.run(self.TYPE, "own", f"// my {tool}\n")
+        kept = self.browser.run(state)
+        self.assertIn("// my view", kept["others"][0]["text"])
+        self.browser.run("document.querySelector('#own-tool').value = 'view';"
+                         "document.querySelector('#own-tool').onchange()")
+        self.assertIn("// my view", self.browser.run("return document.body.playground.own.editor.text"))
+        self.browser.open("/dev/null")
+        self.open("")
+        kept = self.browser.run(state)
+        self.browser.run("sessionStorage.clear(); document.body.playground.keep = () => true")
+        self.browser.open("/dev/null")
+        self.open("")
+        self.assertEqual(self.browser.run(state), kept)
+        self.assertIn("# mine", kept["scene"])
+        self.assertEqual([kept["mine"]["tool"], kept["others"][0]["tool"]], ["view", "zbuf"])
+        # A sample that is looked at does not take its place, neither does a stranger's link.
+        self.choose("two-triangles")
+        self.assertIn("// my zbuf", self.browser.run("return JSON.stringify(localStorage)"))
+
+    def test_a_page_that_cannot_keep_its_work_asks(self):
+        leave = ("const event = new Event('beforeunload', {cancelable: true}); "
+                 "return [window.dispatchEvent(event), event.defaultPrevented][1]")
+        self.assertFalse(self.browser.run(leave))
+        self.browser.run(self.TYPE, "scene", "# mine\n")
+        self.assertFalse(self.browser.run(leave))
+        self.browser.run(self.TYPE, "scene", ("#" * 99 + "\n") * 60000)
+        self.assertTrue(self.browser.run(leave))
+        self.browser.run("document.body.playground.isWork = false")
+
+    def test_a_link_from_a_file_says_so_and_offers_the_file(self):
+        self.browser.run("document.querySelector('#link').click()")
+        told = "return document.querySelector('#told').innerText"
+        self.browser.wait_for(lambda: "on this computer only" in self.browser.run(told))
+        self.browser.run("document.querySelector('#told button').click()")
+        self.assertEqual(self.browser.run(told), "Saved as playground.json.")
+
+    def test_what_is_neither_scene_nor_model_replaces_nothing(self):
+        before = self.browser.run("return document.body.playground.state")
+        told = "return document.querySelector('#told').innerText"
+        for name, text in (("a.fbx", "Kaydara FBX Binary"), ("scene.txt", "hello"), ("config.png", "\x89PNG"),
+                           ("a.json", "{}"), ("empty.txt", "")):
+            self.browser.run(self.DROP, [[name, text]])
+            self.browser.wait_for(lambda: f"{name} cannot be read: it is no" in self.browser.run(told))
+        self.assertEqual(self.browser.run("return document.body.playground.state"), before)
+        scene, config = (data.decode() for data in self.sample("tilted-camera"))
+        self.browser.run(self.DROP, [["a", scene], ["b", config]])
+        self.browser.wait_for(lambda: self.browser.run(IS_DONE) and self.browser.run(
+            "const {scene, config} = document.body.playground.state; return [scene, config]") == [
+                scene, config])
+
+    def test_it_opens_with_glass_and_the_worked_example_is_a_click_away(self):
+        self.tearDown()
+        self.open("")
+        scene, _ = self.sample("glass-and-mirrors")
+        view = subprocess.run(f"{BIN}/model | {BIN}/view", input=scene, shell=True, capture_output=True,
+                              check=True).stdout
+        drawn = subprocess.run([BIN / "trace", "--size", "320x240", "-o", "-"], input=view,
+                               capture_output=True, check=True).stdout
+        self.assertEqual(self.browser.run(IMAGE), [320, 240, drawn.split(b"\n255\n", 1)[1].hex()])
+        self.browser.run("document.querySelector('#example').click()")
+        self.browser.wait_for(lambda: self.browser.run(IS_DONE) and self.browser.run(IMAGE)[0] == 10)
+
+    def test_the_language_stands_beside_the_editor_and_has_its_pages(self):
+        self.browser.run("document.querySelector('#words').click()")
+        words = self.browser.run("return [...document.querySelectorAll('#language code')].map(code => "
+                                 "code.innerText.split(' ')[0])")
+        self.assertLessEqual(set(ARGUMENT_LINES), set(words))
+        self.assertLess(*self.browser.run("return ['#language', '#glass'].map(name => "
+                                          "document.querySelector(name).getBoundingClientRect().left)"))
+        titles = self.browser.run("return [...document.querySelectorAll('#pages a')].map(a => a.innerText)")
+        self.assertEqual(len(titles), 5)
+        where = self.browser.run("return document.querySelector('#pages a').href")
+        self.browser.run("location.href = arguments[0]", where)
+        page = (ROOT / "docs/scene.md").read_text()
+        self.browser.wait_for(lambda: self.browser.run("return document.body.innerText") == page)
+        self.open("")
+
+    def test_the_texts_can_be_read_and_a_panel_fills_the_window(self):
+        """At 1400 x 900, all three coordinates of every line."""
+        self.choose("torus")
+        cut = """return ["model", "view", "project"].flatMap(tool => {
+          const box = document.querySelector("#text-" + tool);
+          const right = box.getBoundingClientRect().left + box.clientWidth;
+          return [...box.querySelectorAll(".lines div")].filter(row => {
+            const [words] = row.lastChild.data.match(/^\\S+ \\S+ \\S+/) || [""];
+            const range = document.createRange();
+            range.setStart(row.lastChild, 0);
+            range.setEnd(row.lastChild, words.length);
+            return range.getBoundingClientRect().right > right;
+          }).map(row => row.innerText);
+        });"""
+        self.assertEqual(self.browser.run(cut), [])
+        lines = "return document.querySelector('#text-view').clientHeight / 16"
+        double = ("document.querySelector(arguments[0]).dispatchEvent(new MouseEvent("
+                  "'dblclick', {bubbles: true}))")
+        key = ("document.querySelector(arguments[0]).dispatchEvent(new KeyboardEvent('keydown', "
+               "{key: arguments[1], bubbles: true}))")
+        self.assertLess(self.browser.run(lines), 15)
+        for script, words in ((double, ["#texts section:nth-child(2) h2"]), (key, ["#text-view", "F8"])):
+            self.browser.run(script, *words)
+            self.browser.wait_for(lambda: self.browser.run(lines) >= 15)
+            self.edit(config="60 60\n" if script is key else "50 50\n")  # the panel is made anew
+            self.assertGreaterEqual(self.browser.run(lines), 15)
+            self.browser.run(key, "#text-view", "Escape")
+            self.browser.wait_for(lambda: self.browser.run(lines) < 15)
+
+    def test_the_legend_counts_what_the_wireframes_draw_in_its_colors(self):
+        counted = """const {fates, data} = document.body.playground.inspector, counts = {};
+          for (let name = 0; name < data.triangles; ++name) {
+            const kind = fates.kindOf(name);
+            counts[kind] = (counts[kind] || 0) + 1;
+          }
+          return counts;"""
+        told = """const items = [...document.querySelectorAll("#legend li")].map(item => [item.className,
+            Number(item.querySelector("b").innerText.replace(",", "")),
+            getComputedStyle(item, "::before").backgroundColor]);
+          return items.filter(([kind]) => kind);"""
+        for name, words in (("torus", "--cull back"), ("torus", "--cull front"), ("tilted-camera", "")):
+            self.choose(name)
+            self.edit(words={**dict.fromkeys(STAGES, ""), "project": words})
+            legend = self.browser.run(told)
+            self.assertEqual({kind: count for kind, count, _ in legend if count}, self.browser.run(counted))
+            self.assertEqual(len({color for _, _, color in legend}), len(legend))
+
+    def test_after_an_error_every_panel_says_that_it_is_older(self):
+        shown = self.browser.run(IMAGE)
+        self.browser.run("document.body.playground.preview({columns: 10, rows: 10, "
+                         "pixels: new Uint8Array(300)})")
+        self.assertNotEqual(self.browser.run(IMAGE), shown)
+        self.browser.run(SET, {"scene": "what\n"})
+        older = "return document.querySelector('#older').offsetHeight > 0"
+        self.browser.wait_for(lambda: self.browser.run(older))
+        self.assertEqual(self.browser.run(IMAGE), shown)
+        self.choose("worked-example")
+        self.assertFalse(self.browser.run(older))
+
+    def test_code_has_its_errors_its_prints_and_its_verdict_beside_it(self):
+        self.choose("tilted-camera")
+        told = self.own("view", "console.log('a', [1, 2]);\nconst b = 1;\n  nothing();")[0]
+        self.assertRegex(told, "^Your view: line 3, column 3: ReferenceError: nothing")
+        self.assertEqual(self.browser.run("return document.querySelector('#own-printed').innerText"),
+                         "a [1,2]\n")
+        marks = "return document.querySelectorAll('#own .cm-lint-marker-error').length"
+        self.browser.wait_for(lambda: self.browser.run(marks) == 1)
+        self.assertRegex(
+            self.own("view", "const a = 1;\nreturn a a;")[0], "^Your view: line 2, column 10: .*Syntax")
+        verdict = "return document.querySelector('#own-told').innerText"
+        self.own("view")
+        self.browser.wait_for(lambda: self.browser.run(verdict) == "Solved: all 10000 pixels agree.")
+        self.own("view", "return input")
+        self.browser.wait_for(lambda: "vertices differ" in self.browser.run(verdict))
+        # 80 columns of code.
+        columns = (
+            "const {view} = document.body.playground.own.editor; "
+            "return view.scrollDOM.clientWidth - view.contentDOM.offsetLeft - 80 * view.defaultCharacterWidth"
+        )
+        self.assertGreaterEqual(self.browser.run(columns), 0)
+
+    def test_a_mistake_has_the_name_that_compare_gives_it(self):
+        self.choose("tilted-camera")
+        scene, _ = self.sample("tilted-camera")
+        verdict = "return document.querySelector('#own-told').innerText"
+        press = ("const button = document.querySelector('#own-told button'); if (button) button.click(); "
+                 "return Boolean(button)")
+        anew = ("document.querySelector('#own-tool').value = arguments[0];"
+                "const {own} = document.body.playground;"
+                "document.querySelector('#own-anew').click(); return own.editor.text")
+        for tool, right, wrong in (("view", "minus(line", "((p, q) => p.map((x, i) => x + q[i]))(line"),
+                                   ("project", "2 * far *", "far *"), ("view", "return out",
+                                                                       "return input; out")):
+            code = self.browser.run(anew, tool)
+            self.own(tool, code.replace(right, wrong))
+            self.browser.wait_for(lambda: self.browser.run(press))
+            self.browser.wait_for(lambda: not self.browser.run(verdict).endswith("Name the mistake"))
+            named = self.browser.run(verdict).rsplit(". ", 1)[1].rstrip(".")
+            if "return" in right:
+                self.assertIn("It is none of the mistakes that this page has", named)
+                continue
+            with tempfile.TemporaryDirectory() as folder:
+                pathlib.Path(folder, "mine").mkdir()
+                pathlib.Path(folder, "scene.txt").write_bytes(scene)
+                texts = [
+                    self.browser.run("return document.body.playground.textOf(arguments[0])", stage)
+                    for stage in STAGES[:STAGES.index(tool)]]
+                texts.append(self.browser.run("return document.body.playground.own.stage.text"))
+                for at, text in enumerate(texts, 1):
+                    pathlib.Path(folder, f"mine/stage{at}.txt").write_text(text)
+                done = subprocess.run([ROOT / "scripts/compare", "--hand-in", "mine", "scene.txt"],
+                                      cwd=folder, env={**os.environ, "BIN": str(BIN)}, capture_output=True,
+                                      text=True)
+            self.assertIn(named, done.stdout)
 
     def test_a_command_to_copy_is_what_ran(self):
         """Whatever a link has for words, the shell of whoever copies them does nothing else."""
@@ -376,6 +625,12 @@ class ThePage(PageTest):
         self.assertEqual(
             shlex.split(line)[-4:], ["--z-buffer", "$(touch${IFS}pwned)", "`id`.pgm", "config.txt"])
         self.assertIn("'$(touch${IFS}pwned)' '`id`.pgm'", line)
+
+    def test_an_option_to_add_has_its_sentence(self):
+        options = "return [...document.querySelectorAll('#line span option')].map(o => o.textContent)"
+        self.browser.wait_for(lambda: len(self.browser.run(options)) > 30)
+        told = [text.split("  ")[1] for text in self.browser.run(options) if text != "+"]
+        self.assertEqual([text for text in told if not text[:1].isupper()], [])
 
     def test_the_stages_to_begin_with_are_right(self):
         scene, config = self.sample("tilted-camera")
@@ -455,7 +710,7 @@ class ThePage(PageTest):
             self.edit(scene=scene.decode(), config=config.decode(), words=words)
             letters_of_zip = self.browser.run(
                 "const {client, state} = document.body.playground;"
-                "return client.filesOf(state).then(({zip}) => zip.arrayBuffer()).then(bytes => "
+                "return client.ask({saved: state}).then(({zip}) => zip.arrayBuffer()).then(bytes => "
                 "btoa([...new Uint8Array(bytes)].map(byte => String.fromCharCode(byte)).join('')))")
             with zipfile.ZipFile(io.BytesIO(base64.b64decode(letters_of_zip))) as archive:
                 self.assertIsNone(archive.testzip())
@@ -488,8 +743,7 @@ class ThePage(PageTest):
         scene, config = self.sample("worked-example")
         self.edit(scene=scene.decode(), config=config.decode())
         self.assertIn("every vertex is right", self.own("view")[1])
-        edit = "document.body.playground.ownEditor.view.dispatch({changes: {from: 0, insert: '//'}})"
-        self.browser.run(edit)
+        self.browser.run(self.TYPE, "own", "//")
         self.browser.wait_for(lambda: not any(self.browser.run(self.TOLD)))
 
     def test_code_that_came_along_does_nothing_until_run_and_then_no_harm(self):
@@ -509,7 +763,6 @@ class ThePage(PageTest):
                            (f"const r = new XMLHttpRequest(); r.open('GET', '{address}', false); "
                             "r.send()", "NetworkError")):
             with self.subTest(code=code):
-                self.browser.run("document.querySelector('#told').innerText = ''")
                 self.assertRegex(self.own("view", code)[0], told)
         self.assertIn("found 'undefined,null'",
                       self.own("view", "return [typeof localStorage, self.origin].join() + '\\n'")[1])
@@ -541,7 +794,7 @@ class TheFolder(PageTest):
     """The same, served as files; of code in the page, nothing comes back to the server."""
     def setUp(self):
         self.address, self.asked = serve(self, BUILT / "site/playground")
-        self.open("")
+        super().setUp()
 
     def open(self, hash_):
         address = f"{self.address}index.html{hash_}"
@@ -555,68 +808,21 @@ class TheFolder(PageTest):
 
     @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without PIPELINE_MODELS")
     def test_a_model_is_dropped_with_its_colors(self):
-        drop = """const dataTransfer = new DataTransfer();
-          for (const file of arguments[0]) dataTransfer.items.add(new File([file[1]], file[0]));
-          document.dispatchEvent(new DragEvent("drop", {dataTransfer}));"""
         told = "return document.querySelector('#told').innerText"
         self.assertEqual([line for line in self.asked if "mesh2scene" in line], [])
-        size = "x".join(map(str, self.browser.run(IMAGE)[:2]))
-        self.browser.run(drop, [[name, data.decode()] for name, data in MODEL.items()])
+        self.browser.run(self.DROP, [[name, data.decode()] for name, data in MODEL.items()])
         self.browser.wait_for(lambda: "is taken for up" in self.browser.run(told))
         with tempfile.TemporaryDirectory() as folder:
             for name, data in MODEL.items():
                 pathlib.Path(folder, name).write_bytes(data)
-            done = subprocess.run([BIN / "mesh2scene", "--size", size, "a.obj"], cwd=folder, check=True,
+            done = subprocess.run([BIN / "mesh2scene", "--size", "800x600", "a.obj"], cwd=folder, check=True,
                                   capture_output=True, text=True)
         self.assertEqual(self.browser.run("return document.body.playground.state.scene"), done.stdout)
-        self.browser.run(drop, [["a.stl", "solid"]])
-        self.browser.wait_for(lambda: "a.stl" in self.browser.run(told))
-
-    def told_by_python(self, panel, label):
-        """The text of a panel when its button has been pressed."""
-        press = ("const [panel, label] = arguments, button = [...document.querySelectorAll(panel + ' .asked "
-                 "button')].find(other => other.textContent === label); if (button) button.click(); "
-                 "return Boolean(button)")
-        self.browser.wait_for(lambda: self.browser.run(press, panel, label))
-        told = f"const made = document.querySelector('{panel} .asked pre'); return made && made.textContent"
-        self.browser.wait_for(lambda: self.browser.run(told), 120)
-        return self.browser.run(told)
-
-    def test_a_mistake_has_the_name_that_compare_gives_it(self):
-        scene, config = self.sample("tilted-camera")
-        self.edit(scene=scene.decode(), config=config.decode())
-        view = self.browser.run("return document.body.playground.ownEditor.text")
-        self.own("view", view.replace("minus(line", "((p, q) => p.map((x, i) => x + q[i]))(line"))
         self.browser.wait_for(lambda: self.browser.run(IS_DONE))
-        self.assertEqual([line for line in self.asked if "py" in line], [])
-        self.browser.run("document.querySelector('#theirs .asked button').click();"
-                         "document.querySelector('#stop').click()")
-        shown = "return document.querySelector('#theirs .asked').innerText"
-        self.browser.wait_for(lambda: self.browser.run(shown) == "Name the mistake stopped")
-        told = self.told_by_python("#theirs", "Name the mistake")
-        files = self.browser.run("const files = document.body.playground.inspector.data.theirs.handIn.files;"
-                                 "return Promise.all(Object.entries(files).map(async ([name, data]) => "
-                                 "[name, await new Blob([data]).text()]))")
-        with tempfile.TemporaryDirectory() as folder:
-            pathlib.Path(folder, "mine").mkdir()
-            for name, text in files:
-                pathlib.Path(folder, name).write_text(text)
-            done = subprocess.run([ROOT / "scripts/compare", "--hand-in", "mine", "scene.txt"], cwd=folder,
-                                  env={**os.environ, "BIN": str(BIN)}, capture_output=True, text=True)
-        self.assertEqual(told, done.stdout)
-        self.assertIn("eye is added", told)
-        self.browser.run("document.querySelector('#own-off').click()")
-        self.edit(words={"model": "", "view": "", "project": "", "zbuf": "--coverage center"})
-        self.browser.run("document.querySelector('#tab-explanation').click();"
-                         "document.body.playground.inspector.select({triangle: 2, pixel: 5050})")
-        told = self.told_by_python("#explanation", "Run it here")
-        words = [
-            ROOT / "scripts/explain",
-            *(ROOT / "samples/tilted-camera" / name for name in ("scene.txt", "config.txt")), "--coverage",
-            "center", "--triangle", "2", "--pixel", "50,50"]
-        done = subprocess.run(words, env={**os.environ, "BIN": str(BIN)}, capture_output=True, text=True)
-        self.assertEqual(told.replace("scene.txt", ""),
-                         done.stdout.replace(str(words[1]), "").replace("scene.txt", ""))
+        self.assertEqual(self.browser.run(IMAGE),
+                         self.picture_of(done.stdout.encode(), b"800 600\n", "--coverage", "center"))
+        self.browser.run(self.DROP, [["a.stl", "solid"]])
+        self.browser.wait_for(lambda: "a.stl" in self.browser.run(told))
 
     def test_code_reaches_no_file_of_the_server(self):
         scene, config = self.sample("worked-example")
@@ -626,7 +832,6 @@ class TheFolder(PageTest):
                      f"const r = new XMLHttpRequest(); r.open('GET', '{where}', false); r.send()",
                      f"fetch('{where}', {{mode: 'no-cors'}}); const e = Date.now() + 500; "
                      "while (Date.now() < e); throw 1"):
-            self.browser.run("document.querySelector('#told').innerText = ''")
             self.assertTrue(self.own("view", code)[0])
         self.assertEqual(len(self.asked), count)
 
@@ -639,8 +844,8 @@ VIOLATIONS = """return axe.run().then(found => found.violations.map(({impact, id
 @unittest.skipUnless(AXE.exists() and (BUILT / "site/playground.html").exists(), NOT_BUILT)
 @unittest.skipIf(MISSING, f"missing: {' '.join(MISSING)}")
 class ForEverybody(unittest.TestCase):
-    """No serious finding of axe-core, on the playground and on a page of inspect."""
-    def check(self, page, script=""):
+    """No serious finding of axe-core, on the playground, also after an error, and on a page of inspect."""
+    def check(self, page, *scripts):
         for scheme in ("light", "dark"):
             with Browser(1400, 900) as browser:
                 browser.devtools("Emulation.setEmulatedMedia", features=[{
@@ -648,13 +853,19 @@ class ForEverybody(unittest.TestCase):
                 browser.open(page)
                 ready = "return document.body.dataset.runs || document.body.dataset.ready"
                 browser.wait_for(lambda: browser.run(ready))
-                browser.run(script)
                 browser.run(AXE.read_text())
-                self.assertEqual(browser.run(VIOLATIONS), [])
+                for script in scripts or ("return true",):
+                    browser.wait_for(lambda: browser.run(script))
+                    self.assertEqual(browser.run(VIOLATIONS), [])
 
     def test_the_playground(self):
-        self.check(BUILT / "site/playground.html",
-                   "document.querySelector('#tour').click(); document.querySelector('#own').open = true;")
+        self.check(
+            BUILT / "site/playground.html",
+            "document.querySelector('#tour').click(); document.querySelector('#words').click();"
+            "return document.querySelector('#own').open = true",
+            "const {editors, own} = document.body.playground; editors.scene.view.dispatch({changes: "
+            "{from: 0, insert: 'x'}}); own.tell('wrong', 'bad'); return true",
+            "return document.querySelector('#glass').matches('.stale')")
 
     def test_the_inspector(self):
         sample = ROOT / "samples/tilted-camera"

@@ -77,8 +77,7 @@ class Writing(ToolTest):
         "build-release": "the folder build of the source tree",
         "install-packages": "the folder build of the source tree",
         "build-playground": "the folder build of the source tree, and files of its own in another",
-        "playground/make-root": "the folder build of the source tree",
-        "playground/run_command.py": "files in the memory of a browser",}
+        "playground/make-root": "the folder build of the source tree",}
     # They write into the source tree, build, or the folder that --out names.
     ROOMS_OF_DEVELOPERS = ("measure", "maintain", "package")
 

@@ -1,0 +1,29 @@
+// One panel that fills the window: after a double click on its caption or F8 in it, and until either comes again, or Escape.
+
+const PANELS = "figure, #pixel, #texts > section, #drawer, #source > section, #own", CAPTIONS = "figcaption, h2, summary, #tabs, .enlarge";
+
+export class Enlarging {
+  constructor() {
+    this.id = "";  // of the panel, or of the first part of it that has one, since the inspector makes its panels anew
+    document.addEventListener("dblclick", event => { if (event.target.closest(CAPTIONS) && !event.target.closest("button, select")) this.toggle(event.target); });
+    document.addEventListener("keydown", event => {
+      if (event.key === "F8") this.toggle(event.target);
+      else if (event.key === "Escape" && this.id && !event.defaultPrevented) this.show("");
+      else return;
+      event.preventDefault();
+      event.stopPropagation();  // Escape lets go of nothing else
+    }, {capture: true});
+  }
+
+  toggle(target) {
+    const panel = target.closest(PANELS);
+    if (panel) this.show(panel.matches(".large") ? "" : panel.id || panel.querySelector("[id]").id);
+  }
+
+  show(id = this.id) {
+    this.id = id;
+    for (const panel of document.querySelectorAll(".large")) panel.classList.remove("large");
+    const part = id && document.getElementById(id);
+    if (part) part.closest(PANELS).classList.add("large");
+  }
+}

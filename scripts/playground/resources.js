@@ -1,0 +1,23 @@
+// What the page needs besides itself, deflated: in files beside it if it is IN_FOLDER (build.mjs), else in the page, in base64.
+
+import {bytesOf} from "../inspect_parts/pack.js";
+
+export const VERSION = PIPELINE_VERSION;
+
+async function fetched(name) {
+  const answer = await fetch(name);
+  if (!answer.ok) throw new Error(`${name}: ${answer.status}`);
+  return answer;
+}
+
+async function dataOf(name) {
+  const bytes = IN_FOLDER ? await (await fetched(`${name}.bin`)).arrayBuffer() : bytesOf(document.getElementById(`${name}-data`).textContent.trim());
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate")));
+}
+
+// {samples: {name: {scene, config, isTraced}}, pages: {name: text}, mistakes: {name: sentence}}
+export const texts = async () => (await dataOf("texts")).json();
+const moduleOf = name => async () => WebAssembly.compile(await (await dataOf(name)).arrayBuffer());
+export const toolModule = moduleOf("tools"), importerModule = moduleOf("mesh2scene");
+// A worker from the page's own text is under the page's policy; one from a file would have none.
+export const workerAddress = async () => URL.createObjectURL(new Blob([await (await dataOf("worker")).text()], {type: "text/javascript"}));
