@@ -29,7 +29,7 @@ class DepthInDoubles {
   /// among them.
   static constexpr double kNoMinus = 0;
 
-  /// True if these depths and weights, those of a TriangleDepth, are in range.
+  /// True if these depths and weights of a TriangleDepth are in range.
   static bool can_take(const std::array<double, 3>& z, std::int64_t total, std::int64_t b_step,
                        std::int64_t c_step) {
     const double size = std::max({std::fabs(z[0]), std::fabs(z[1]), std::fabs(z[2])});

@@ -46,7 +46,7 @@ HWY_INLINE std::array<Vectors, 3> vertices_of(const TaggedTriangle* triangles) {
 /// left_x and dx of a depth.
 using Axis = std::array<double, 2>;
 
-/// Of a struct of Doubles and Masks alone: each number in a lane, in all of them. By bit_cast, GCC 12 would
+/// A struct of Doubles and Masks alone, with the numbers of one lane in all lanes. By bit_cast, GCC 12 would
 /// copy the struct twice.
 template <typename Lanes>
 HWY_INLINE Lanes lane_of(const Lanes& some, std::size_t lane) {

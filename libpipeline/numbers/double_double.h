@@ -8,8 +8,8 @@ namespace pipeline {
 /// The algorithms and their error bounds are from M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous
 /// error bounds for basic building blocks of double-word arithmetic", ACM TOMS 44(2), 2017. Bounds are
 /// multiples of u^2, u = 2^-53, relative to the exact result; they hold while nothing over- or underflows.
-/// What the library relies on is proved in tests/proofs: pair_sum.g, pair_product.g, pair_quotient.g,
-/// pair_root.g.
+/// The bounds that the library relies on are proved in tests/proofs: pair_sum.g, pair_product.g,
+/// pair_quotient.g, pair_root.g.
 struct DoubleDouble {
   double hi = 0;
   double lo = 0;

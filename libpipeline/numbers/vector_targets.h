@@ -1,7 +1,7 @@
 // No include guard: a kernel's source includes this once for each target, after
 //   #undef HWY_TARGET_INCLUDE
 //   #define HWY_TARGET_INCLUDE "path/of/this/source.cpp"
-// What is between PIPELINE_BEGIN_KERNELS and PIPELINE_END_KERNELS is compiled for every target, the rest, in
+// Code between PIPELINE_BEGIN_KERNELS and PIPELINE_END_KERNELS is compiled for every target, the rest, in
 // `#if HWY_ONCE`, once.
 
 #ifndef PIPELINE_VECTOR_TARGETS

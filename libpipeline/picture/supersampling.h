@@ -75,7 +75,7 @@ class Downsampler {
  private:
   std::size_t count_;
   std::size_t rows_taken_ = 0;
-  // Of each sample's column, red and blue in the 16 bits each that 16 x 16 samples need; then green of each.
+  // For each column of samples, red and blue, in the 16 bits that 16 x 16 samples need; then all of green.
   std::vector<std::uint32_t> sums_;
   std::vector<ColorMean> means_;  // in place of sums, unless all samples are opaque
   std::vector<Color> row_;

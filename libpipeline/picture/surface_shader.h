@@ -53,7 +53,7 @@ class SurfaceShader {
   SurfaceId add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
   /// The count of triangles kept; their ids are less.
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
-  /// Lets go of the triangles that are not kept; the others have new ids from now on.
+  /// Drops the triangles that are not kept; the others have new ids from now on.
   void keep(const KeptIds& kept);
   /// Makes room for the workers of a pool; at first there is one.
   void set_workers(int count) { workers_.resize(static_cast<std::size_t>(count)); }

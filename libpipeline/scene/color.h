@@ -8,8 +8,8 @@
 
 namespace pipeline {
 
-/// A color with 8 bits per channel, packed as 0x00RRGGBB. A background may let through whatever will be
-/// behind the picture: then the upper byte holds 255 less its alpha.
+/// A color with 8 bits per channel, packed as 0x00RRGGBB. For a transparent background, the upper byte holds
+/// 255 less its alpha.
 class Color {
  public:
   constexpr Color() = default;  // black

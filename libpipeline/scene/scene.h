@@ -75,7 +75,7 @@ class SceneReader {
   /// The camera, complete and checked.
   [[nodiscard]] const CameraParameters& camera() const { return camera_; }
   /// The color and light read so far, without the lights, which are commands. Complete at the first triangle;
-  /// its columns are those of the triangles' attributes.
+  /// its columns are the attributes of the triangles.
   [[nodiscard]] const Appearance& appearance() const { return appearance_; }
   /// The vertex lines of the triangle that `next` returned last, with the attributes in `appearance()` and
   /// the current material; after a sphere, its color three times. Undefined if there are none.

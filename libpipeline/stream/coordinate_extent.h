@@ -12,7 +12,7 @@
 namespace pipeline {
 
 /// The smallest and the largest x, y and z of the vertices that a stage writes, with all the digits that
-/// decide how they are printed; of a sphere those of its surface, to a few roundings.
+/// decide how they are printed; for a sphere, of its surface, to a few roundings.
 class CoordinateExtent {
  public:
   /// A double, and the part that it does not hold.

@@ -110,8 +110,8 @@ using GroupDecimals = std::array<int, kMaxGroups>;
 
 /// Reads triangles with these columns from the beginning of `text` until one is not in fixed form, with these
 /// decimals and at most eight digits before the point, the columns are full, or the text ends. Every number
-/// becomes the nearest double, as from_chars returns it. Of w it reads what read_decimal_number reads, of
-/// materials those of at most eight digits. Without vectors, it reads nothing.
+/// becomes the nearest double, as from_chars returns it. A w must suit read_decimal_number, and a
+/// material has at most eight digits. Without vectors, it reads nothing.
 using ReadFixedColumns = FixedTextPart (*)(std::string_view text, TriangleFrame frame,
                                            const GroupDecimals& decimals, const FixedColumns& columns);
 /// One for each form of columns, by the kernel in use.

@@ -28,9 +28,9 @@ inline const char* triangle_end(const char* p, TriangleFrame frame) {
   return *p == '\n' ? p + 1 : nullptr;
 }
 
-// Colors mostly repeat from vertex to vertex: three numbers whose text or values are those of the last vertex
-// are copied. This is tried for the first group after the position, where colors stand, and not any more in a
-// block where it failed twice in a row.
+// Colors mostly repeat from vertex to vertex: three numbers with the text or the values of the last vertex
+// are copied. This is tried for the first group after the position, where colors stand, until it has failed
+// twice in a row in a block.
 constexpr std::size_t kRepeatedGroup = 1;
 constexpr int kMaxMissesInARow = 2;
 

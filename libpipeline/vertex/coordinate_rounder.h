@@ -65,7 +65,7 @@ class CoordinateRounder {
   [[nodiscard]] InputError without_bounds(LineAndColumn vertex) const;
   /// From now on, every number is within rounding_error (bounds.h) of the exact one, or an InputError.
   void keep_bounds() { keeps_bounds_ = true; }
-  /// The size of which 2^-60 counts as 0: that of the numbers read, or, if bounds must hold, at most that of
+  /// The size of which 2^-60 counts as 0: the size of the numbers read or, if bounds must hold, at most of
   /// the point written.
   [[nodiscard]] double size_for_zero(double input_size, const BallVec3& p) const {
     return keeps_bounds_ ? size_within_bounds(input_size, p) : input_size;

@@ -36,7 +36,7 @@ class LostDigits {
 
   /// Adds triangles as they were read and as they are before they are printed.
   void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc);
-  /// What was found, after the last triangle; none where it is less than a two-hundredth of what is drawn.
+  /// The losses found, after the last triangle; none below a two-hundredth of the pixels drawn.
   [[nodiscard]] std::optional<Found> found();
 
  private:

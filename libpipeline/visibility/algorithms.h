@@ -15,8 +15,8 @@
 
 namespace pipeline {
 
-/// Spans on their way into a buffer of pixels. A small triangle's pixels are far in memory from those of the
-/// one before, so a span is queued while its pixels are fetched into the cache. First in, first out.
+/// Spans on their way into a buffer of pixels. The pixels of two small triangles are far apart in memory, so
+/// a span is queued while its pixels are fetched into the cache. First in, first out.
 class SpanQueue {
  public:
   /// At most `most_spans` spans are queued at a time.

@@ -16,7 +16,7 @@ namespace pipeline {
 // gives the depth of a stored value. Two depths that differ by `separation(size)` or more, neither larger
 // than `size`, are never stored as the same value. Users choose a format by kName and read kMeaning beside
 // it. Not every format has room for every pair of limits: `needed_limits` is what it needs, in words, where
-// it cannot store the depths between those of a screen, and empty where it can.
+// it cannot store the depths between a screen's limits, and empty where it can.
 
 /// The depth rule: a fragment is drawn if it is not before the front limit, and takes a pixel if it is nearer
 /// than what the pixel shows, as stored.

@@ -11,8 +11,8 @@ namespace pipeline {
 /// of a path leads out of that, neither `..` nor a link. Nothing is written.
 class ModelFiles {
  public:
-  /// Reads a model and changes to its folder, that of the path as it is; or reads standard input if `path` is
-  /// "-", which has no folder and no other files. All files together may have so many megabytes.
+  /// Reads a model and changes to the folder of `path`, as given; or reads standard input if `path` is "-",
+  /// which has no folder and no other files. All files together may have at most these megabytes.
   ModelFiles(const std::string& path, std::size_t megabytes);
 
   [[nodiscard]] std::string_view model() const { return model_; }

@@ -22,7 +22,7 @@ class StageLoop {
   }
 
   /// `source.read(batch)` fills a batch; false at the end of the input. `transform(batch)` changes a batch in
-  /// place; where it throws, the batch keeps the triangles before the error. `uncertain_lights` are those of
+  /// place; where it throws, the batch keeps the triangles before the error. `uncertain_lights` belong to
   /// the header that was written.
   template <typename Source, typename Transform>
   void run(Source& source, const Transform& transform, const UncertainDigits& uncertain_lights = {}) {

@@ -69,7 +69,7 @@ struct TracedPicture {
 };
 
 /// Casts the rays of a picture on threads, whose number changes nothing. The shader's screen, if there is
-/// one, is that of the samples' places.
+/// one, has the samples' places.
 TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const PictureRays& rays,
                              const ColorSetup& colors, ThreadPool& pool);
 
