@@ -21,6 +21,7 @@ Darkness reason_of(const DarkSurface& surface, const Lighting& lighting, bool is
   constexpr double kDimChannel = 40, kLeastDiffuse = 0.05, kStrongLight = 0.5;
   if (!surface.greatest_channel) return surface.has_cut_rays ? Darkness::cut_rays : Darkness::sends_rays;
   if (*surface.greatest_channel == 0) return Darkness::no_color;
+  if (*surface.greatest_channel <= 1) return Darkness::unit_color;
   if (*surface.greatest_channel <= kBlackChannel || !is_lit) return Darkness::small_color;
   if (surface.material.diffuse < kLeastDiffuse)
     return surface.material.specular == 0 ? Darkness::no_reflectance : Darkness::highlights_alone;
@@ -29,7 +30,8 @@ Darkness reason_of(const DarkSurface& surface, const Lighting& lighting, bool is
     return Darkness::no_intensity;
   if (surface.light_in_front == 0) return Darkness::averted;
   if (surface.light_arriving == 0) return Darkness::in_shadow;
-  if (surface.light_arriving < kStrongLight || lighting.attenuation.weakens()) return Darkness::weak_light;
+  if (lighting.attenuation.weakens()) return Darkness::weakened_light;
+  if (surface.light_arriving < kStrongLight) return Darkness::weak_light;
   return *surface.greatest_channel <= kDimChannel ? Darkness::small_color : Darkness::grazing_light;
 }
 

@@ -27,6 +27,7 @@ constexpr bool looks_colored(Color color) {
 /// Why a surface looks black.
 enum class Darkness {
   no_color,          // its channels are 0
+  unit_color,        // at most 1
   small_color,       // or hardly more
   sends_rays,        // mirrors and glass, which show a black background
   cut_rays,          // likewise, but their rays are cut
@@ -36,6 +37,7 @@ enum class Darkness {
   averted,           // lights are on the other side
   in_shadow,
   weak_light,
+  weakened_light,  // by attenuation
   grazing_light,
 };
 constexpr std::size_t kDarknessCount = static_cast<std::size_t>(Darkness::grazing_light) + 1;

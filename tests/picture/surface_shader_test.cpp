@@ -104,8 +104,9 @@ TEST(SurfaceShader, CountsWhatThreadsHaveShown) {
   const ShownColors shown = shader.shown();
   EXPECT_TRUE(shown.is_varied);
   EXPECT_EQ(shown.visible, 0u);
+  EXPECT_EQ(shown.dark[static_cast<std::size_t>(Darkness::unit_color)].count, 2u);
   const auto& small = shown.dark[static_cast<std::size_t>(Darkness::small_color)];
-  EXPECT_EQ(small.count, 3u);
+  EXPECT_EQ(small.count, 1u);
   EXPECT_EQ(small.greatest, 2);
 }
 

@@ -168,9 +168,24 @@ bool is_like_color(Vec3 channels) {
          is_whole(channels.y) && is_whole(channels.z);
 }
 
-constexpr const char* kReachesTheSeenSide =
-    " reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 would show it from "
-    "anywhere)";
+/// By Darkness; # is the greatest value. "Its" is of what is black.
+constexpr std::array<const char*, kDarknessCount> kReasons = {
+    "its colors are 0",
+    "its colors are within 0 and 1, but channels run from 0 to 255",
+    "no channel of its colors is above #, but channels run from 0 to 255",
+    "mirrors and glass alone are seen, and they show a black background",
+    "rays that may bring light are cut (--max-depth, --min-contribution)",
+    "the material reflects no light but the ambient (of 'material KA KD KS N', KD and KS are 0)",
+    "the material reflects highlights alone (of 'material KA KD KS N', KD is 0 or hardly more)",
+    "every light has the intensity 0 (the last three numbers of 'light'; 1 is full)",
+    "no light reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 would show "
+    "it "
+    "from anywhere)",
+    "all that is seen is in shadow (--no-shadows lights it; ambient 0.2 0.2 0.2 would show it, too)",
+    "the light on the side that is seen is too weak (its intensity is #; 1 is full)",
+    "the light on the side that is seen is too weak (its intensity is #, and attenuation weakens it: '1 0 0' "
+    "would not)",
+    "light only grazes the side that is seen: put the light in front of it"};
 
 /// "the picture is black: ", or "97.5 % of what is drawn is black: "
 std::string looks(std::uint64_t count, std::uint64_t all, const std::string& color, bool is_picture) {
@@ -178,58 +193,25 @@ std::string looks(std::uint64_t count, std::uint64_t all, const std::string& col
   return percent(count, all) + " of what is drawn is " + color + ": ";
 }
 
-std::string reason_of(Darkness darkness, double greatest, const ColorSetting& setting) {
-  const std::string materials =
-      setting.material_count == 1 ? "the material reflects " : "its materials reflect ";
-  switch (darkness) {
-    case Darkness::no_color:
-      return "its colors are 0";
-    case Darkness::small_color:
-      if (greatest <= 1) return "its colors are within 0 and 1, but channels run from 0 to 255";
-      return "no channel of its colors is above " + rounded(greatest) + ", but channels run from 0 to 255";
-    case Darkness::sends_rays:
-      return "mirrors and glass alone are seen, and they show a black background";
-    case Darkness::cut_rays:
-      return "rays that may bring light are cut (--max-depth, --min-contribution)";
-    case Darkness::no_reflectance:
-      return materials + "no light but the ambient (of 'material KA KD KS N', KD and KS are 0)";
-    case Darkness::highlights_alone:
-      return materials + "highlights alone (of 'material KA KD KS N', KD is 0 or hardly more)";
-    case Darkness::no_intensity:
-      return "every light has the intensity 0 (the last three numbers of 'light'; 1 is full)";
-    case Darkness::averted:
-      return "no light reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 "
-             "would "
-             "show it from anywhere)";
-    case Darkness::in_shadow:
-      return "all that is seen is in shadow (--no-shadows lights it; ambient 0.2 0.2 0.2 would show it, too)";
-    case Darkness::weak_light:
-      return "the light on the side that is seen is too weak (its intensity is " + rounded(greatest) +
-             (setting.is_weakened ? ", and attenuation weakens it: '1 0 0' would not)" : "; 1 is full)");
-    case Darkness::grazing_light:
-      break;
-  }
-  return "light only grazes the side that is seen: put the light in front of it";
-}
-
 /// Why what is drawn looks black; none if enough of it does not.
 std::optional<std::string> dark_note(const ShownColors& shown, const ColorSetting& setting) {
   constexpr double kBright = 128;  // black before it is a silhouette
   const double background = setting.background.is_opaque() ? greatest_of(to_vec3(setting.background)) : 255;
-  const auto is_odd = [&](Darkness reason, double greatest) {
+  const auto is_odd = [&](Darkness reason) {
     if (background <= kBlackChannel) return true;
-    if (reason == Darkness::small_color) return greatest <= 1;
-    return reason >= Darkness::no_reflectance && background < kBright;
+    return reason == Darkness::unit_color || (reason >= Darkness::no_reflectance && background < kBright);
   };
   std::uint64_t count = 0, of_most = 0;
   std::string reason;
   for (std::size_t i = 0; i < shown.dark.size(); ++i) {
     const auto& [count_of_this, greatest] = shown.dark[i];
-    if (!is_odd(static_cast<Darkness>(i), greatest)) continue;
+    if (!is_odd(static_cast<Darkness>(i))) continue;
     count += count_of_this;
     if (count_of_this <= of_most) continue;
     of_most = count_of_this;
-    reason = reason_of(static_cast<Darkness>(i), greatest, setting);
+    reason = kReasons[i];
+    if (const std::size_t at = reason.find('#'); at != std::string::npos)
+      reason.replace(at, 1, rounded(greatest));
   }
   if (!is_most(count, shown.count())) return std::nullopt;
   return looks(count, shown.count(), "black", background <= kBlackChannel) +

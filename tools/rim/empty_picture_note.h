@@ -42,8 +42,6 @@ std::optional<std::string> opaque_note(const Appearance& appearance);
 /// How a picture gets its colors.
 struct ColorSetting {
   Color background;
-  std::size_t material_count = 1;
-  bool is_weakened = false;  // light, by attenuation
   bool is_wireframe = false;
   bool has_noted_brightness = false;
 };

@@ -164,8 +164,7 @@ class Rendering {
     if (has_spheres_ && shown.count() == 0) return unmet_note(scene_, tool_.timing().triangle_count);
     if (!has_spheres_)
       if (auto unseen = unseen_triangles_note(scene_)) return unseen;
-    return odd_colors_note(shown,
-                           {background_, light_.materials.size(), light_.lighting.attenuation.weakens()});
+    return odd_colors_note(shown, {background_});
   }
 
   Tool& tool_;

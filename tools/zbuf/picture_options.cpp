@@ -135,16 +135,12 @@ int PictureOptions::threads_for(std::size_t samples) const {
 
 void note_depths_in_image(const Tool& tool, const PictureOptions& chosen) {
   constexpr std::array kEndings = {".png", ".bmp", ".ppm", ".jpg", ".jpeg", ".gif"};
-  constexpr std::ptrdiff_t kWrittenCount = 3;
   struct stat status = {};
   if (chosen.z_buffer_path != "-" || ::fstat(STDOUT_FILENO, &status) != 0 || !S_ISREG(status.st_mode)) return;
   std::error_code no_name;
-  std::filesystem::path file = std::filesystem::read_symlink("/proc/self/fd/1", no_name).filename();  // Linux
-  const auto ending = std::ranges::find(kEndings, file.extension());
-  if (ending == kEndings.end()) return;
-  const std::string given = file.string();
-  if (ending - kEndings.begin() >= kWrittenCount) file.replace_extension(".png");
-  tool.note("depths go to standard output, here " + given + "; the picture: -o " + file.string());
+  const auto file = std::filesystem::read_symlink("/proc/self/fd/1", no_name).filename();  // Linux
+  if (std::ranges::find(kEndings, file.extension()) != kEndings.end())
+    tool.note("depths go to standard output, here " + file.string() + "; the picture: -o out.png");
 }
 
 std::vector<NamedFile> outputs_of(const PictureOptions& chosen, const std::vector<NamedFile>& others,

@@ -183,12 +183,9 @@ void note_odd_picture(const Tool& tool, const ZbufOptions& chosen, const Drawing
   const ShownColors shown = shader ? shader->shown() : ShownColors();
   if (!chosen.wireframe || shown.visible == 0) note = report.empty_picture_note();
   const bool is_whole = screen.drawn_row_count() == screen.rows;
-  if (!note && shader && is_whole) {
-    const SurfaceShader::Setup& setup = shader->setup();
-    const bool is_known = bright_light_note(header.appearance).has_value();  // model has noted it
-    note = odd_colors_note(shown, {setup.background, setup.materials.size(),
-                                   setup.lighting.attenuation.weakens(), chosen.wireframe, is_known});
-  }
+  const bool is_known = bright_light_note(header.appearance).has_value();  // model has noted it
+  if (!note && shader && is_whole)
+    note = odd_colors_note(shown, {shader->setup().background, chosen.wireframe, is_known});
   if (!note && is_whole && shows_one_triangle && pixel_count(screen) >= kLargePicture)
     note =
         "one triangle fills the picture, and no edge is in view: it is too large or too near, or fovY too "
