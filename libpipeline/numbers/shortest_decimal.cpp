@@ -128,19 +128,6 @@ bool decide_by_fraction(const ScaledDouble& value, Decimal& decimal) {
 
 }  // namespace
 
-void drop_trailing_zeros(Decimal& decimal) {
-  constexpr std::uint64_t kEightZeros = 100'000'000;
-  if (decimal.digits % 10 != 0) return;
-  if (decimal.digits % kEightZeros == 0) {
-    decimal.digits /= kEightZeros;
-    decimal.exponent += 8;
-  }
-  while (decimal.digits % 10 == 0) {
-    decimal.digits /= 10;
-    ++decimal.exponent;
-  }
-}
-
 bool shortest_decimal(double value, Decimal& decimal) {
   if (!(value >= 0x1p-40 && value < 0x1p53)) return false;
   const auto bits = std::bit_cast<std::uint64_t>(value);

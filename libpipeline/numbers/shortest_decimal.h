@@ -15,6 +15,4 @@ struct Decimal {
 /// magnitudes of coordinates: false unless 2^-40 <= value < 2^53.
 bool shortest_decimal(double value, Decimal& decimal);
 
-void drop_trailing_zeros(Decimal& decimal);
-
 }  // namespace pipeline

@@ -28,13 +28,6 @@ int trailing_zero_count(SixteenDigits digits) {
   return count < 8 ? count : 8 + std::countl_zero(digits.first) / 8;
 }
 
-/// The count of digits of a number below 10^17.
-int digit_count(std::uint64_t number) {
-  // bit_width * log10(2), rounded down, is the count or one less; the table decides.
-  const auto count = static_cast<std::size_t>(std::bit_width(number) * 1233 >> 12);
-  return static_cast<int>(count) + (number >= kWholePowersOfTen[count] ? 1 : 0);
-}
-
 /// Prints a number whose shortest decimal has digits after the point: at most 17, with zeros before them.
 char* print_decimals(char* out, double value, const Decimal& decimal) {
   const auto decimals = static_cast<std::size_t>(-decimal.exponent);
@@ -73,20 +66,6 @@ char* print_few_decimals(char* out, double value) {
   return out + (count > 0 ? 1 + count : 0);
 }
 
-/// Prints the shortest form of a number from 2^-40 to 2^53 that may be shorter with an exponent; null if it
-/// is.
-char* print_with_decimals(char* out, double value, Decimal decimal) {
-  drop_trailing_zeros(decimal);
-  const auto& [digits, exponent] = decimal;
-  // Written out, it must not be longer than in scientific notation, "d.ddde+10".
-  const int length = digit_count(digits);
-  const int point_length = length > 1 ? 1 : 0;
-  if (exponent > 4 + point_length || exponent < -(length + 2 + point_length)) return nullptr;
-  if (exponent < 0) return print_decimals(out, value, decimal);
-  out = print_sign(out, value < 0);
-  return print_whole(out, digits * kWholePowersOfTen[static_cast<std::size_t>(exponent)]);
-}
-
 /// As print_scaled, of hi + lo, of units with at most 62 bits; null where there are more, or hi + lo may lie
 /// within 2^-20 of a tie. Inlined, it made every number take longer.
 [[gnu::noinline]] char* print_scaled_sum(char* out, double hi, double lo, int decimals) {
@@ -120,13 +99,11 @@ char* print_whole(char* out, std::uint64_t number) {
 char* print_shortest(char* out, double value) {
   Decimal decimal;
   const double size = std::fabs(value);
-  // In this range an exponent never saves a character.
-  if (size >= 0.001 && size < 1e5) {
+  if (size >= 0.001 && size < 1e5)
     if (char* const end = print_few_decimals(out, value)) return end;
-    if (shortest_decimal(size, decimal)) return print_decimals(out, value, decimal);
-  }
-  if (shortest_decimal(size, decimal))
-    if (char* const end = print_with_decimals(out, value, decimal)) return end;
+  // Of these numbers, only whole ones may be shorter with an exponent.
+  if (size >= 0.001 && (size < 1e5 || size != std::floor(size)) && shortest_decimal(size, decimal))
+    return print_decimals(out, value, decimal);
   return std::to_chars(out, out + kMaxNumberLength, value == 0 ? 0.0 : value).ptr;
 }
 
