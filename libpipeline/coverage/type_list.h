@@ -4,30 +4,24 @@
 
 namespace pipeline {
 
-/// Types of which one is chosen at run time: coverage rules, depth formats.
-template <typename... Types>
-struct TypeList {};
-
 /// A type as a value.
 template <typename T>
 struct TypeValue {
   friend bool operator==(const TypeValue&, const TypeValue&) = default;
 };
 
-/// One type of a TypeList, the first by default. std::visit hands a visitor its TypeValue, so that code can
-/// be compiled for every type of the list and run for the one chosen.
-template <typename List>
-struct TypeChoiceOf;
+/// Types of which one is chosen at run time: coverage rules, depth formats.
 template <typename... Types>
-struct TypeChoiceOf<TypeList<Types...>> {
+struct TypeList {
+  /// One of the types, the first by default. std::visit hands a visitor its TypeValue, so that code can be
+  /// compiled for every type of the list and run for the one chosen.
   using Choice = std::variant<TypeValue<Types>...>;
-  using Any = std::variant<Types...>;
-};
-template <typename List>
-using TypeChoice = typename TypeChoiceOf<List>::Choice;
+  using Object = std::variant<Types...>;
 
-/// An object of one type of a TypeList.
-template <typename List>
-using AnyOf = typename TypeChoiceOf<List>::Any;
+  /// An object of the type chosen.
+  static Object made(const Choice& choice, const auto& argument) {
+    return std::visit([&]<typename T>(TypeValue<T>) -> Object { return T(argument); }, choice);
+  }
+};
 
 }  // namespace pipeline

@@ -11,8 +11,8 @@ namespace pipeline {
 
 /// Which pixels a triangle covers, how its depths are stored, and which of them are kept.
 struct PixelRules {
-  TypeChoice<CoverageRules> coverage;
-  TypeChoice<DepthFormats> depth;
+  CoverageRules::Choice coverage;
+  DepthFormats::Choice depth;
   /// Where a triangle is visible, a fragment wins only if it is nearer by more than this, at least 0.
   double depth_epsilon = 0;
 };
@@ -21,8 +21,7 @@ struct PixelRules {
 class AnyCoverage {
  public:
   AnyCoverage(const PixelRules& chosen, const Viewport& screen)
-      : rule_(std::visit([&]<typename Rule>(TypeValue<Rule>) -> AnyOf<CoverageRules> { return Rule(screen); },
-                         chosen.coverage)) {}
+      : rule_(CoverageRules::made(chosen.coverage, screen)) {}
 
   /// Calls visit(rule) with the rule in use.
   template <typename Visitor>
@@ -31,7 +30,7 @@ class AnyCoverage {
   }
 
  private:
-  AnyOf<CoverageRules> rule_;
+  CoverageRules::Object rule_;
 };
 
 /// A depth format that is chosen at run time, likewise. Stored depths are doubles, which hold those of every
@@ -39,9 +38,7 @@ class AnyCoverage {
 class AnyDepth {
  public:
   AnyDepth(const PixelRules& chosen, const Viewport& screen)
-      : format_(
-            std::visit([&]<typename Depth>(TypeValue<Depth>) -> AnyOf<DepthFormats> { return Depth(screen); },
-                       chosen.depth)) {}
+      : format_(DepthFormats::made(chosen.depth, screen)) {}
 
   [[nodiscard, gnu::always_inline]] double store(double z) const {
     return std::visit([z](const auto& format) { return static_cast<double>(format.store(z)); }, format_);
@@ -58,7 +55,7 @@ class AnyDepth {
   }
 
  private:
-  AnyOf<DepthFormats> format_;
+  DepthFormats::Object format_;
 };
 
 }  // namespace pipeline

@@ -13,12 +13,12 @@ namespace {
 /// Adds an option that takes the name of one type of a list; its help ends with a line for each.
 template <typename... Types>
 void add_type_choice(CommandLine& options, const std::string& name, TypeList<Types...>,
-                     TypeChoice<TypeList<Types...>>& chosen, std::string help) {
+                     typename TypeList<Types...>::Choice& chosen, std::string help) {
   const auto line = [](std::string_view word, std::string_view meaning) {
     return "\n" + std::string(word) + ": " + std::string(meaning);
   };
   ((help += line(Types::kName, Types::kMeaning)), ...);
-  options.add_choice<TypeChoice<TypeList<Types...>>>(
+  options.add_choice<typename TypeList<Types...>::Choice>(
       name, chosen, {{std::string(Types::kName), TypeValue<Types>()}...}, help);
 }
 
