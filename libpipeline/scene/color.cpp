@@ -1,5 +1,7 @@
 #include "libpipeline/scene/color.h"
 
+#include "libpipeline/text/number_parser.h"
+
 namespace pipeline {
 namespace {
 
@@ -22,26 +24,15 @@ std::uint32_t state_after(std::uint64_t steps) {
   return state;
 }
 
-/// The value of a hexadecimal digit; 16 for any other character.
-std::uint32_t hexadecimal_digit(char c) {
-  if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0');
-  if (c >= 'a' && c <= 'f') return static_cast<std::uint32_t>(c - 'a' + 10);
-  if (c >= 'A' && c <= 'F') return static_cast<std::uint32_t>(c - 'A' + 10);
-  return 16;
-}
-
 }  // namespace
 
 std::optional<Color> parse_color(std::string_view word) {
   if (word.starts_with("0x")) word.remove_prefix(2);
   const bool has_alpha = word.size() == 8;
   if (word.size() != 6 && !has_alpha) return std::nullopt;
-  std::uint32_t digits = 0;
-  for (const char c : word) {
-    const std::uint32_t digit = hexadecimal_digit(c);
-    if (digit == 16) return std::nullopt;
-    digits = 16 * digits + digit;
-  }
+  std::uint64_t number = 0;
+  if (!parse_count(word, number, 16)) return std::nullopt;
+  const auto digits = static_cast<std::uint32_t>(number);
   if (!has_alpha) return Color::from_rgb(digits);
   return Color::from_rgb(digits >> 8).with_alpha(static_cast<std::uint8_t>(digits));
 }

@@ -119,8 +119,8 @@ bool parse_exact_decimal(std::string_view word, DoubleDouble& value) {
 }
 
 // S4
-bool parse_count(std::string_view word, std::uint64_t& value) {
-  const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+bool parse_count(std::string_view word, std::uint64_t& value, int base) {
+  const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), value, base);
   return !word.empty() && code == std::errc() && stop == word.data() + word.size();
 }
 

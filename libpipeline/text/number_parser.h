@@ -33,8 +33,9 @@ constexpr int kExactDecimals = 7;
 /// number, which stands for its nearest double.
 bool parse_exact_decimal(std::string_view word, DoubleDouble& value);
 
-/// Parses a whole word of decimal digits; false for anything else or a number that does not fit.
-bool parse_count(std::string_view word, std::uint64_t& value);
+/// Parses a whole word of digits, decimal unless there is another base; false for anything else or a number
+/// that does not fit.
+bool parse_count(std::string_view word, std::uint64_t& value, int base = 10);
 
 // The fast path for decimal numbers without an exponent that are not in the fixed form (fixed_text.h), as
 // people, other programs and `--digits` write them. Everything else is left to parse_number.
