@@ -9,9 +9,8 @@
 #include <string_view>
 #include <thread>
 
-#include "libpipeline/picture/depth_image.h"
 #include "libpipeline/picture/image_file.h"
-#include "libpipeline/picture/pixel_array.h"
+#include "libpipeline/picture/pixel_files.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/error.h"
 #include "tools/zbuf/surface_shading.h"

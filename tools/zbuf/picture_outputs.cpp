@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "libpipeline/picture/depth_image.h"
 #include "libpipeline/picture/depth_text.h"
-#include "libpipeline/picture/pixel_array.h"
+#include "libpipeline/picture/pixel_files.h"
 
 namespace pipeline {
 namespace {

@@ -18,4 +18,12 @@ void check_depth_image_name(const std::string& path);
 std::unique_ptr<RowWriter<double>> depth_image_writer(int descriptor, const std::string& path,
                                                       const Viewport& screen);
 
+/// An InputError unless the file's extension is .npy, in upper or lower case, or the file a device.
+void check_array_name(const std::string& path);
+
+/// A writer of doubles or of std::int64_t: an array of NumPy's format 1.0 (its page numpy.lib.format).
+template <typename Number>
+std::unique_ptr<RowWriter<Number>> array_writer(int descriptor, const std::string& path,
+                                                const Viewport& screen);
+
 }  // namespace pipeline
