@@ -120,21 +120,16 @@ SPELLINGS = {"up-as-given": 2, "l-not-unit": 2, "r-not-unit": 2, "near-left-out"
 
 
 # project
-def half_of_tan(radians):
-    return math.tan(radians) / 2
-
-
 def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistake="", pi=math.pi, spelling=0):
     """The matrix of project, or what mistakes make of it, named as in view_matrix."""
     mistakes = mistake.split()
     radian = 1.0 if "fov-in-radians" in mistakes else pi / 180
-    part = 1 if "fov-not-halved" in mistakes else 2
+    of_tangent = 0.5 if "tangent-halved" in mistakes else 1.0
+    part = 1 if {"fov-not-halved", "tangent-halved"} & {*mistakes} else 2
     fov_x = fov_y if "fovx-equals-fovy" in mistakes else (
         fov_y / aspect if "fovx-divided-by-aspect" in mistakes else fov_y * aspect)
-    tan = half_of_tan if "tangent-halved" in mistakes else math.tan
-    part = 1 if tan is half_of_tan else part
-    top = tan(radian * fov_y / part)
-    right = top * aspect if is_ratio or "r-is-t-times-aspect" in mistakes else tan(radian * fov_x / part)
+    top, right = (of_tangent * math.tan(radian * fov / part) for fov in (fov_y, fov_x))
+    right = top * aspect if is_ratio or "r-is-t-times-aspect" in mistakes else right
     if "r-and-t-swapped" in mistakes:
         right, top = top, right
     if "near-left-out" in mistakes:

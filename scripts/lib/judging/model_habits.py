@@ -5,7 +5,6 @@ import itertools
 import math
 
 from lib.judging.matrices import IDENTITY, affine, product, rotation, transposed
-from lib.judging.mistakes import names_of
 from lib.maths.vectors import normalized
 
 ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
@@ -140,16 +139,11 @@ class Stack:
         self.last = keyword
 
 
-def model_mistakes():
-    """(name, habits) for each mistake of model in the list."""
-    return [(name, MODEL_MISTAKES[name]) for name in names_of("model") if name in MODEL_MISTAKES]
-
-
 def model_pairs(triangle_count):
     """((name, name), Habit) for each two mistakes of model that change different things, in all their ways if
     there are not MANY triangles."""
     chosen = slice(1 if triangle_count > MANY else None)
-    for (a, ones), (b, others) in itertools.combinations(model_mistakes(), 2):
+    for (a, ones), (b, others) in itertools.combinations(MODEL_MISTAKES.items(), 2):
         for one, other in itertools.product(ones[chosen], others[chosen]):
             changes = {key: value for key, value in vars(other).items() if value != getattr(RIGHT, key)}
             if all(getattr(one, key) == getattr(RIGHT, key) for key in changes):

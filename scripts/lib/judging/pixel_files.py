@@ -50,7 +50,8 @@ class Findings:
     def own_by_rule(self, kind, alone):
         both = self.of_all
         spoils_one = both.verdict == "mistake" and len(both.touches) == 1
-        if both.verdict == "exact" or spoils_one or self.is_of_blank_files():
+        is_blank = both.mismatch is self.context.plain and all(self.context.shown.are_blank)
+        if both.verdict == "exact" or spoils_one or is_blank:
             return both
         if both.verdict == "unknown":
             return self.own_if_both_are_unknown(kind, alone)
@@ -63,9 +64,6 @@ class Findings:
                 one for one in found  # a picture of one color may come from a mistake found
                 if one and one.verdict == "exact"),
             both)
-
-    def is_of_blank_files(self):
-        return self.of_all.mismatch is self.context.plain and all(self.context.shown.are_blank)
 
     def own_if_both_are_unknown(self, kind, alone):
         found = finding_of(alone)

@@ -52,10 +52,14 @@ class PixelStage:
         given = [kind for kind, what in (("depths", depths), ("picture", colors)) if what is not None]
         if not given:
             return verdicts
-        if not self.readings:
+
+        def undecided(*why):
             return verdicts | {
-                kind: undecided_outcome("zbuf", self.files[kind].name).verdict
+                kind: undecided_outcome("zbuf", self.files[kind].name, *why).verdict
                 for kind in given}
+
+        if not self.readings:
+            return undecided()
         shown = self.shown(colors, depths)
         context = Context(self.readings, self.ours.window, shown, borders_first=self.borders_first)
         counts = (len(points) // 3 for points, _ in self.readings.values())
@@ -64,9 +68,7 @@ class PixelStage:
             found = has_many and self.verdicts_of_many_colors(given, context)
             return verdicts | (found or self.verdicts_of_shown(given, context, Findings(context))[0])
         except TooMuch:
-            return verdicts | {
-                kind: undecided_outcome("zbuf", self.files[kind].name, TOO_MUCH).verdict
-                for kind in given}
+            return undecided(TOO_MUCH)
 
     def verdicts_of_many_colors(self, given, context):
         """The verdicts if a picture has too many colors for its triangles: that these have many, if it

@@ -80,15 +80,6 @@ class Difference:
     largest: tuple = None
     points: set = dataclasses.field(default_factory=set)  # indices of those that differ
 
-    @property
-    def first_triangle(self):
-        return None if self.first is None else self.first[0] // 3
-
-    @property
-    def triangles(self):
-        """The numbers of the triangles that differ, in order."""
-        return sorted({i // 3 for i in self.points})
-
 
 def is_off(a, b, tolerance):
     """True if a differs from b; whatever is not finite on our side decides nothing."""

@@ -282,19 +282,13 @@ class Drawing:
         self.width = triangles.grid.width
 
     def spans(self, row):
-        rule, spans = self.rule, self.triangles.row(row - self.rule.shift[1])
-        if rule.row_long:
-            spans = sorted([*spans, *self.triangles.below(row - rule.shift[1])],
-                           key=lambda span: span.triangle)
-        if rule.row_short:
-            spans = [span for span in spans if not span.is_last]
-        if rule.half:
-            spans = [span for span in spans if span.is_upper == (rule.half == "upper")]
-        if rule.winding:
-            spans = [span for span in spans if self.triangles.winding(span.triangle) != -rule.winding]
-        if rule.without:
-            spans = [span for span in spans if span.triangle not in rule.without]
-        return spans
+        rule, row = self.rule, row - self.rule.shift[1]
+        below = self.triangles.below(row) if rule.row_long else ()
+        return [
+            span for span in sorted([*self.triangles.row(row), *below], key=lambda span: span.triangle)
+            if not (rule.row_short and span.is_last or rule.half and span.is_upper != (rule.half == "upper")
+                    or rule.winding and self.triangles.winding(span.triangle) == -rule.winding
+                    or span.triangle in rule.without)]
 
     def line(self, span):
         if self.rule.flat:

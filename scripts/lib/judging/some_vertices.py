@@ -28,7 +28,7 @@ def causes(result, count, is_right_at, causes_at):
 
 def few_triangles(result, count):
     """A remark on which triangles are wrong, if they are few; a list of at most one."""
-    wrong = result.triangles
+    wrong = sorted({i // 3 for i in result.points})
     if not wrong or len(wrong) > MOST_TRIANGLES * count:
         return []
     return [

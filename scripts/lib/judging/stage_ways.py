@@ -6,7 +6,7 @@ import math
 from lib.judging import fit, rows
 from lib.judging.matrices import IDENTITY, ROUNDING, image, slack
 from lib.judging.matrix_mistakes import UNCHANGED, changed_elements, listed, other_forms, pairs
-from lib.judging.model_habits import RIGHT, ROUGH_PIS, Habit, model_mistakes, model_pairs
+from lib.judging.model_habits import MODEL_MISTAKES, RIGHT, ROUGH_PIS, Habit, model_pairs
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.scene import NO_UNITS
 from lib.judging.verdict import Cause, cause_of, cause_of_all
@@ -74,7 +74,7 @@ class ModelWays:
         """Lists of Ways, of which the later ones count only where none of the earlier ones will do: mistakes
         in their usual form, then in others."""
         for chosen in (slice(1), slice(1, None)):
-            yield (self.way(cause_of("model/" + name), habit) for name, habits in model_mistakes()
+            yield (self.way(cause_of("model/" + name), habit) for name, habits in MODEL_MISTAKES.items()
                    for habit in habits[chosen])
         yield [self.way(Cause("", UNTOUCHED), Habit(order="neither"))]
 
@@ -90,7 +90,7 @@ class ModelWays:
 
     def place(self, result):
         """The place of the first wrong triangle in the scene."""
-        triangle = result.first_triangle
+        triangle = result.first[0] // 3
         line, before = self.scene.triangle_lines[triangle], self.scene.command_before(triangle)
         after = f", after {before.keyword} in line {before.line}" if before else ""
         return f"the first wrong triangle is number {triangle}, in line {line} of the scene{after}"
