@@ -69,7 +69,7 @@ class NearestRows {
   /// the plane's at the exact center of the pixel within 2^-39 of the largest |z| of a vertex; at a pixel
   /// whose center lies beyond an end of the row within 2^-28, or of its own |z| if that is larger.
   [[nodiscard]] std::optional<Span> span(int row) const;
-  /// That depth exactly, at the center as Z1 of docs/stages.md rounds it: exact_depth.h.
+  /// That depth exactly, at the center as Z1 of docs/stages.md rounds it: rules.h.
   [[nodiscard]] Ball exact_depth(int row, int column) const;
 
  private:

@@ -64,7 +64,7 @@ struct CenterCoverage {
 /// Every coverage rule, in the order of --help; the first is the default.
 using CoverageRules = TypeList<NearestCoverage, CenterCoverage>;
 
-/// Writes the spans of many triangles by any rule, as a kernel does (kernel.h).
+/// Writes the spans of many triangles by any rule, as a kernel does (exact_grid.h).
 template <typename Coverage>
 TaggedSpan* spans_by(const Coverage& rule, std::span<const TaggedTriangle> triangles, const RowRange& rows,
                      TaggedSpan* spans) {
