@@ -127,7 +127,7 @@ struct Model {
     return point < colors.size() ? colors[point] : kNoColor;
   }
   [[nodiscard]] bool has_vertex_colors() const;
-  /// Whether all that is shown has the color black.
+  /// True if all that is shown has the color black.
   [[nodiscard]] bool is_black() const;
   [[nodiscard]] ModelMaterial material(const ModelMesh& mesh) const {
     return mesh.material ? materials[*mesh.material] : ModelMaterial();
@@ -150,7 +150,7 @@ void scale_colors(Model& model, std::span<Floats> colors, double full, bool is_l
 inline double fraction(double value) {
   return value > 0 ? std::min(value, 1.0) : 0;
 }
-/// Whether the coordinates are finite as floats, which a scene's coordinates are.
+/// True if the coordinates are finite as floats, which a scene's coordinates are.
 bool are_floats(const Vec3& v);
 
 /// A channel from 0 to 1 as a scene's; a linear one by way of sRGB.

@@ -40,7 +40,7 @@ class ModelText {
   std::string_view word();
   /// The next word on this or a later line, empty at the end of the text. Nothing is a comment.
   std::string_view word_of_any_line();
-  /// What is left of this line, without blanks around it.
+  /// The rest of this line, without blanks around it.
   std::string_view rest_of_line();
   /// The value of a word, also with a comma for the point. A finite float, or an InputError that names
   /// `what`.

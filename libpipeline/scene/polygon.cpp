@@ -30,7 +30,7 @@ std::vector<Vec3> flattened(std::span<const Vec3> polygon) {
   return flat;
 }
 
-/// Whether the triangle of a polygon's vertices i, j, k is no larger than 0, or holds none of `others`.
+/// True if the triangle of a polygon's vertices i, j, k is no larger than 0, or holds none of `others`.
 bool is_ear(const std::vector<Vec3>& points, const std::array<std::uint32_t, 3>& corners,
             const std::vector<std::uint32_t>& others) {
   const Vec3 &a = points[corners[0]], &b = points[corners[1]], &c = points[corners[2]];

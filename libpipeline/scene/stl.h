@@ -6,7 +6,7 @@
 
 namespace pipeline {
 
-/// Whether bytes are those of an STL file, text or binary.
+/// True if the bytes are an STL file, text or binary.
 bool is_stl(std::string_view bytes);
 
 /// Adds the file's triangles to a model that has only its name. An InputError or std::runtime_error names it.

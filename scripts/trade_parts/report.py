@@ -34,7 +34,7 @@ def pixels(row):
 
 
 def pixels_of_uncertain(row):
-    """Of the uncertain ones, where their number is known and not 0."""
+    """Wrong pixels as a share of the uncertain ones, where these are known and not 0."""
     wrong = pixels(row)
     count, *share = wrong.split(" ", 1)
     return " ".join([f"{count}/{row.loss.uncertain}", *share]) if row.loss.uncertain else wrong

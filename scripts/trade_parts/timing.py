@@ -30,7 +30,7 @@ def median_interval(values):
 
 
 class Times:
-    """Of each setting and of the empty scene, round by round."""
+    """Times of each setting and of the empty scene, round by round."""
     unit = CPU_TIME
 
     def __init__(self, runs):

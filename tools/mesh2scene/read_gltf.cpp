@@ -38,7 +38,7 @@ std::array<std::string_view, 2> parts_of(std::string_view bytes) {
   return parts;
 }
 
-/// Whether an extension is read, or changes no triangle.
+/// True if an extension is read, or changes no triangle.
 bool is_supported(std::string_view extension) {
   constexpr std::array kSupported = {"KHR_mesh_quantization", "KHR_lights_punctual", "KHR_node_visibility",
                                      "KHR_animation_pointer", "KHR_xmp_json_ld"};

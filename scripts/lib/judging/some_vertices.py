@@ -1,4 +1,4 @@
-"""What is wrong with some of the points alone: with the same vertex of every triangle, or with a few
+"""Mistakes in some of the points alone: with the same vertex of every triangle, or with a few
 triangles."""
 import dataclasses
 
