@@ -17,9 +17,11 @@ export function optionsIn(help) {
     if (!name || OWN.test(name)) return;
     let end = i + 1;
     while (/^ {20}/.test(lines[end])) ++end;
-    const told = [line.slice(beginning.length), ...lines.slice(i + 1, end)].map(part => part.trim()).join(" ").trim().split(/[.;:] /)[0];
-    const choices = !values ? [name] : values.includes("|") ? values.split("|").map(value => `${name} ${value}`) : [`${name} ${values}`];
-    found.push(...choices.map(words => [words, told]));
+    const told = [line.slice(beginning.length), ...lines.slice(i + 1, end)].map(part => part.trim()).join(" ").trim();
+    const choices = values && values.includes("|") ? values.split("|") : [values || ""];
+    // A value may have a sentence of its own: "auto: cut only ... near: cut all ...".
+    const ownOf = value => /^\w+$/.test(value) && told.split(new RegExp(`(?:^| )${value}: `))[1];
+    found.push(...choices.map(value => [`${name} ${value}`.trim(), ownOf(value) ? ownOf(value).split(/[.;] | \w+: | \(/)[0] : told.split(/[.;:] | \(/)[0]]));
   });
   return found;
 }
