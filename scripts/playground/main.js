@@ -223,7 +223,7 @@ class Playground {
 
   run() {
     const {scene, config, words} = this.state;
-    this.tell(scene.length > LARGE_SCENE ? `A scene of ${(scene.length / 1e6).toFixed(1)} MB: after an edit the picture comes first, and the panels take seconds.` : "");
+    this.tell(scene.length > LARGE_SCENE ? `A scene of ${(scene.length / 1e6).toFixed(1)} MB: after an edit the picture comes first, and the panels, which show a part of it, take seconds.` : "");
     this.client.run({scene, config, words, own: this.own.stage});
   }
 

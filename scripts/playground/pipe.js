@@ -1,13 +1,14 @@
 // A scene sent through the pipe: what a shell makes of `model < scene.txt | view | project | zbuf config.txt`, and what the inspector shows.
 
-import {StageText} from "../inspect_parts/stage_data.js";
 import {difference, theirPictureOf, theirsOf} from "./own_stage.js";
+import {partOf} from "./thinning.js";
 import {textOf} from "./tools.js";
 
 export const STAGES = ["model", "view", "project", "zbuf"];
 const BELTS = "8";  // of the facets that project and zbuf get in place of a sphere
 const TITLES = {model: "world space", view: "view space", project: "normalized device coordinates"};
 const MOST_TRIANGLES = 2000000;  // and numbers of them, which the panels count up to
+const MOST_DRAWN = 20000;        // of them in a panel
 const FILES = {model: "stage1.txt", view: "stage2.txt", project: "stage3.txt", zbuf: "z_buffer.txt"}, SAVED_IMAGE = "out.bmp";
 const EXACT = ["--digits", "exact"];
 const IMAGE = "out.ppm", COUNTS = "counts.txt", FRAGMENTS = "fragments.txt", TRIANGLES = "triangles.npy", DEPTHS = "depths.npy";
@@ -66,9 +67,10 @@ export class Pipe {
       input = tool === "view" && isTraced ? await this.faceted(results, scene) : done.output;
     }
     const [, rule] = words.zbuf.match(/--coverage[ =]+(\S+)/) || [], options = [...wordsOf(words.project), ...rule ? ["--coverage", rule] : []];
-    const data = {...this.inspected(results, config), ...picture, isTraced, options, coverage: rule};
-    if (own && !isTraced) data.theirs = await this.withOwn(own, results, {config, words, picture});
-    return {data, messages, isQuick: logs[0] !== "--fragments"};
+    const data = {...this.inspected(results, config), ...picture, isTraced, options, coverage: rule}, isLarge = data.step > 1;
+    if (own && isLarge) messages.push({tool: "page", line: `page: note: a stage of your own is compared in scenes of up to ${MOST_DRAWN} triangles`});
+    else if (own && !isTraced) data.theirs = await this.withOwn(own, results, {config, words, picture});
+    return {data, messages, isQuick: logs[0] !== "--fragments" && !isLarge};
   }
 
   // The files of `pipeline stages`, which passes lossless texts on, and what they are made of; without project and zbuf if trace draws.
@@ -113,20 +115,21 @@ export class Pipe {
 
   inspected(results, config) {
     const counts = results.map(done => pairsOf(textOf(done.read(COUNTS)))), zbuf = results[3];
-    const texts = results.slice(0, 3).map(done => new StageText(textOf(done.output))), [model] = texts;
+    const step = Math.max(1, Math.ceil(new Map(counts[0]).get("triangles") / MOST_DRAWN));
+    const texts = results.slice(0, 3).map(done => partOf(done.output, step)), [model] = texts;
     if (model.count > MOST_TRIANGLES) throw new Error(`triangles are numbered up to ${model.count}, which is more than this page can show`);
     const {columns, rows} = imageOf(zbuf.read(IMAGE));
     const depths = textOf(zbuf.output), stages = texts.map((text, i) => this.stageData(results[i], text, counts[i], model.count));
-    stages.push({tool: "zbuf", title: "pixels", seconds: zbuf.seconds, triangles: texts[2].names.length, bytes: zbuf.output.length, statistics: counts[3], text: depths});
+    stages.push({tool: "zbuf", title: "pixels", seconds: zbuf.seconds, triangles: texts[2].pieces, bytes: zbuf.output.length, statistics: counts[3], text: depths});
     const log = zbuf.read(FRAGMENTS), fragments = log ? textOf(log) : seenOf(zbuf.read(TRIANGLES), zbuf.read(DEPTHS));
     return {
-      scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres.names.length, step: 1, stages, notes: [], limits: limitsOf(config),
+      scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres, step, stages, notes: step > 1 ? ["Hidden fragments are left out."] : [], limits: limitsOf(config),
       explanations: [], fragments, leftOut: 0,
     };
   }
 
-  stageData(done, {text, names}, statistics, count) {
-    return {tool: done.tool, title: TITLES[done.tool], seconds: done.seconds, triangles: names.length, missing: count - new Set(names).size, bytes: done.output.length, statistics, numbers: null, text};
+  stageData(done, {text, numbers, pieces, distinct}, statistics, count) {
+    return {tool: done.tool, title: TITLES[done.tool], seconds: done.seconds, triangles: pieces, missing: count - distinct, bytes: done.output.length, statistics, numbers, text};
   }
 }
 

@@ -1,0 +1,47 @@
+// What the panels get of a stage's text: all of it, or of a long one its header, all spheres, and one triangle in `step`.
+
+import {textOf} from "./tools.js";
+
+const MINUS = 45, ZERO = 48, NINE = 57, LINE_FEED = 10;
+const startsWith = (bytes, at, word) => bytes[at] === word.charCodeAt(0) && [...word].every((letter, i) => bytes[at + i] === letter.charCodeAt(0));
+
+// {text, numbers, pieces, distinct, count, spheres}: the numbers of its lines (0 for one that was added; null for the whole text), how many
+// triangles or pieces the stage wrote, of how many triangles, one more than the last number, and how many spheres. A pass over bytes: as
+// strings, the lines of a million triangles fill a browser's memory.
+export function partOf(bytes, step) {
+  const found = {pieces: 0, distinct: 0, count: 0, spheres: 0}, parts = [], numbers = [];
+  let corners = 0, before = -1;  // lines of the triangle that are still to come, and the last name
+  const take = (start, end, number) => {
+    parts.push(textOf(bytes.subarray(start, end)));
+    numbers.push(number);
+  };
+  for (let at = 0, number = 1, isKept = true; at < bytes.length; ++number) {
+    const end = (bytes.indexOf(LINE_FEED, at) + 1 || bytes.length + 1) - 1, first = bytes[at], name = found.count;
+    if (first === MINUS || (first >= ZERO && first <= NINE)) {
+      if (corners === 0) {
+        isKept = name % step === 0;
+        if (isKept && step > 1) { parts.push(`triangle ${name}`); numbers.push(0); }
+        if (name !== before) ++found.distinct;
+        before = name;
+        ++found.pieces;
+        ++found.count;
+        corners = 3;
+      }
+      --corners;
+      if (isKept && step > 1) take(at, end, number);
+    } else if (startsWith(bytes, at, "triangle ")) {
+      found.count = Number(textOf(bytes.subarray(at + 9, end)));
+    } else if (startsWith(bytes, at, "clipped")) {
+      corners = 3;
+      isKept = false;
+    } else if (startsWith(bytes, at, "sphere")) {
+      if (step > 1) { parts.push(`triangle ${name}`); numbers.push(0); take(at, end, number); }
+      isKept = true;
+      ++found.spheres;
+      ++found.count;
+      corners = 4;
+    } else if (step > 1 && !found.pieces && !found.spheres && end > at) take(at, end, number);
+    at = end + 1;
+  }
+  return {...found, text: step > 1 ? parts.join("\n") : textOf(bytes), numbers: step > 1 ? Int32Array.from(numbers) : null};
+}
