@@ -166,7 +166,7 @@ class Stages(ToolTest):
         self.assertEqual([note for note in notes if "exact" in note or notes.count(note) > 1], [])
         pathlib.Path("near.txt").write_text(
             "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntranslate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\n"
-            "triangle\n1 2 3\n4 5 6\n7 8 9\nend\n")
+            "triangle\n1 2 3\n4 5 6\n7 8 8\nend\n")
         notes = [
             note for note in self.stages("out", scene="near.txt").stderr.decode().splitlines()
             if note.startswith("model")]
