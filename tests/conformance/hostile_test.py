@@ -54,6 +54,9 @@ subprocess.run(["{BIN}/zbuf", *(sys.argv[1:] or ["config.txt"])], check=True)"""
     "ends-at-once": ("exit 0", "depths: the number of lines differs|no picture was written"),
     "writes-above": ("zbuf; echo x > ../stolen; echo x > ../../stolen; true", "right"),
     "escapes": ("printf '\\033]0;owned\\007' >&2; exit 1", "exit status 1"),
+    # as root, whose number needs no capability for it
+    "opens-settings": ("(: >> /proc/sys/kernel/core_pattern) 2> refused && exit 7; zbuf", "right", None),
+    "changes-devices": ("chmod 666 /dev/null; zbuf", "right", None),
     "stops-itself": ("kill -STOP $$", TIME),
     "picture-is-a-link": ("zbuf; ln -sf $HERE/picture.bmp out.bmp", "out.bmp is not read: it is a link"),
     "picture-is-a-pipe": ("zbuf; rm out.bmp; mkfifo out.bmp",
@@ -210,12 +213,14 @@ class Attacks(HostileTest):
         """Only an attack that nothing but the time ends has little time: a busy machine is slow to reach
         another limit."""
         ended_by_time = {name for name, (_, *expected) in ATTACKS.items() if TIME in str(expected)}
+        changed = os.stat(os.devnull).st_ctime_ns
         with socket.create_server(("127.0.0.1", 0)) as server:
             self.port = server.getsockname()[1]
             runs = [
                 self.run_all(mode, attacks, seconds)
                 for attacks, seconds in ((ended_by_time, 3), (ATTACKS.keys() - ended_by_time, 50))
                 for mode in MODES]
+        self.assertEqual(os.stat(os.devnull).st_ctime_ns, changed)
         for mode, status, output, errors, results, table in runs:
             self.assertEqual((status, results["sandbox"]), (1, mode == "yes"))
             self.assertEqual(errors.replace("hacked\n", ""), "")  # as root, without a sandbox

@@ -9,6 +9,7 @@ import tempfile
 
 # What a program in a folder `bin` needs of its installation.
 BESIDE_BIN = ("lib", "lib64", "libexec", "conf", "pyvenv.cfg")
+DEVICES = ("null", "zero", "full", "random", "urandom", "tty")  # those that bubblewrap takes from the system
 SYSTEM = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/usr", "/etc", "/opt", "/nix", "/gnu")
 PATH_IN_TEXT = re.compile(r"""(?<![^\s'"=:,;|&<>(])/[^\s'"=:,;|&<>()]+""")  # of the shell, or of a list
 
@@ -16,7 +17,8 @@ PATH_IN_TEXT = re.compile(r"""(?<![^\s'"=:,;|&<>(])/[^\s'"=:,;|&<>()]+""")  # of
 def words_for(command, paths, hidden):
     """Words of bubblewrap for a command that may read further paths, but nothing below `hidden`."""
     words = ["--unshare-all", "--die-with-parent", "--cap-drop", "ALL"]
-    words += [*system_words(), "--proc", "/proc", "--dev", "/dev"]
+    # Root's number opens the settings in /proc/sys without a capability.
+    words += [*system_words(), "--proc", "/proc", "--remount-ro", "/proc", "--dev", "/dev"]
     paths = sorted({*needed(command), *map(os.path.abspath, paths)})
     for path in paths:
         words += ["--ro-bind", path, path]
@@ -69,8 +71,26 @@ def words_of_folder(folder, words):
     uses_memory = any(str(word).startswith("/dev/shm/") for word in (folder, *words))
     shared = [] if uses_memory else ["--bind", folder, "/dev/shm"]
     return [
-        *words, *shared, "--bind", folder, folder, "--remount-ro", "/dev", "--remount-ro", "/", "--chdir",
-        folder, "--"]
+        *words, *shared, *device_words(pathlib.Path(folder).parent / "dev"), "--bind", folder, folder,
+        "--remount-ro", "/dev", "--remount-ro", "/", "--chdir", folder, "--"]
+
+
+def device_words(folder):
+    """Words of bubblewrap that put devices in a folder in place of the system's, whose modes root's number
+    changes without a capability. None where the system's are not its own, or these could not be opened."""
+    words = []
+    try:
+        os.makedirs(folder, exist_ok=True)
+        for name in DEVICES if os.getuid() == 0 else ():
+            path = folder / name
+            if not path.exists():
+                os.mknod(path, stat.S_IFCHR, os.stat(f"/dev/{name}").st_rdev)
+                os.chmod(path, 0o666)
+            words += ["--dev-bind", path, f"/dev/{name}"]
+        os.close(os.open(folder / "null", os.O_WRONLY))
+    except OSError:
+        return []
+    return words
 
 
 def system_words():
