@@ -42,8 +42,8 @@ OLDER = ("x.gif", "x.png", "z.txt", "x.html", "x.svg",
 KEPT = ("bin", "x.gif.frames", "x.png.farm")  # folders of the test, and of what can be gone on with
 KILLED, FAILED = "ended by SIGKILL", "exit status 3"
 KILLS = {"at once": KILLED, "in the middle": KILLED, "after all": KILLED, "fails": FAILED}
-# A tool that is killed: at once, or with half of its text out, or in, or with all; or fails then; or does not
-# end.
+# A tool that is killed: at once, or with half of its text out, or in, or with all and a note; or fails then;
+# or does not end.
 TOOL = f'''#!{sys.executable} -I
 import os, signal, subprocess, sys
 words = ["{BIN}/TOOL", *sys.argv[1:]]
@@ -63,6 +63,7 @@ elif "MOMENT" == "in the middle":
     os.write(1, text[:len(text) // 2 + 7])
 elif "MOMENT" in ("after all", "fails"):
     status = subprocess.run(words).returncode
+    if "MOMENT" == "after all": print("TOOL: note: a\\n\\nzbuf: status 7\\n", file=sys.stderr)
     if "MOMENT" == "fails": sys.exit(status or 3)
 os.kill(os.getpid(), signal.SIGKILL)
 '''

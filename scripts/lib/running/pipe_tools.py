@@ -72,13 +72,12 @@ STAGES_IN_SHELL = r'''
 stage() {
   "$bin/$@" 3>&- && return
   set -- "$1" $?
-  echo "$1: status $(($2 > 128 ? 128 - $2 : $2))" >&3
+  echo "$1: status $(($2 > 128 && $2 <= 192 ? 128 - $2 : $2))" >&3
   return 1
 }
 fail() {
-  printf '\f%s\n' "$2"
-  cat "$1.log"
-  echo "$statuses"
+  printf '\f%s\n%s\n' "$2" "$statuses"
+  sed 's/^/  /' "$1.log"
   echo
   rm -f "$1" "$1.log"
 }
@@ -117,8 +116,8 @@ def expect_success(*pipe):
 def failure_of_jobs(printed):
     """Why the first job failed in which a tool did; empty if there is none."""
     job, _, record = printed.split("\n\n")[0].partition("\n")
-    statuses = dict(re.findall(STATUS, record, re.M))
-    own = {tool: "\n".join(line for line in record.splitlines() if f"{tool}: " in line) for tool in statuses}
+    statuses, log = dict(re.findall(STATUS, record, re.M)), re.findall("^  (.*)", record, re.M)
+    own = {tool: "\n".join(line for line in log if f"{tool}: " in line) for tool in statuses}
     try:
         expect_success(*(Done(tool, int(statuses[tool]), own[tool].encode()) for tool in PIPE if tool in own))
     except CommandFailure as failure:
@@ -170,6 +169,8 @@ class Tools:
             for tool, *words in calls:
                 framing = FRAMING.get(tool, []) if len(calls) > 1 else []
                 is_last, errors = len(runs) == len(calls) - 1, stack.enter_context(tempfile.TemporaryFile())
+                if runs:
+                    stack.callback(source.close)  # also if the next tool cannot be started
                 process = subprocess.Popen(self.command(tool, [*framing, *words]), cwd=cwd, stdin=source,
                                            stdout=stdout if is_last else subprocess.PIPE, stderr=errors)
                 if runs:
