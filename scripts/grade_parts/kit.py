@@ -31,6 +31,8 @@ if not sys.flags.isolated:  # a hand-in may lie here, and modules of its own in 
     os.execv(sys.executable, [sys.executable, "-I", *sys.argv])
 sys.dont_write_bytecode = True
 sys.path.insert(0, {place})
+# Nor may it hold programs that are called by name.
+os.environ["PATH"] = os.pathsep.join(filter(os.path.isabs, os.get_exec_path()))
 
 from grade_parts.kit_{kind} import main
 from lib.rim.command import run_command
