@@ -1,4 +1,5 @@
 """A scene's text with another camera, and with its first light moved."""
+from lib.rim.command import CommandFailure
 
 
 def words_of(line):
@@ -11,7 +12,7 @@ def without_first_light(lines):
         if words_of(line)[:1] == ["light"]:
             end = i + 1
             if len(words_of(line)) == 1:  # its numbers are on the next line that has any
-                while not words_of(lines[end]):
+                while end < len(lines) and not words_of(lines[end]):
                     end += 1
                 end += 1
             return lines[:i] + lines[end:]
@@ -27,6 +28,8 @@ def rewritten(scene, camera_lines, light=None):
             places.append(i)
         if len(places) == 4:
             break
+    if len(places) < 4:  # an editor may be writing it
+        raise CommandFailure("the scene ends before its projection")
     for place, words in zip(places, camera_lines):
         comment = lines[place].partition("#")
         lines[place] = " ".join(words) + ("  #" + comment[2] if comment[1] else "")

@@ -353,7 +353,7 @@ class FlyWindow:
     def scene_text(self):
         light = self.pipe.light if self.is_light_moved else None
         # A comment that is not UTF-8 stays as it is.
-        text = read_input(str(self.scene)).decode("utf-8-sig", errors="surrogateescape")
+        text = read_input(str(self.scene), only_regular=True).decode("utf-8-sig", errors="surrogateescape")
         return rewritten(text, self.settings.camera.lines(), light).encode(errors="surrogateescape")
 
     def write_scene(self):

@@ -380,6 +380,13 @@ class Flying(WindowTest):
         os.unlink("scene.txt")
         self.press("p")
         self.assertEqual(self.status(), "cannot read scene.txt: No such file or directory")
+        pathlib.Path("scene.txt").write_text("0 0 5\n")  # an editor has written a part of it
+        self.press("p")
+        self.assertEqual(self.status(), "the scene ends before its projection")
+        os.unlink("scene.txt")
+        os.mkfifo("scene.txt")
+        self.press("p")
+        self.assertEqual(self.status(), "cannot read scene.txt: Not a regular file")
 
     def test_what_a_tool_refuses_is_said_and_taken_back(self):
         from lib.running.pipe_tools import Tools
