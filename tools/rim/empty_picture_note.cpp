@@ -268,7 +268,11 @@ std::string speck_note(const BoundingBox& extent, const Viewport& screen) {
   };
   return "all that is drawn lies within " + pixels(extent.high.x - extent.low.x, screen.dx()) + " x " +
          pixels(extent.high.y - extent.low.y, screen.dy()) + " pixels of " + std::to_string(screen.columns) +
-         " x " + std::to_string(screen.rows) + ": it is too small or too far away, or the view is too wide";
+         " x " + std::to_string(screen.rows) +
+         (std::min(screen.left, screen.bottom) < -10
+              ? ": what is in view lies from -1 to 1, but the config's window begins at " +
+                    rounded(screen.left) + " " + rounded(screen.bottom) + "; are these pixels?"
+              : ": it is too small or too far away, or the view is too wide");
 }
 
 std::string unseen_spheres_note(const UnseenSpheres& spheres) {
