@@ -295,7 +295,7 @@ class Picture(ToolTest):
         done = subprocess.run([SOURCE / "scripts/explain", "vase.obj", "--triangle", "0"],
                               capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("vase.obj, line ", done.stdout.splitlines()[0])
+        self.assertIn(": the scene of vase.obj, line ", done.stdout.splitlines()[0])
 
     def test_a_misspelt_option_names_the_nearest(self):
         done = picture("vase.obj", "--bakground", "00000000", "-o", "one.png")
