@@ -45,7 +45,10 @@ void read_text(std::string_view bytes, Model& model) {
     } else if (keyword == "endfacet" || keyword == "facet") {
       if (vertex_count != (keyword == "facet" ? 0 : 3)) text.fail(word, "vertices of a triangle");
       vertex_count = 0;
-      text.rest_of_line();  // a normal, which nobody needs
+      if (keyword == "endfacet") continue;
+      const std::string_view normal = text.word();  // nobody needs it
+      if (!normal.empty() && in_lower_case(normal) != "normal") text.fail(normal, "normal");
+      for (int i = 0; i < 3; ++i) text.word();
     } else if (keyword != "outer" && keyword != "loop" && keyword != "endloop") {
       text.fail(word, "facet, outer loop, vertex, endloop, endfacet or endsolid");
     }
@@ -103,6 +106,10 @@ void read_binary(std::string_view bytes, Model& model) {
 }
 
 }  // namespace
+
+bool is_whole_binary_stl(std::string_view bytes) {
+  return facet_count(bytes) > 0 && bytes.size() == kHeader + kFacet * facet_count(bytes);
+}
 
 bool is_stl(std::string_view bytes) {
   if (is_text(bytes)) return true;

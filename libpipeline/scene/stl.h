@@ -6,6 +6,8 @@
 
 namespace pipeline {
 
+/// True if the size is that of a binary STL file with the triangles that it counts.
+bool is_whole_binary_stl(std::string_view bytes);
 /// True if the bytes are an STL file, text or binary.
 bool is_stl(std::string_view bytes);
 

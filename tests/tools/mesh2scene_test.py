@@ -862,6 +862,8 @@ class Readers(ToolTest):
         ("a.stl", stl(3), 0, ": expected 3 triangles in a binary STL file, found 1: it is cut"),
         ("a.stl", "solid\n" + FACET, 0, ":9:1: expected endsolid, found the end of the file"),
         ("a.stl", "solid\n" + FACET.replace("1 0 0", "1 o 0"), 0, ":5:10: expected a coordinate, found 'o'"),
+        ("a.stl", "solid\n" + FACET + (FACET + "endsolid").replace("\n", " "), 2),
+        ("a.stl", stl(1, header=b"Offset bracket"), 1),
         ("a.stl", stl(1, 0x8000, b"COLOR=\xff\0\0\xff"), 1, "", "255 0 0"),  # Magics: of the object
         ("a.stl", stl(1, 0x7C00, b"COLOR=\xff\0\0\xff"), 1, "", "0 0 255"),
         ("a.stl", stl(1, 0xFC00), 1, "", "255 0 0"),  # VisCAM
@@ -871,6 +873,8 @@ class Readers(ToolTest):
         ("a.ply", PLY % ("face", RGB, "4 0 1 3 2 250 20 10"), 2, "", "250 20 10"),
         ("a.ply", PLY % ("face", "element edge 1\nproperty int vertex1\n", "3 0 1 2\n0"), 1,
          ": no scene can hold its points and lines"),
+        ("a.ply", (PLY % ("face", RGB, "3 0 1 3 250 20 10\n3 4 5 3 250 20 10")).replace(
+            "face 1", "face 2"), 0, ":18:3: expected the index of a vertex, found '4'"),
         ("a.ply", PLY % ("face", "", "3 0 1 9"), 0, ":14:7: expected the index of a vertex, found '9'"),
         ("a.ply", PLY % ("face", "", "3 0 1 -2"), 0, ":14:7: expected the index of a vertex, found '-2'"),
         ("a.ply", PLY % ("face", "", "3 0 1"), 0, ":15:1: expected a number, found the end of the file"),
@@ -906,10 +910,8 @@ class Readers(ToolTest):
         ("a.obj", "version https://git-lfs.github.com/spec/v1\n", 0,
          OTHER + "a Git LFS pointer, which stands for the model: git lfs pull gets it"),
         ("a.obj", b"\x1f\x8b\x08", 0, OTHER + "a file packed by gzip: gunzip unpacks it"),
-        ("a.obj", V.encode("utf-16"), 0,
-         OTHER + "text in UTF-16: iconv -f UTF-16 -t UTF-8 converts it"),
-        ("a.obj", "\n<!DOCTYPE html><html>", 0,
-         OTHER + "a page of HTML in place of the file"),
+        ("a.obj", V.encode("utf-16"), 0, OTHER + "text in UTF-16: iconv -f UTF-16 -t UTF-8 converts it"),
+        ("a.obj", "\n<!DOCTYPE html><html>", 0, OTHER + "a page of HTML in place of the file"),
         ("a.dae", "<?xml version='1.0'?><COLLADA/>", 0, OTHER + "XML, such as COLLADA, X3D or AMF: assimp "
          "export a.dae a.glb converts it (Debian: assimp-utils)"))
 
@@ -930,7 +932,7 @@ class Readers(ToolTest):
 
     def test_mtl(self):
         model = "mtllib a.mtl\nusemtl m\n" + V + "f 1 2 3\n"
-        for lines, color, message in (("Kd 0.8", "204 204 204", ""), ("Kd 0 0 0\nKe 1 1 0", "255 255 0", ""),
+        for lines, color, message in (("Kd 0.8", "204 204 204", ""), ("Kd 0 0 0\nKe 15 9 0", "255 255 0", ""),
                                       ("Kd 0 0 0\nmap_Kd x.png", USUAL, ": no scene can hold its textures"),
                                       ("Kd 255 0 0", "255 0 0",
                                        ": its colors reach to 255: 255 is taken for full, not 1"),
@@ -974,6 +976,11 @@ class Readers(ToolTest):
                                (4000000000, "4000000000 values in a view of 36 bytes, found the view's end")):
             document["accessors"][0]["count"] = count
             self.expect("a.gltf", json.dumps(document), 0, ": expected " + message)
+        document = changed()
+        document["accessors"].append({**document["accessors"][0], "count": 1})
+        document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = len(document["accessors"]) - 1
+        self.expect("a.gltf", json.dumps(document), 0,
+                    ": expected 3 colors in COLOR_0, one for each vertex, found 1")
 
 
 class Notes(ToolTest):

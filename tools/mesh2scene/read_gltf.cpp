@@ -120,6 +120,8 @@ class GltfReader {
       if (!file && !files_.refusal().empty()) throw std::runtime_error(model_.name + ": " + files_.refusal());
       if (!file) model_.fail("the file of its numbers", "no " + pipeline::quoted(uri));
       bytes = *file;
+    } else if (&json != &document_["buffers"][0]) {
+      model_.fail("the uri of a buffer", "none: the first alone is in the file itself");
     }
     if (count(json, "byteLength") > bytes.size())
       model_.fail(counted(count(json, "byteLength"), "byte") + " in a buffer",
@@ -160,7 +162,7 @@ class GltfReader {
     const double type = json["componentType"].number;
     const bool is_normalized = json["normalized"].number != 0, is_in_buffer = json["bufferView"].is_there;
     const std::size_t n = count(json, "count"), replaced = count(sparse, "count");
-    constexpr std::size_t kMostZeros = 100'000'000;
+    constexpr std::size_t kMostZeros = 1'000'000;
     if (!is_in_buffer && (!sparse.is_there || n > kMostZeros))
       model_.fail("an accessor with numbers in a buffer", "none: they are compressed, or missing");
     std::vector<double> values(is_in_buffer ? 0 : n * width);
@@ -199,7 +201,8 @@ class GltfReader {
         fraction((0.04 + metal * (fraction(largest_in(color)) - 0.04)) * (material.shininess + 2) / 8);
     material.diffuse = 1 - metal / 2;
     if (const std::string& mode = json["alphaMode"].text;
-        base[3].number_or(1) < 1 && mode.size() > 0 && mode != "OPAQUE")
+        (base[3].number_or(1) < 1 && mode.size() > 0 && mode != "OPAQUE") ||
+        json["extensions"]["KHR_materials_transmission"]["transmissionFactor"].number > 0)
       model_.unheld.insert("transparency");
   }
 
@@ -289,6 +292,7 @@ class GltfReader {
     const double mode = json["mode"].number_or(4);
     const Json &attributes = json["attributes"], &material = json["material"];
     if (mode < 4) model_.unheld.insert("points and lines");
+    if (json["targets"][0].is_there) model_.unheld.insert("morph targets");
     if (mode < 4 || mode > 6 || !attributes["POSITION"].is_there) return false;
     if (material.is_there) item("materials", material);
     const auto [base, size] = points_of(attributes, material);
@@ -333,10 +337,13 @@ class GltfReader {
       model_.points.push_back({positions[i], positions[i + 1], positions[i + 2]});
     if (colors.is_there) {
       const std::vector<double> values = numbers(colors, 3);
+      if (values.size() != positions.size())
+        model_.fail(counted(positions.size() / 3, "color") + " in COLOR_0, one for each vertex",
+                    std::to_string(values.size() / 3));
       const Vec3 factor =
           material.is_there ? linear_colors_[static_cast<std::size_t>(material.number)] : Vec3{1, 1, 1};
       model_.colors.resize(base, kNoColor);
-      for (std::size_t i = 0; i < std::min(values.size(), positions.size()); i += 3)
+      for (std::size_t i = 0; i < values.size(); i += 3)
         model_.colors.push_back(file_color(product(factor, {values[i], values[i + 1], values[i + 2]})));
     }
     return known->second = {static_cast<std::uint32_t>(base),

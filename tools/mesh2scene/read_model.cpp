@@ -63,11 +63,14 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
       text += " " + file + " " + file.substr(0, file.rfind('.')) + ".glb converts it (Debian: assimp-utils)";
     model.fail("an OBJ, STL, PLY or glTF file", text);
   };
+  const bool is_binary_stl = is_whole_binary_stl(bytes);  // whatever its header says
   for (const auto& [known, what, cure] : kOtherFormats)
-    if (in_lower_case(bytes.substr(0, known.size())) == known ||
-        in_lower_case(begin.substr(0, known.size())) == known)
+    if (!is_binary_stl && (in_lower_case(bytes.substr(0, known.size())) == known ||
+                           in_lower_case(begin.substr(0, known.size())) == known))
       refuse(what, cure);
-  if (begin.starts_with("ply"))
+  if (is_binary_stl)
+    model.format = "STL", read_stl(bytes, model);
+  else if (begin.starts_with("ply"))
     model.format = "PLY", read_ply(bytes, model);
   else if (bytes.starts_with("glTF") || begin.starts_with("{"))
     model.format = "glTF", read_gltf(bytes, files, model);

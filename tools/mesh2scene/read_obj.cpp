@@ -79,6 +79,7 @@ class MtlReader {
       if (shininess_ > 0) material.shininess = std::clamp(shininess_, 1.0, 10000.0);
       // A black material with a texture, or one that shines by itself, was not seen as black by its author.
       const bool is_black = !(brightest(diffuse_) > 0);
+      for (float& channel : emitted_) channel = std::min(channel, 1.0F);  // light has no upper limit
       colors_.push_back(is_black && brightest(emitted_) > 0 ? emitted_
                         : is_black && is_textured_          ? kNoColor
                                                             : diffuse_);
@@ -255,9 +256,11 @@ class ObjReader {
   }
 
   bool read_library(const std::string& name) {
+    const auto [known, is_new] = libraries_.try_emplace(name, false);
+    if (!is_new) return known->second;
     const std::optional<std::string_view> bytes = files_.read(name);
     if (bytes) MtlReader(name, *bytes, model_, materials_).read();
-    return bytes.has_value();
+    return known->second = bytes.has_value();
   }
 
   ModelText text_;
@@ -265,6 +268,7 @@ class ObjReader {
   Model& model_;
   std::vector<Floats> normals_;
   std::uint64_t edge_count_ = 0;
+  std::map<std::string, bool> libraries_;  // by name: true for those that are there
   bool lacks_library_ = false, is_open_ = false;
   std::string name_ = "defaultobject", material_name_;
   std::vector<std::string> material_names_;  // of meshes

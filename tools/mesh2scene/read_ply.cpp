@@ -171,7 +171,7 @@ class PlyReader {
       if (!are_indices) continue;
       const bool is_restart = may_restart && (index == -1 || index == kRestart);
       const bool is_index =
-          index >= 0 && index < static_cast<double>(model_.points.size()) && index == std::floor(index);
+          index >= 0 && index < static_cast<double>(vertex_count_) && index == std::floor(index);
       if (!is_index && !is_restart) fail("the index of a vertex", index);
       indices_.push_back(is_restart ? kRestart : static_cast<std::uint32_t>(index));
     }
@@ -197,6 +197,7 @@ class PlyReader {
       if (record_[kAlpha] < opaque) model_.unheld.insert("transparency");
     });
     has_points_ = true;
+    vertex_count_ = model_.points.size();
   }
 
   /// Faces, or strips, which are faces of three corners each.
@@ -250,6 +251,7 @@ class PlyReader {
   Model& model_;
   ModelMesh* mesh_ = nullptr;
   bool is_text_ = true, is_big_endian_ = false, has_points_ = false;
+  std::size_t vertex_count_ = 0;  // of the file; points may have copies for the colors of faces
   double full_color_ = 1;
   std::vector<Element> elements_;
   std::vector<Floats> normals_;

@@ -223,7 +223,7 @@ class SceneWriter {
 
   [[nodiscard]] Vec3 color_of(std::uint32_t index) const {
     if (!placed_->mesh->has_colors) return color_;
-    const auto& [red, green, blue] = model_.colors[index];
+    const auto [red, green, blue] = model_.color(index);
     return std::isnan(red + green + blue) ? color_ : Vec3{red, green, blue};
   }
 

@@ -35,10 +35,8 @@ struct CornersByPosition {
 
   static std::size_t hash(const Vec3& p) {
     // Adding 0 takes the sign from a zero, which equals the other one.
-    const auto bits = [](double x) {
-      return std::uint64_t{std::bit_cast<std::uint32_t>(static_cast<float>(x) + 0.0F)};
-    };
-    std::uint64_t mixed = (bits(p.x) << 32 | bits(p.y)) * 0x9e3779b97f4a7c15;
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
+    std::uint64_t mixed = (bits(p.x) ^ std::rotl(bits(p.y), 32)) * 0x9e3779b97f4a7c15;
     mixed = (mixed ^ mixed >> 32 ^ bits(p.z)) * 0xbf58476d1ce4e5b9;
     return static_cast<std::size_t>(mixed ^ mixed >> 29);
   }
