@@ -145,7 +145,7 @@ class Tools:
         """Raises the ToolFailure of a build that lacks a tool, or PNG where the last one is to write it."""
         for tool in tools:
             if not os.access(self.folder / tool, os.X_OK):
-                raise ToolFailure(f"no {tool} in {self.folder}")
+                raise ToolFailure(f"no {tool} in {self.folder}: 'cmake --build --preset release' builds it")
         if png:
             words = ["--size", "1x1", "--z-buffer", "none", "--image", f"png:{os.devnull}"]
             self.run(tool, *words, *["--ortho", *"010112"] * (tool == "trace"))
