@@ -118,10 +118,7 @@ struct Model {
 
   /// A std::runtime_error "expected ..., found ...".
   [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
-  void note(const std::string& message) {
-    if (std::ranges::find(notes, name + ": " + message) == notes.end())
-      notes.push_back(name + ": " + message);
-  }
+  void note(const std::string& message) { notes.push_back(name + ": " + message); }
   /// A mesh that is shown where it is.
   ModelMesh& add_mesh(const std::string& mesh_name);
 

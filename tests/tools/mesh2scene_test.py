@@ -946,6 +946,7 @@ class Readers(ToolTest):
         for name in ("b c.mtl", '"b c.mtl"', "./b c.mtl", "b.mtl a.mtl"):
             self.expect("a.obj", model.replace("a.mtl", name), 1, "", "255 0 0")
         for name, message in (("c.mtl", "no file 'c.mtl' with its materials is there"),
+                              ("c.mtl\nmtllib c.mtl", "no file 'c.mtl' with its materials is there"),
                               ("b.mtl", "its material 'm' is nowhere: it gets the usual color")):
             self.expect("a.obj", model.replace("a.mtl", name), 1, ": " + message, USUAL)
 

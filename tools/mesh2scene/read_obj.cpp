@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "libpipeline/scene/model_text.h"
@@ -250,7 +251,7 @@ class ObjReader {
     for (std::string name; words >> name;) {
       if (read_library(name)) continue;
       lacks_library_ = true;
-      if (files_.refusal().empty())
+      if (files_.refusal().empty() && missing_.insert(name).second)
         model_.note("no file " + pipeline::quoted(name) + " with its materials is there");
     }
   }
@@ -269,6 +270,7 @@ class ObjReader {
   std::vector<Floats> normals_;
   std::uint64_t edge_count_ = 0;
   std::map<std::string, bool> libraries_;  // by name: true for those that are there
+  std::set<std::string> missing_;          // those of the notes
   bool lacks_library_ = false, is_open_ = false;
   std::string name_ = "defaultobject", material_name_;
   std::vector<std::string> material_names_;  // of meshes

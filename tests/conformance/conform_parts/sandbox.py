@@ -79,9 +79,11 @@ def device_words(folder):
     """Words of bubblewrap that put devices in a folder in place of the system's, whose modes root's number
     changes without a capability. None where the system's are not its own, or these could not be opened."""
     words = []
+    if os.getuid() != 0:
+        return words
     try:
         os.makedirs(folder, exist_ok=True)
-        for name in DEVICES if os.getuid() == 0 else ():
+        for name in DEVICES:
             path = folder / name
             if not path.exists():
                 os.mknod(path, stat.S_IFCHR, os.stat(f"/dev/{name}").st_rdev)
