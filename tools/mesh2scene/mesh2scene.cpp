@@ -12,7 +12,6 @@
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
 #include "tools/mesh2scene/readers.h"
-#include "tools/mesh2scene/scene_materials.h"
 #include "tools/mesh2scene/scene_setting.h"
 #include "tools/mesh2scene/scene_text.h"
 #include "tools/rim/tool.h"
@@ -180,10 +179,8 @@ int main(int argc, char** argv) {
     if (setting.has_one_color) setting.color = to_vec3(*parse_color(chosen.color));
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
                         ", by mesh2scene; zbuf --size " + chosen.size};
-    const SceneMaterials materials(model, setting);
-    if (materials.are_too_many)
-      tool.note(name + ": it has more than " + counted(SceneMaterials::kMaxCount, "material") +
+    if (!write_scene(model, setting, chosen.as_nodes, tool.output()))
+      tool.note(name + ": it has more than " + counted(kMostMaterials, "material") +
                 "; from there on meshes have the first");
-    write_scene(model, setting, materials, chosen.as_nodes, tool.output());
   });
 }

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -16,11 +17,55 @@
 
 namespace pipeline {
 
+namespace {
+
 std::string text_of(const Vec3& v) {
   return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
 }
 
-namespace {
+/// The color of a mesh without vertex colors, from 0 to 255.
+Vec3 color_of(const ModelMesh& mesh, const Model& model, const SceneSetting& setting) {
+  return setting.has_one_color ? setting.color : model.material(mesh).color.value_or(setting.color);
+}
+
+/// The materials of a scene made from a model: each distinct one that a mesh has, in the order of the meshes.
+/// They carry the colors of their meshes as paints, if all colors come from materials or the setting, and the
+/// paints leave no more than kMostMaterials.
+struct SceneMaterials {
+  SceneMaterials(const Model& model, const SceneSetting& setting)
+      : have_paints(setting.has_one_color || !model.has_vertex_colors()) {
+    number_all(model, setting);
+    if (!have_paints || !are_too_many) return;
+    have_paints = are_too_many = false;
+    lines.clear();
+    numbers.clear();
+    number_all(model, setting);
+  }
+
+  std::vector<std::string> lines;  // `material` and perhaps `paint`, for each; at least one
+  std::map<std::optional<std::size_t>, std::size_t> numbers;  // by the model's
+  bool have_paints;
+  bool are_too_many = false;  // more than kMostMaterials: each one more has the number 0
+
+ private:
+  void number_all(const Model& model, const SceneSetting& setting) {
+    for (const PlacedMesh& placed : model.placed) {
+      const auto [known, is_new] = numbers.try_emplace(placed.mesh->material);
+      if (!is_new) continue;
+      const ModelMaterial material = model.material(*placed.mesh);
+      std::string line = "material ";
+      // Three decimals are finer than a picture shows, and hide that files hold floats.
+      for (const double factor : {material.ambient, material.diffuse, material.specular})
+        line += shortest_text(std::round(factor * 1000) / 1000) + " ";
+      line += shortest_text(std::round(material.shininess));
+      if (have_paints) line += "\npaint " + text_of(color_of(*placed.mesh, model, setting));
+      const auto number = static_cast<std::size_t>(std::ranges::find(lines, line) - lines.begin());
+      if (number == lines.size() && number < kMostMaterials) lines.push_back(line);
+      are_too_many = are_too_many || number == kMostMaterials;
+      known->second = number < kMostMaterials ? number : 0;
+    }
+  }
+};
 
 std::string float_text(double value) {
   std::array<char, kMaxFloatLength> text{};
@@ -242,12 +287,13 @@ class SceneWriter {
 
 }  // namespace
 
-void write_scene(const Model& model, const SceneSetting& setting, const SceneMaterials& materials,
-                 bool as_nodes, TextWriter& out) {
+bool write_scene(const Model& model, const SceneSetting& setting, bool as_nodes, TextWriter& out) {
+  const SceneMaterials materials(model, setting);
   SceneWriter writer(model, setting, materials, out);
   writer.write_setting();
   as_nodes ? writer.write_node(model.root, {}) : writer.write_meshes();
   writer.line("end");
+  return !materials.are_too_many;
 }
 
 }  // namespace pipeline
