@@ -893,7 +893,7 @@ class Readers(ToolTest):
         ("a.obj", V + "v -1.#IND 1 1\n", 0, ":4:3: expected a coordinate, found '-1.#IND'"),
         ("a.obj", V + "v 1 nan 1\n", 0, ":4:5: expected a coordinate, found 'nan'"),
         ("a.obj", V + "v 1 1\n", 0, ":4:6: expected three coordinates, found the end of the line"),
-        ("a.obj", V + "f 1 2 3\nf 1 2\n", 1, ": 1 face with fewer than three corners: left out"),
+        ("a.obj", V + "f 1 2 3\nf 1 2\n", 1, ": no scene can hold its points and lines"),
         ("a.obj", "v 9 9 9\n" * 9 + V + "f 10 11 12\n", 1,
          ": its triangles use 3 of its 12 vertices: the others are not drawn"),
         ("a.obj", V.replace(" 0\n", " 0 255 128 0\n") + "f 1 2 3\n", 1,

@@ -133,8 +133,6 @@ class ObjReader {
       scale_colors(model_, model_.colors, 1);
       for (ModelMesh& mesh : model_.meshes) mesh.has_colors = true;
     }
-    if (edge_count_ > 0)
-      model_.note(counted(edge_count_, "face") + " with fewer than three corners: left out");
     find_materials();
   }
 
@@ -197,7 +195,7 @@ class ObjReader {
         corner_normals_.push_back(index(normal, normals_.size(), "normal"));
     }
     if (corners_.size() < 3) {
-      ++edge_count_;
+      model_.unheld.insert("points and lines");
       return;
     }
     ModelMesh& mesh = current();
@@ -268,7 +266,6 @@ class ObjReader {
   ModelFiles& files_;
   Model& model_;
   std::vector<Floats> normals_;
-  std::uint64_t edge_count_ = 0;
   std::map<std::string, bool> libraries_;  // by name: true for those that are there
   std::set<std::string> missing_;          // those of the notes
   bool lacks_library_ = false, is_open_ = false;
