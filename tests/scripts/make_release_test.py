@@ -88,7 +88,7 @@ class MakeRelease(unittest.TestCase):
         new = self.out / "new"
         self.assertEqual((new / "notes.md").read_text(), "- New.\n")
         self.assertEqual((new / "built-with.txt").read_text(),
-                         "list\nfor the playground, node v0, and\n2\n2\n")
+                         "list\nfor the playground, node v0, and\n3\n2\n")
         done = subprocess.run(["sha256sum", "--strict", "-c", "SHA256SUMS"], cwd=new, capture_output=True,
                               text=True)
         self.assertEqual(done.stdout.splitlines(), [

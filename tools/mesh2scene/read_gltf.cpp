@@ -10,8 +10,12 @@
 #include <stdexcept>
 #include <tuple>
 
+// They would take time to compile.
+#define JSON_NO_IO
+#define JSON_USE_IMPLICIT_CONVERSIONS 0
+#include <nlohmann/json.hpp>
+
 #include "libpipeline/numbers/vec_math.h"
-#include "libpipeline/scene/json.h"
 #include "libpipeline/scene/model_text.h"
 #include "libpipeline/scene/polygon.h"
 #include "libpipeline/text/error.h"
@@ -22,6 +26,51 @@ namespace pipeline {
 namespace {
 
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+
+/// A value of a document. One that is missing, null or of another type reads as 0, "" or without items.
+struct Json {
+  const nlohmann::json* value;
+
+  Json(const nlohmann::json& json) : value(&json) {}  // NOLINT(google-explicit-constructor)
+
+  Json operator[](std::string_view name) const {
+    const auto found = value->find(name);
+    return found == value->end() ? kNothing : *found;
+  }
+  Json operator[](std::size_t index) const { return index < items().size() ? items()[index] : kNothing; }
+  [[nodiscard]] bool is_there() const { return !value->is_null(); }
+  [[nodiscard]] bool is_true() const { return value->is_boolean() && value->get<bool>(); }
+  [[nodiscard]] double number(double missing = 0) const {
+    return value->is_number() ? value->get<double>() : missing;
+  }
+  [[nodiscard]] const std::string& text() const {
+    return (value->is_string() ? *value : kNoText).get_ref<const std::string&>();
+  }
+  [[nodiscard]] const std::vector<nlohmann::json>& items() const {
+    return (value->is_array() ? *value : kNoItems).get_ref<const nlohmann::json::array_t&>();
+  }
+
+  static const nlohmann::json kNothing, kNoText, kNoItems;
+};
+const nlohmann::json Json::kNothing, Json::kNoText = "", Json::kNoItems = nlohmann::json::array();
+
+/// Parses a whole text; a NUL ends it, as chunks of GLB are padded.
+nlohmann::json parse_json(const std::string& name, std::string_view text) {
+  std::size_t place = 0;
+  std::string reason;
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {  // "...: ... - REASON; last read: '...'"
+    reason = error.what();
+    reason = reason.substr(0, reason.find("; last read")).substr(reason.find(" - ") + 3);
+    place = text.substr(0, error.byte - 1).find_last_of(" \t\r\n,:[]{}\"") + 1;
+  } catch (const nlohmann::json::out_of_range& error) {  // "... number overflow parsing '1e999'"
+    const std::string what = error.what();
+    place = text.find(what.substr(what.find('\'') + 1, what.size() - what.find('\'') - 2));
+    reason = "numbers of doubles";
+  }
+  ModelText(name, text).fail(text.substr(place, 20), "JSON (" + reason + ")");
+}
 
 /// The JSON and the numbers of a GLB file; of a text, JSON alone.
 std::array<std::string_view, 2> parts_of(std::string_view bytes) {
@@ -57,30 +106,30 @@ constexpr std::array kComponents = {  // from 5120 on
 
 class GltfReader {
  public:
-  GltfReader(const Json& document, std::string_view binary, ModelFiles& files, Model& model)
+  GltfReader(Json document, std::string_view binary, ModelFiles& files, Model& model)
       : document_(document), binary_(binary), files_(files), model_(model) {}
 
   void read() {
-    if (const std::string& version = document_["asset"]["version"].text; !version.starts_with("2"))
+    if (const std::string& version = document_["asset"]["version"].text(); !version.starts_with("2"))
       model_.fail("glTF of version 2", "version " + pipeline::quoted(version));
-    for (const auto& [_, extension] : document_["extensionsRequired"].items)
-      if (!is_supported(extension.text))
+    for (const Json extension : document_["extensionsRequired"].items())
+      if (!is_supported(extension.text()))
         model_.fail("extensions that are supported",
-                    pipeline::quoted(extension.text) + ", which the file requires");
-    for (const auto& [_, extension] : document_["extensionsUsed"].items) {
-      if (extension.text == "KHR_materials_unlit") model_.unheld.insert("unlit surfaces");
-      if (extension.text == "EXT_mesh_gpu_instancing") model_.unheld.insert("further instances");
+                    pipeline::quoted(extension.text()) + ", which the file requires");
+    for (const Json extension : document_["extensionsUsed"].items()) {
+      if (extension.text() == "KHR_materials_unlit") model_.unheld.insert("unlit surfaces");
+      if (extension.text() == "EXT_mesh_gpu_instancing") model_.unheld.insert("further instances");
     }
     for (const auto& [part, name] : {std::pair("animations", "animations"), std::pair("skins", "bones"),
                                      std::pair("textures", "textures")})
-      if (document_[part][0].is_there) model_.unheld.insert(name);
-    for (const auto& [_, material] : document_["materials"].items) read_material(material);
-    if (document_["scenes"][0].is_there) {
-      const Json& index = document_["scene"];
-      const Json& scene = index.is_there ? item("scenes", index) : document_["scenes"][0];
-      for (const auto& [_, node] : scene["nodes"].items) read_node(node, {}, 0, model_.root);
+      if (document_[part][0].is_there()) model_.unheld.insert(name);
+    for (const Json material : document_["materials"].items()) read_material(material);
+    if (document_["scenes"][0].is_there()) {
+      const Json index = document_["scene"];
+      const Json scene = index.is_there() ? item("scenes", index) : document_["scenes"][0];
+      for (const Json node : scene["nodes"].items()) read_node(node, {}, 0, model_.root);
     } else {
-      for (std::size_t i = 0; i < document_["meshes"].items.size(); ++i) show_mesh(i, model_.root);
+      for (std::size_t i = 0; i < document_["meshes"].items().size(); ++i) show_mesh(i, model_.root);
     }
     if (!model_.colors.empty()) scale_colors(model_, model_.colors, 1, is_linear_);
     if (has_orthographic_ && !model_.camera)
@@ -89,53 +138,53 @@ class GltfReader {
 
  private:
   /// An item of one of the document's arrays.
-  const Json& item(const char* array, const Json& index) const {
-    const Json& items = document_[array];
-    const double i = index.number_or(-1);
-    if (!(i >= 0 && i < static_cast<double>(items.items.size())))
-      model_.fail(std::string("an index of ") + array + " below " + std::to_string(items.items.size()),
-                  index.is_there ? shortest_text(i) : "none");
+  Json item(const char* array, Json index) const {
+    const Json items = document_[array];
+    const double i = index.number(-1);
+    if (!(i >= 0 && i < static_cast<double>(items.items().size())))
+      model_.fail(std::string("an index of ") + array + " below " + std::to_string(items.items().size()),
+                  index.is_there() ? shortest_text(i) : "none");
     return items[static_cast<std::size_t>(i)];
   }
 
   /// A count or an offset in bytes; 0 if it is missing.
-  std::size_t count(const Json& json, const char* name) const {
-    const double value = json[name].number_or(0);
+  std::size_t count(Json json, const char* name) const {
+    const double value = json[name].number();
     if (!(value >= 0 && value < 1e15))
       model_.fail(std::string("a number from 0 as ") + name, shortest_text(value));
     return static_cast<std::size_t>(value);
   }
 
-  std::string_view buffer(const Json& index) {
-    const Json& json = item("buffers", index);
-    if (const auto known = buffers_.find(&json); known != buffers_.end()) return known->second;
-    const std::string& uri = json["uri"].text;
+  std::string_view buffer(Json index) {
+    const Json json = item("buffers", index);
+    if (const auto known = buffers_.find(json.value); known != buffers_.end()) return known->second;
+    const std::string& uri = json["uri"].text();
     std::string_view bytes = binary_;
     if (uri.starts_with("data:")) {
       decoded_.push_back(from_base64(std::string_view(uri).substr(std::min(uri.find(',') + 1, uri.size()))));
       bytes = decoded_.back();
-    } else if (json["uri"].is_there) {
+    } else if (json["uri"].is_there()) {
       std::optional<std::string_view> file = files_.read(uri);
       if (!file) file = files_.read(without_percent_codes(uri));
       if (!file && !files_.refusal().empty()) throw std::runtime_error(model_.name + ": " + files_.refusal());
       if (!file) model_.fail("the file of its numbers", "no " + pipeline::quoted(uri));
       bytes = *file;
-    } else if (&json != &document_["buffers"][0]) {
+    } else if (json.value != document_["buffers"][0].value) {
       model_.fail("the uri of a buffer", "none: the first alone is in the file itself");
     }
     if (count(json, "byteLength") > bytes.size())
       model_.fail(counted(count(json, "byteLength"), "byte") + " in a buffer",
                   std::to_string(bytes.size()) + ": it is cut");
-    return buffers_[&json] = bytes;
+    return buffers_[json.value] = bytes;
   }
 
   /// The first `width` components of `n` values, of which each has `components`.
-  std::vector<double> values_at(const Json& place, double type, std::size_t components, std::size_t n,
+  std::vector<double> values_at(Json place, double type, std::size_t components, std::size_t n,
                                 std::size_t width, bool is_normalized = false) {
     const bool is_known = type >= 5120 && type <= 5126 && type != 5124 && type == std::floor(type);
     if (!is_known) model_.fail("a componentType from 5120 to 5126", shortest_text(type));
     const auto& [size, value, most] = kComponents[static_cast<std::size_t>(type - 5120)];
-    const Json& view = item("bufferViews", place["bufferView"]);
+    const Json view = item("bufferViews", place["bufferView"]);
     std::string_view bytes = buffer(view["buffer"]);
     bytes = bytes.substr(std::min(count(view, "byteOffset"), bytes.size()), count(view, "byteLength"));
     bytes.remove_prefix(std::min(count(place, "byteOffset"), bytes.size()));
@@ -152,24 +201,24 @@ class GltfReader {
   }
 
   /// All numbers of an accessor whose type has `width` of them, or more.
-  std::vector<double> numbers(const Json& index, std::size_t width) {
-    const Json &json = item("accessors", index), &sparse = json["sparse"];
+  std::vector<double> numbers(Json index, std::size_t width) {
+    const Json json = item("accessors", index), sparse = json["sparse"];
     constexpr std::array<std::string_view, 4> kKinds = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-    const std::string& kind = json["type"].text;
+    const std::string& kind = json["type"].text();
     const auto components = static_cast<std::size_t>(std::ranges::find(kKinds, kind) - kKinds.begin()) + 1;
     if (components > kKinds.size() || components < width)
       model_.fail("an accessor of " + counted(width, "number"), pipeline::quoted(kind));
-    const double type = json["componentType"].number;
-    const bool is_normalized = json["normalized"].number != 0, is_in_buffer = json["bufferView"].is_there;
+    const double type = json["componentType"].number();
+    const bool is_normalized = json["normalized"].is_true(), is_in_buffer = json["bufferView"].is_there();
     const std::size_t n = count(json, "count"), replaced = count(sparse, "count");
     constexpr std::size_t kMostZeros = 1'000'000;
-    if (!is_in_buffer && (!sparse.is_there || n > kMostZeros))
+    if (!is_in_buffer && (!sparse.is_there() || n > kMostZeros))
       model_.fail("an accessor with numbers in a buffer", "none: they are compressed, or missing");
     std::vector<double> values(is_in_buffer ? 0 : n * width);
     if (is_in_buffer) values = values_at(json, type, components, n, width, is_normalized);
-    if (!sparse.is_there) return values;
-    const Json &places = sparse["indices"], &others = sparse["values"];
-    const std::vector<double> at = values_at(places, places["componentType"].number, 1, replaced, 1),
+    if (!sparse.is_there()) return values;
+    const Json places = sparse["indices"], others = sparse["values"];
+    const std::vector<double> at = values_at(places, places["componentType"].number(), 1, replaced, 1),
                               by = values_at(others, type, components, replaced, width, is_normalized);
     for (std::size_t i = 0; i < replaced; ++i) {
       if (!(at[i] >= 0 && at[i] < static_cast<double>(n)))
@@ -180,29 +229,29 @@ class GltfReader {
     return values;
   }
 
-  static Vec3 vec(const Json& json, double missing) {
-    return {json[0].number_or(missing), json[1].number_or(missing), json[2].number_or(missing)};
+  static Vec3 vec(Json json, double missing) {
+    return {json[0].number(missing), json[1].number(missing), json[2].number(missing)};
   }
 
-  void read_material(const Json& json) {
-    const Json& rough = json["pbrMetallicRoughness"];
-    const Json& gloss = json["extensions"]["KHR_materials_pbrSpecularGlossiness"]["diffuseFactor"];
-    const Json& base = gloss.is_there ? gloss : rough["baseColorFactor"];
+  void read_material(Json json) {
+    const Json rough = json["pbrMetallicRoughness"];
+    const Json gloss = json["extensions"]["KHR_materials_pbrSpecularGlossiness"]["diffuseFactor"];
+    const Json base = gloss.is_there() ? gloss : rough["baseColorFactor"];
     const Vec3 color = vec(base, 1);
     // A material that only shines by itself shows the color of its light.
     linear_colors_.push_back(color == Vec3{} ? vec(json["emissiveFactor"], 0) : color);
     ModelMaterial& material = model_.materials.emplace_back();
     material.color = screen_color(linear_colors_.back());
     // docs/models.md has the formulas and their sources.
-    const double metal = fraction(rough["metallicFactor"].number_or(gloss.is_there ? 0 : 1)),
-                 a = std::pow(fraction(rough["roughnessFactor"].number_or(1)), 2);
+    const double metal = fraction(rough["metallicFactor"].number(gloss.is_there() ? 0 : 1)),
+                 a = std::pow(fraction(rough["roughnessFactor"].number(1)), 2);
     material.shininess = std::clamp(2 / (a * a) - 2, 1.0, 10000.0);
     material.specular =
         fraction((0.04 + metal * (fraction(largest_in(color)) - 0.04)) * (material.shininess + 2) / 8);
     material.diffuse = 1 - metal / 2;
-    if (const std::string& mode = json["alphaMode"].text;
-        (base[3].number_or(1) < 1 && mode.size() > 0 && mode != "OPAQUE") ||
-        json["extensions"]["KHR_materials_transmission"]["transmissionFactor"].number > 0)
+    if (const std::string& mode = json["alphaMode"].text();
+        (base[3].number(1) < 1 && mode.size() > 0 && mode != "OPAQUE") ||
+        json["extensions"]["KHR_materials_transmission"]["transmissionFactor"].number() > 0)
       model_.unheld.insert("transparency");
   }
 
@@ -210,14 +259,16 @@ class GltfReader {
     return {scene_channel(c.x, is_linear_), scene_channel(c.y, is_linear_), scene_channel(c.z, is_linear_)};
   }
 
-  static void set_matrix(const Json& json, ModelNode& node) {
-    if (const Json& m = json["matrix"]; m.items.size() == 16) {
-      const auto column = [&](std::size_t i) { return Vec3{m[i].number, m[i + 1].number, m[i + 2].number}; };
+  static void set_matrix(Json json, ModelNode& node) {
+    if (const Json m = json["matrix"]; m.items().size() == 16) {
+      const auto column = [&](std::size_t i) {
+        return Vec3{m[i].number(), m[i + 1].number(), m[i + 2].number()};
+      };
       node.parent_from_node = {column(0), column(4), column(8), column(12)};
       return;
     }
-    const Json& q = json["rotation"];
-    const double x = q[0].number, y = q[1].number, z = q[2].number, w = q[3].number_or(1);
+    const Json q = json["rotation"];
+    const double x = q[0].number(), y = q[1].number(), z = q[2].number(), w = q[3].number(1);
     const Vec3 scale = vec(json["scale"], 1);
     node.parent_from_node = {
         scaled({1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)}, scale.x),
@@ -227,45 +278,45 @@ class GltfReader {
     if (scale.x * scale.y * scale.z != 0) node.steps = {node.parent_from_node.origin, {x, y, z}, w, scale};
   }
 
-  void read_node(const Json& index, const NodeMatrix& model_from_parent, int depth, ModelNode& parent) {
+  void read_node(Json index, const NodeMatrix& model_from_parent, int depth, ModelNode& parent) {
     constexpr int kDeepest = 1000;
     constexpr std::size_t kMostNodes = 1'000'000;
-    const Json& json = item("nodes", index);
+    const Json json = item("nodes", index);
     if (depth > kDeepest || ++node_count_ > kMostNodes)
       model_.fail("nodes without a circle, at most 1,000 deep and 1,000,000 in all", "others");
-    const Json& visible = json["extensions"]["KHR_node_visibility"]["visible"];
-    if (visible.is_there && visible.number == 0) return;
+    const Json visible = json["extensions"]["KHR_node_visibility"]["visible"];
+    if (visible.is_there() && !visible.is_true()) return;
     ModelNode node;
     set_matrix(json, node);
     const NodeMatrix model_from_node = product(model_from_parent, node.parent_from_node);
-    if (const Json& mesh = json["mesh"]; mesh.is_there) {
+    if (const Json mesh = json["mesh"]; mesh.is_there()) {
       item("meshes", mesh);
-      show_mesh(static_cast<std::size_t>(mesh.number), node);
+      show_mesh(static_cast<std::size_t>(mesh.number()), node);
     }
-    if (json["camera"].is_there) read_camera(item("cameras", json["camera"]), model_from_node);
-    if (const Json& light = json["extensions"]["KHR_lights_punctual"]["light"]; light.is_there) {
-      const Json& lights = document_["extensions"]["KHR_lights_punctual"]["lights"];
-      read_light(lights[static_cast<std::size_t>(std::clamp(light.number, 0.0, 1e9))], model_from_node);
+    if (json["camera"].is_there()) read_camera(item("cameras", json["camera"]), model_from_node);
+    if (const Json light = json["extensions"]["KHR_lights_punctual"]["light"]; light.is_there()) {
+      const Json lights = document_["extensions"]["KHR_lights_punctual"]["lights"];
+      read_light(lights[static_cast<std::size_t>(std::clamp(light.number(), 0.0, 1e9))], model_from_node);
     }
-    for (const auto& [_, child] : json["children"].items) read_node(child, model_from_node, depth + 1, node);
+    for (const Json child : json["children"].items()) read_node(child, model_from_node, depth + 1, node);
     parent.children.push_back(std::move(node));
   }
 
-  void read_camera(const Json& json, const NodeMatrix& m) {
-    const Json& lens = json["perspective"];
-    if (json["type"].text == "orthographic") has_orthographic_ = true;
+  void read_camera(Json json, const NodeMatrix& m) {
+    const Json lens = json["perspective"];
+    if (json["type"].text() == "orthographic") has_orthographic_ = true;
     // Four decimals hide that the file's angle is a float in radians.
-    const double fov = std::round(lens["yfov"].number * 180 / std::numbers::pi * 1e4) / 1e4,
-                 near = lens["znear"].number, far = lens["zfar"].number_or(kNoEnd);
+    const double fov = std::round(lens["yfov"].number() * 180 / std::numbers::pi * 1e4) / 1e4,
+                 near = lens["znear"].number(), far = lens["zfar"].number(kNoEnd);
     const Vec3 up = m.direction({0, 1, 0}), side = cross(m.direction({0, 0, -1}), up);
     if (!model_.camera && fov > 0 && fov < 180 && near > 0 && far > near && dot(side, side) > 0 &&
         std::isfinite(dot(side, side)))
       model_.camera = {m.point({}), m.point({0, 0, -1}), up, fov, near, far};
   }
 
-  void read_light(const Json& json, const NodeMatrix& m) {
-    const std::string& type = json["type"].text;
-    const Vec3 intensity = scaled(vec(json["color"], 1), json["intensity"].number_or(1));
+  void read_light(Json json, const NodeMatrix& m) {
+    const std::string& type = json["type"].text();
+    const Vec3 intensity = scaled(vec(json["color"], 1), json["intensity"].number(1));
     if (type == "spot") model_.unheld.insert("cones of spotlights");
     const bool is_far = type == "directional", is_light = is_far || type == "spot" || type == "point";
     const ModelLight light = {is_far ? m.direction({0, 0, -1}) : m.point({}), intensity, is_far};
@@ -278,27 +329,27 @@ class GltfReader {
   /// Shows a mesh in a node; its primitives are read once.
   void show_mesh(std::size_t index, ModelNode& node) {
     const auto [known, is_new] = meshes_.try_emplace(index);
-    const Json& json = document_["meshes"][index];
-    const auto& primitives = json["primitives"].items;
-    const std::string own = json["name"].text,
+    const Json json = document_["meshes"][index];
+    const std::vector<nlohmann::json>& primitives = json["primitives"].items();
+    const std::string own = json["name"].text(),
                       name = own.empty() ? "meshes[" + std::to_string(index) + "]" : own;
     for (std::size_t i = 0; is_new && i < primitives.size(); ++i)
-      if (add_primitive(primitives[i].second, primitives.size() > 1 ? name + "-" + std::to_string(i) : name))
+      if (add_primitive(primitives[i], primitives.size() > 1 ? name + "-" + std::to_string(i) : name))
         known->second.push_back(model_.meshes.size() - 1);
     node.meshes.insert(node.meshes.end(), known->second.begin(), known->second.end());
   }
 
-  bool add_primitive(const Json& json, const std::string& name) {
-    const double mode = json["mode"].number_or(4);
-    const Json &attributes = json["attributes"], &material = json["material"];
+  bool add_primitive(Json json, const std::string& name) {
+    const double mode = json["mode"].number(4);
+    const Json attributes = json["attributes"], material = json["material"];
     if (mode < 4) model_.unheld.insert("points and lines");
-    if (json["targets"][0].is_there) model_.unheld.insert("morph targets");
-    if (mode < 4 || mode > 6 || !attributes["POSITION"].is_there) return false;
-    if (material.is_there) item("materials", material);
+    if (json["targets"][0].is_there()) model_.unheld.insert("morph targets");
+    if (mode < 4 || mode > 6 || !attributes["POSITION"].is_there()) return false;
+    if (material.is_there()) item("materials", material);
     const auto [base, size] = points_of(attributes, material);
-    std::vector<std::uint32_t> indices(json["indices"].is_there ? 0 : size);
+    std::vector<std::uint32_t> indices(json["indices"].is_there() ? 0 : size);
     std::iota(indices.begin(), indices.end(), base);
-    if (json["indices"].is_there)
+    if (json["indices"].is_there())
       for (const double i : numbers(json["indices"], 1)) {
         if (!(i >= 0 && i < size))
           model_.fail("indices below " + std::to_string(size) + " in " + name, shortest_text(i));
@@ -306,15 +357,16 @@ class GltfReader {
       }
     ModelMesh mesh = {.name = name};
     // assimp gives a material of this name to meshes without one.
-    if (material.is_there && (is_linear_ || item("materials", material)["name"].text != "DefaultMaterial"))
-      mesh.material = static_cast<std::size_t>(material.number);
-    mesh.has_colors = attributes["COLOR_0"].is_there;
+    if (material.is_there() &&
+        (is_linear_ || item("materials", material)["name"].text() != "DefaultMaterial"))
+      mesh.material = static_cast<std::size_t>(material.number());
+    mesh.has_colors = attributes["COLOR_0"].is_there();
     if (mode == 4)
       mesh.corners.assign(indices.begin(), indices.end() - static_cast<std::ptrdiff_t>(indices.size() % 3));
     else
       append_strip(indices, mode == 6, mesh.corners);
     std::vector<double> normals;
-    if (attributes["NORMAL"].is_there) normals = numbers(attributes["NORMAL"], 3);
+    if (attributes["NORMAL"].is_there()) normals = numbers(attributes["NORMAL"], 3);
     if (normals.size() >= 3 * std::size_t{size} && size > 0)
       for (const std::uint32_t corner : mesh.corners) {
         const double* const n = normals.data() + std::size_t{3} * (corner - base);
@@ -325,23 +377,23 @@ class GltfReader {
   }
 
   /// The first point of a primitive in the model's, and their number.
-  std::pair<std::uint32_t, std::uint32_t> points_of(const Json& attributes, const Json& material) {
-    const Json& colors = attributes["COLOR_0"];
-    const auto key = std::tuple(attributes["POSITION"].number, colors.number_or(-1),
-                                colors.is_there ? material.number_or(-1) : -1);
+  std::pair<std::uint32_t, std::uint32_t> points_of(Json attributes, const Json material) {
+    const Json colors = attributes["COLOR_0"];
+    const auto key = std::tuple(attributes["POSITION"].number(), colors.number(-1),
+                                colors.is_there() ? material.number(-1) : -1);
     const auto [known, is_new] = points_.try_emplace(key);
     if (!is_new) return known->second;
     const std::vector<double> positions = numbers(attributes["POSITION"], 3);
     const std::size_t base = model_.points.size();
     for (std::size_t i = 0; i < positions.size(); i += 3)
       model_.points.push_back({positions[i], positions[i + 1], positions[i + 2]});
-    if (colors.is_there) {
+    if (colors.is_there()) {
       const std::vector<double> values = numbers(colors, 3);
       if (values.size() != positions.size())
         model_.fail(counted(positions.size() / 3, "color") + " in COLOR_0, one for each vertex",
                     std::to_string(values.size() / 3));
       const Vec3 factor =
-          material.is_there ? linear_colors_[static_cast<std::size_t>(material.number)] : Vec3{1, 1, 1};
+          material.is_there() ? linear_colors_[static_cast<std::size_t>(material.number())] : Vec3{1, 1, 1};
       model_.colors.resize(base, kNoColor);
       for (std::size_t i = 0; i < values.size(); i += 3)
         model_.colors.push_back(file_color(product(factor, {values[i], values[i + 1], values[i + 2]})));
@@ -350,14 +402,14 @@ class GltfReader {
                             static_cast<std::uint32_t>(positions.size() / 3)};
   }
 
-  const Json& document_;
+  const Json document_;
   std::string_view binary_;
   ModelFiles& files_;
   Model& model_;
-  std::map<const Json*, std::string_view> buffers_;
+  std::map<const nlohmann::json*, std::string_view> buffers_;
   std::deque<std::string> decoded_;
   // assimp keeps the colors of other formats when it converts them.
-  bool is_linear_ = !document_["asset"]["generator"].text.starts_with("Open Asset Import Library");
+  bool is_linear_ = !document_["asset"]["generator"].text().starts_with("Open Asset Import Library");
   std::vector<Vec3> linear_colors_;  // of materials
   std::map<std::size_t, std::vector<std::size_t>> meshes_;
   std::map<std::tuple<double, double, double>, std::pair<std::uint32_t, std::uint32_t>> points_;
@@ -370,7 +422,7 @@ class GltfReader {
 void read_gltf(std::string_view bytes, ModelFiles& files, Model& model) {
   if (bytes.starts_with("glTF") && bytes.substr(4, 1) != "\2") model.fail("glTF of version 2", "another");
   const auto [json, binary] = parts_of(bytes);
-  const Json document = parse_json(model.name, json);
+  const nlohmann::json document = parse_json(model.name, json);
   GltfReader(document, binary, files, model).read();
 }
 
