@@ -53,8 +53,8 @@ def words_of(vector):
 
 
 def encode(folder, film, fps, frame_count):
-    """Makes a film of the frames in a folder. Those of an odd size get a column or a row more, which the
-    pixel format asks for. Pictures of the user behind the last frame are not taken."""
+    """Makes a film of the frames in a folder. Frames of an odd size get a column or a row more, which the
+    pixel format asks for. Pictures of the user after the last frame are left out."""
     words = [
         "ffmpeg", "-loglevel", "error", "-y", "-framerate",
         number(fps), "-i", "%05d.png", "-frames:v",

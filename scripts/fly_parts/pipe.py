@@ -117,7 +117,7 @@ class FramePipe:
     # The world, from the output of stage 1
 
     def header(self, keyword):
-        """The words behind a header keyword, None if it is not there."""
+        """The words after a header keyword, None if it is not there."""
         return header_of(self.stages["model"].output.read()).get(keyword)
 
     def ball(self):

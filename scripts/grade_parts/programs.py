@@ -171,7 +171,7 @@ def unpack(contents, folder):
 
 def give(folder, user, owner=0):
     """Gives a folder and all in it that belongs to the owner to a user, for others to read. No link is
-    followed; a file of more names stays: the others may lie anywhere."""
+    followed; a file with several hard links stays: they may be anywhere."""
     for place, folders, files in os.walk(folder):
         for path in (os.path.join(place, name) for name in (".", *folders, *files)):
             status = os.lstat(path)

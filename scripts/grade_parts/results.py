@@ -44,7 +44,7 @@ def csv_of(graded, tests):
 
 
 def numbers_csv(hand_ins, names):
-    """The name behind each number, as CSV."""
+    """The name for each number, as CSV."""
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows([[
         "number", "hand-in"], *([hand_in.number, cell(name)] for hand_in, name in zip(hand_ins, names))])

@@ -23,7 +23,7 @@ function windowOf(header) {
   return [-right, right, -top, top, near, far];
 }
 
-// The numbers behind each keyword before the first triangle of a text; `ratio` has none, and stands for the word at the end of a line.
+// The numbers after each keyword before the first triangle of a text; `ratio` has none, and stands for the word at the end of a line.
 export function headerOf(text) {
   const header = new Map();
   for (const line of text.slice(0, text.search(/^[-\d]/m) >>> 0).split("\n")) {

@@ -24,7 +24,7 @@ BELTS = 2, 16  # the fewest and the most of a sphere
 # The per cent of the time for a large page that have passed at the end of each step.
 SHARES = {"model": 11, "view": 21, "project": 32, "zbuf": 48}
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
-BEGINS = (*NUMBER_BEGINS, "triangle ", "clipped", "sphere")  # of the lines behind a header
+BEGINS = (*NUMBER_BEGINS, "triangle ", "clipped", "sphere")  # of the lines after a header
 
 
 def time_told(stderr):

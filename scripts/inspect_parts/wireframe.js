@@ -13,7 +13,7 @@ const FADING = 8;          // tones of a ray that leaves the scene
 const GIZMO = 22;          // length of the axes in the corner
 const AXES = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
 
-// Two arrays of numbers, one behind the other.
+// Two arrays of numbers, one after the other.
 function joined(a, b) {
   const all = new Float64Array(a.length + b.length);
   all.set(a);

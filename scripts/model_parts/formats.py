@@ -16,7 +16,7 @@ def line_of(vector):
 
 def obj(mesh):
     lines = ["# " + HEADER]
-    # Colors behind the coordinates are common, though not in the format's definition.
+    # Colors after the coordinates are common, though not in the format's definition.
     lines += [
         "v " + line_of(p) + color
         for p, color in zip(mesh.vertices, [" " + line_of(x / 255 for x in c)

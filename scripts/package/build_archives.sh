@@ -6,7 +6,7 @@ version=$1
 umask 022
 cd /build
 
-# The options behind the first word are cmake's.
+# The options after the first word are cmake's.
 configure() {
   arch=$1
   shift

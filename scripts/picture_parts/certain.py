@@ -51,8 +51,7 @@ class Certainty:
         return len(self.places) == self.uncertain_count
 
     def leave(self, places):
-        """Keeps only those of its uncertain places that are among these; or these, if its own are not
-        complete."""
+        """Keeps only the uncertain places that are in `places`; all of `places` if its own list is cut."""
         self.places = sorted({*places} & {*self.places}) if self.is_complete else places
         self.uncertain_count = len(self.places)
 

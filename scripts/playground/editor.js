@@ -55,7 +55,7 @@ export class Editor {
     this.isOwn = false;
   }
 
-  // Marks lines: [{line, column, isError, text}], counted from 1; what lies behind the end is at the end.
+  // Marks lines: [{line, column, isError, text}], counted from 1; places after the end are at the end.
   mark(messages) {
     const {doc} = this.view.state;
     const marks = messages.map(({line, column, isError, text}) => {

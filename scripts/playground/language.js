@@ -5,7 +5,7 @@ const CAMERA = [
   ["X Y Z", "second line: the point looked at"],
   ["X Y Z", "third line: the direction that is up"],
   ["FOVY ASPECT NEAR FAR", "fourth line: the angle of view in degrees, width by height, and the near and far plane"],
-  ["ratio", "behind them: ASPECT divides lengths, not angles"],
+  ["ratio", "after them: ASPECT divides lengths, not angles"],
   ["frustum L R B T N F", "in their place: the window of the near plane, and the planes"],
   ["ortho L R B T N F", "in their place: parallel rays"],
 ];

@@ -74,6 +74,6 @@ export function theirsOf(tool, place, differences, picture, ourPixels, failure) 
   const found = isCompared ? `${differing.length} of ${lines.length} vertices differ` : first;
   const seen = picture ? `${pixels} of ${ourPixels.length / 3} pixels differ` : `there is no picture of it: ${failure}`;
   const sentence = first ? `${found}${isCompared ? `, first ${first}` : ""}; ${seen}` : isGood ? `every vertex is right; ${seen}` :
-    `every vertex is right, but ${picture ? `${seen}: look at its other lines and numbers` : `the stages behind do not take it: ${failure}`}`;
+    `every vertex is right, but ${picture ? `${seen}: look at its other lines and numbers` : `the stages after it do not take it: ${failure}`}`;
   return theirsIn({tool, place, sentence, remarks: first, picture, isGood, count: differing.length, stages: {[tool]: differences}});
 }

@@ -91,7 +91,7 @@ export class Pipe {
     return {...files, [FILES.zbuf]: drawn.output, [SAVED_IMAGE]: drawn.read(SAVED_IMAGE)};
   }
 
-  // A text of the reader's in place of a stage's, and what the stages behind it make of it.
+  // A text of the reader's in place of a stage's, and what the stages after it make of it.
   async withOwn({tool, text}, results, {config, words, picture: ours}) {
     if (tool === "zbuf") return theirPictureOf(text, ours);
     const place = STAGES.indexOf(tool);

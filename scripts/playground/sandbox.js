@@ -1,5 +1,5 @@
-// Runs the reader's JavaScript where it can harm nothing: in a worker of a frame of an origin of its own, under the page's policy, which
-// and its own lets it load nothing; and not for long. The frame's script is the text of FRAME, whose hash is in the policy (build.mjs).
+// Runs the reader's JavaScript where it can harm nothing: in a worker, in a frame with its own origin; the page's policy and the frame's
+// own let it load nothing; its time is limited. The frame's script is the text of FRAME, whose hash is in the policy (build.mjs).
 
 const LONGEST = 5000;   // milliseconds
 const MOST_OUT = 1 << 26;  // characters

@@ -135,8 +135,8 @@ class Truth:
         return self.felt[setting]
 
     def changes(self, setting):
-        """True if the picture or the text changes with the lever that is not the default's: of clipping,
-        culling, an epsilon or shading; others it feels, unless the tools refuse them."""
+        """True if the lever that differs from the default, if clipping, culling, epsilon or shading, changes
+        the picture or text; for other levers, unless the tools refuse them."""
         try:
             if setting.certify != DEFAULT.certify:
                 return bool(self.pipe.text(setting))

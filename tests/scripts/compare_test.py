@@ -10,7 +10,7 @@ import unittest
 
 from toolbox import SOURCE, ToolTest, run, run_script
 import reference
-import student  # takes the word behind toolbox's
+import student  # takes the word after toolbox's
 from lib.judging.mistakes import sentences
 from lib.showing.pictures import png, read_picture
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Completion in a real bash: of commands, their options and the words behind them, and of the keys a user
+"""Completion in a real bash: of commands, their options and the words after them, and of the keys a user
 types.
 
 usage: completion_test.py BIN_DIR [UNITTEST ARGUMENT...]

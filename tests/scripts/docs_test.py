@@ -122,7 +122,7 @@ class Pages(unittest.TestCase):
             self.assertLessEqual(page.stat().st_size, 8_000 if page == README else 12 * 1024, name_of(page))
 
     def test_lines_fit_into_120_columns(self):
-        """But for tables, examples and pictures, which cannot be broken; the specification has none that is
+        """Except tables, examples and pictures, which cannot be broken; the specification has none that is
         longer."""
         specification = [SOURCE / "docs" / name for name in ("scene.md", "stage-text.md", "stages.md")]
         for page in PAGES + OTHER_PAGES:
@@ -243,7 +243,7 @@ class WhatThePagesName(unittest.TestCase):
                     self.assertTrue(known, f"pipeline {word}")
 
     def test_every_option_of_a_filter_is_there(self):
-        """Options behind the name of a filter in the same piece of code. The page of errors has wrong ones on
+        """Options after the name of a filter in the same piece of code. The page of errors has wrong ones on
         purpose."""
         texts = {
             tool: subprocess.run([BIN_DIR / tool, "--help-all"], capture_output=True, text=True).stdout

@@ -72,7 +72,7 @@ class WindowTest(ToolTest):
     def settle(self):
         """Handles all that the display has to tell, and draws the frame that is due."""
         self.window.root.update()
-        self.window.root.winfo_pointerxy()  # the answer comes behind all earlier events
+        self.window.root.winfo_pointerxy()  # the answer comes after all earlier events
         self.window.root.update()
         while self.window.pending is not None:
             self.window.root.update()

@@ -171,7 +171,7 @@ class Installed(unittest.TestCase):
             self.assertTrue(lines, page.name)
             for line in lines:
                 if "pipeline fly" in line or " -- ./" in line:
-                    continue  # its window is opened below; a program behind -- is the user's own
+                    continue  # its window is opened below; a program after -- is the user's own
                 with self.subTest(line):
                     self.prepare()
                     done = self.run_line("set -o pipefail; " + line)

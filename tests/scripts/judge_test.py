@@ -15,7 +15,7 @@ from unittest import mock
 
 from toolbox import BIN, ToolTest, run_script
 import reference
-import student  # takes the word behind toolbox's
+import student  # takes the word after toolbox's
 
 os.environ["BIN"] = str(BIN)
 from lib.judging import fit  # noqa: E402

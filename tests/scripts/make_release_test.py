@@ -16,7 +16,7 @@ import time
 import unittest
 
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
-# Stands for the build in the root: writes what the words behind -- and --bind ask for.
+# Stands for the build in the root: writes what the words after -- and --bind ask for.
 BWRAP = """#!/bin/sh
 [ ! -e "$0.fails" ] || { echo no namespaces >&2; exit 1; }
 [ ! -e "$0.hangs" ] || { : > "$0.started"; sleep 60; }

@@ -1,7 +1,7 @@
 """The student's program of the conformance pack: the stage texts that it writes for a scene, with a mistake
 of mistakes.txt.
 
-A test that imports this takes the program's path behind the folder of the binaries.
+A test that imports this takes the program's path after the folder of the binaries.
 """
 import pathlib
 import subprocess

@@ -178,7 +178,7 @@ class SeparateOutputs(ToolTest):
 
 PICTURES = ("--image", "--z-buffer", "--depth-image", "--stats")
 SCENE_TEXT, WORLD, VIEW, NDC, SCREEN, MODEL = range(6)
-RUNS = (  # tool, its inputs, the words behind them, the options that name an output
+RUNS = (  # tool, its inputs, the words after them, the options that name an output
     ("model", {"INPUT": SCENE_TEXT}, [], ["--stats"]), ("view", {"--scene": SCENE_TEXT, "INPUT": WORLD}, [], [
         "--stats"]), ("project", {"--scene": SCENE_TEXT, "INPUT": VIEW}, [], ["--stats"]), ("zbuf", {
             "CONFIG": SCREEN, "INPUT": NDC}, [], [*PICTURES, "--fragments", "--seen"]), ("zbuf", {

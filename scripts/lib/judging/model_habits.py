@@ -17,7 +17,7 @@ def with_wrong_element(m, row):
 
 
 def by_euler_angles(order):
-    """Makes turns about the three axes, multiplied in an order, of an angle and an axis."""
+    """Makes turns about x, y and z of an angle and an axis, multiplied in this order."""
     def turn(radians, axis):
         about = [rotation(radians * x, row[:3]) for x, row in zip(axis, IDENTITY)]
         return functools.reduce(product, (about[i] for i in order))

@@ -8,12 +8,12 @@ from lib.judging.raster import Rule
 
 
 class Findings:
-    """The Finding of a pixel_comparing.Context: `of_all` the files given, and of one of two, which is right
-    if it is so by itself, whatever the other one holds, and is else counted by its own rule."""
+    """The Findings of a pixel_comparing.Context: `of_all` files, and `of` one. A file that is right by itself
+    is right whatever the other holds; else its own rule counts."""
     def __init__(self, context, picture=None):
         """`picture` is the Finding of a picture that is not worth a look."""
         self.context, self.of_one = context, {"picture": picture} if picture else {}
-        # Of two files one of which shows nothing, each is looked at alone.
+        # If one of two files shows nothing, each is judged alone.
         blank = context.shown.are_blank
         self.is_apart = picture or any(blank) and not all(blank) and context.plain.drawn
         self.of_all = None if self.is_apart else finding_of(context)
@@ -33,8 +33,8 @@ class Findings:
 
     def explains_most(self, kind, finding):
         """True if a cause explains more pixels of a file than it leaves, and the other file does not
-        contradict it: a cause in the depths cannot be that of the picture alone, nor one in the outlines
-        that of the text alone."""
+        contradict it: a cause in the depths cannot explain the picture alone, nor one in the outlines the
+        text alone."""
         if finding.verdict != "mistake" or kind not in finding.touches:
             return True
         plain, rule = self.context.plain, finding.mismatch.rule

@@ -13,13 +13,13 @@ from lib.judging.raster import Rule, TooMuch
 from lib.judging.verdict import cause_of, cause_of_all
 
 SAMPLE_ROWS = 8
-# A mistake leaves at most one pixel in NEARLY of the ones, in SAMPLE_ROWS, that the best open rule leaves;
-# these are at least LEAST_NEARLY.
+# A mistake is named if, of at least LEAST_NEARLY pixels in SAMPLE_ROWS that the best open rule leaves, it
+# leaves at most one in NEARLY.
 NEARLY, LEAST_NEARLY = 8, 8
-LOST = 0.9  # of the pixels of a triangle, that are as if it were not there, before it is missing
-LEAST_HOLES = 5  # on common edges, before they are no accident of rounding
+LOST = 0.9  # the share of a triangle's pixels that must look as without it, to call it missing
+LEAST_HOLES = 5  # on common edges: fewer may be an accident of rounding
 GIVEN_UP = "the search for a cause was given up: it would take too many steps"
-LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
+LEAST_PIXELS_OF_OTHERS = 3  # that other triangles than the largest must show, to call one color a mistake
 
 
 @dataclasses.dataclass

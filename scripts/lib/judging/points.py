@@ -20,7 +20,7 @@ class Points:
     lines: list
     digits: Digits = EXACT
     strays: str = ""  # lines that do not belong in a stage text, in words
-    has_more: bool = False  # numbers behind x, y and z, which nobody judges
+    has_more: bool = False  # numbers after x, y and z, which nobody judges
 
     def __len__(self):
         return len(self.points)

@@ -98,8 +98,8 @@ def hand_in(stage, output, before, folder):
 
 
 def expect_repetition(stage, verdict, files, run):
-    """Gives wrong files without a known cause the one that another run writes something else. `run` gives the
-    Files of another run."""
+    """Names randomness as the cause of wrong files without one if another run differs. `run` gives the Files
+    of another run."""
     wrong = [file for file in verdict.of(stage) if file.verdict == WRONG]
     if not wrong or any(file.causes for file in wrong):
         return

@@ -45,7 +45,7 @@ def descendants():
 
 
 def end_children():
-    """Ends all that this process has started. GNU parallel waits for its jobs until it is told twice."""
+    """Ends all that this process has started. GNU parallel waits for its jobs until the second signal."""
     start = time.monotonic()
     while (left := descendants()) and time.monotonic() < start + 2 * PATIENCE:
         for process in left:

@@ -144,9 +144,8 @@ def write_file(path, data):
 
 @contextlib.contextmanager
 def replaced_at_end(*paths):
-    """Paths for tools to write to: those of files beside these, which take their places when the block has
-    succeeded, and which errors call by these. A device, a pipe and what cannot be written is left to the
-    tools."""
+    """Temporary paths beside `paths` for tools to write to. The files replace those at `paths` if the block
+    succeeds; errors name `paths`. Devices, pipes and files that cannot be written are left to the tools."""
     with contextlib.ExitStack() as stack:
         files = {}
         for path in paths:

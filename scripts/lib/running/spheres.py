@@ -25,8 +25,8 @@ def expect_no_spheres(tools, path, name=None, way=None):
 
 
 def has_the_word(path, word):
-    """True if the bytes stand somewhere in a regular file: a matter of milliseconds, where model takes its
-    time. No mapping, which no signal interrupts, and a file that gets shorter ends by one."""
+    """True if a regular file holds the bytes: a matter of milliseconds, where model takes its time. Not by
+    mmap: signals do not interrupt it, and SIGBUS ends it if the file shrinks."""
     try:
         with open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK)) as file:
             data, is_regular = b"", stat.S_ISREG(os.fstat(file.fileno()).st_mode)

@@ -10,7 +10,7 @@ def with_keyword(words):
 
 
 def line_of(words_of):
-    """The header line of the projection, in words; `words_of` gives the words behind a keyword, or None."""
+    """The header line of the projection, in words; `words_of` gives the words after a keyword, or None."""
     return next([keyword, *words_of(keyword)] for keyword in KEYWORDS if words_of(keyword))
 
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tests/reference"))
 import reference  # noqa: E402
 
-BITS = 300  # of a coordinate in NDC behind the point: far more than decide any pixel
+BITS = 300  # of a coordinate in NDC after the point: far more than decide any pixel
 
 
 def settled(x, bits=BITS):
@@ -16,8 +16,8 @@ def settled(x, bits=BITS):
 
 
 def kept(vector):
-    """Numbers with sines and roots, with more bits than coordinates need but fewer than those have: they are
-    multiplied often."""
+    """Rounds numbers with sines and roots, which are multiplied often, to fewer bits, but more than
+    coordinates need."""
     return tuple(settled(x, 4 * BITS) for x in vector)
 
 
