@@ -61,6 +61,7 @@ AffineMatrix identity() {
 AffineMatrix operator*(const AffineMatrix& a, const AffineMatrix& b) {
   AffineMatrix product = a;
   product.norm = rounded_up(a.norm * b.norm);
+  product.orientation *= b.orientation;
   const double b_error = error_per_length(b);
   for (std::size_t i = 0; i < 3; ++i) {
     product.row_errors[i] = rounded_up(a.row_errors[i] * b.norm + row_length_bound(a.rows[i]) * b_error);
@@ -87,6 +88,7 @@ AffineMatrix scaled(const AffineMatrix& m, const Vec3& factors) {
   const double largest = std::max({std::fabs(factors.x), std::fabs(factors.y), std::fabs(factors.z)});
   product.norm = rounded_up(m.norm * largest);
   for (std::size_t i = 0; i < 3; ++i) {
+    product.orientation *= diagonal[i].sign();
     auto& row = product.rows[i];
     for (std::size_t k = 0; k < 3; ++k) row[k] = row[k] * diagonal[k];
     product.row_errors[i] = rounded_up(m.row_errors[i] * largest + 0x1p-101 * row_length_bound(row));

@@ -26,6 +26,7 @@ struct AffineMatrix {
   Rows rows;
   std::array<double, 3> row_errors;  // bounds on the lengths; infinite where unknown
   double norm;                       // an upper bound on the linear part's 2-norm
+  int orientation = 1;               // the determinant's sign, exactly: -1 mirrors space, 0 flattens it
 
   friend bool operator==(const AffineMatrix&, const AffineMatrix&) = default;
 };

@@ -26,9 +26,17 @@ std::int64_t exponent_of(const Ball& x) {
   return std::ilogb(x.value().hi) + x.exponent();
 }
 
-/// x * 2^exponent, exactly.
-Ball shifted(const Ball& x, std::int64_t exponent) {
-  return Ball::with_error(x.value(), x.error(), x.exponent() + exponent);
+/// Divides vectors by the power of two that leaves their largest entry from 1 to 2; false if all are 0.
+bool scale_to_1(std::span<BallVec3> vectors) {
+  std::optional<std::int64_t> exponent;
+  for (const BallVec3& v : vectors)
+    for (const Ball& entry : {v.x, v.y, v.z})
+      if (entry.sign() != 0) exponent = std::max(exponent.value_or(exponent_of(entry)), exponent_of(entry));
+  if (!exponent) return false;
+  for (BallVec3& v : vectors)
+    for (Ball* entry : {&v.x, &v.y, &v.z})
+      *entry = Ball::with_error(entry->value(), entry->error(), entry->exponent() - *exponent);
+  return true;
 }
 
 Located<Light> moved_to(const Located<Light>& light, const BallVec3& position, UncertainDigits& uncertain) {
@@ -48,42 +56,33 @@ Located<Light> moved_to(const Located<Light>& light, const BallVec3& position, U
 
 }  // namespace
 
-NormalTransform::NormalTransform(const AffineMatrix& world_from_model) {
-  const auto& rows = world_from_model.rows;
-  set_rows(linear_row(rows[0]), linear_row(rows[1]), linear_row(rows[2]));
-}
-
 NormalTransform::NormalTransform(const ViewTransform& view_from_world)
     : rows_{nearest(view_from_world.right), nearest(view_from_world.up), nearest(view_from_world.backward)} {}
 
-/// Row i of the cofactors is the cross product of the other two rows of M, in cyclic order.
-void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallVec3& z) {
+NormalTransform::NormalTransform(const AffineMatrix& world_from_model) {
+  const auto& rows = world_from_model.rows;
+  const BallVec3 x = linear_row(rows[0]), y = linear_row(rows[1]), z = linear_row(rows[2]);
+  // Row i is the cross product of the other two rows of M, in cyclic order.
   std::array<BallVec3, 3> cofactors = {cross(y, z), cross(z, x), cross(x, y)};
-  const double side = dot(x, cofactors[0]).sign() < 0 ? -1 : 1;
-  std::optional<std::int64_t> exponent;
+  // Else M flattens space to a line, in which no normal has a direction: all rows are 0.
+  if (!scale_to_1(cofactors)) return;
+  double largest = 0;
   for (const BallVec3& row : cofactors)
     for (const Ball& entry : {row.x, row.y, row.z})
-      if (entry.sign() != 0) exponent = std::max(exponent.value_or(exponent_of(entry)), exponent_of(entry));
-  if (!exponent) return;  // M flattens space to a line, in which no normal has a direction: all rows are 0
-  // Only directions matter: divided by the largest entry, the cofactors stay within a double's range.
-  double largest = 0;
-  for (BallVec3& row : cofactors)
-    for (Ball* entry : {&row.x, &row.y, &row.z}) {
-      *entry = shifted(*entry, -*exponent);
-      if (entry->sign() != 0) largest = std::max(largest, entry->magnitude());
-    }
-  const Ball divisor(side * largest);
+      if (entry.sign() != 0) largest = std::max(largest, entry.magnitude());
+  const Ball divisor(world_from_model.orientation < 0 ? -largest : largest);
   for (std::size_t i = 0; i < 3; ++i) {
     ball_rows_[i] = {cofactors[i].x / divisor, cofactors[i].y / divisor, cofactors[i].z / divisor};
     rows_[i] = nearest(ball_rows_[i]);
   }
+  determinant_ = dot(rows_[0], cross(rows_[1], rows_[2]));
 }
 
 // M7
 Vec3 NormalTransform::operator()(const Vec3& normal) const {
   const Vec3 n = unit_vector(normal);
   const Vec3 image = {dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)};
-  return largest_in(image) < kNearlyLost ? image_in_balls(normal) : unit_vector(image);
+  return largest_in(image) < kNearlyLost ? image_in_balls(to_balls(normal)) : unit_vector(image);
 }
 
 void NormalTransform::apply(AttributeArrays& attributes, std::size_t begin, std::size_t end) const {
@@ -104,14 +103,11 @@ void NormalTransform::apply(std::span<Vec3> normals) const {
   }
 }
 
-Vec3 NormalTransform::image_in_balls(const Vec3& normal) const {
-  // A power of two rounds nothing, as making it a unit vector would.
-  const int exponent = std::ilogb(size_of(normal));
-  const auto scaled = [&](double x) { return Ball(std::scalbn(x, -exponent)); };
-  const BallVec3 n = {scaled(normal.x), scaled(normal.y), scaled(normal.z)};
-  const BallVec3 image = {dot(ball_rows_[0], n), dot(ball_rows_[1], n), dot(ball_rows_[2], n)};
-  if (image.x.sign() == 0 && image.y.sign() == 0 && image.z.sign() == 0) return {};
-  return unit_vector(nearest(image));
+Vec3 NormalTransform::image_in_balls(const BallVec3& n) const {
+  BallVec3 image = {dot(ball_rows_[0], n), dot(ball_rows_[1], n), dot(ball_rows_[2], n)};
+  if (!scale_to_1({&image, 1})) return {};
+  const double error = std::max({image.x.radius(), image.y.radius(), image.z.radius()});
+  return error < 0x1p-24 ? unit_vector(nearest(image)) : Vec3{};
 }
 
 Located<Light> transformed(const AffineMatrix& world_from_model, const Located<Light>& light,

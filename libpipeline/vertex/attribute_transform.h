@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "libpipeline/scene/appearance.h"
@@ -20,7 +21,7 @@ namespace pipeline {
 /// Normals are calculated in doubles: each component is within 1e-15 * r of the exact one, where r is the
 /// product, over all scalings in M, of the ratio of the largest to the smallest factor. Where nearly all of a
 /// normal is lost (r beyond 10^12, or M singular), it is calculated again with balls, and 0 if they cannot
-/// tell it from 0.
+/// tell its direction to seven digits.
 class NormalTransform {
  public:
   explicit NormalTransform(const AffineMatrix& world_from_model);
@@ -28,15 +29,19 @@ class NormalTransform {
 
   /// The image of a normal of any length: of length 1, or 0.
   [[nodiscard]] Vec3 operator()(const Vec3& normal) const;
+  /// The same, calculated with balls.
+  [[nodiscard]] Vec3 image_in_balls(const BallVec3& normal) const;
+  /// True if doubles keep eight digits of every normal.
+  [[nodiscard]] bool keeps_digits() const { return std::fabs(determinant_) > 0x1p-20; }
   /// Replaces the normals of the triangles [begin, end), if there are any, by their images.
   void apply(AttributeArrays& attributes, std::size_t begin, std::size_t end) const;
 
  private:
-  void set_rows(const BallVec3& x, const BallVec3& y, const BallVec3& z);
   void apply(std::span<Vec3> normals) const;
-  [[nodiscard]] Vec3 image_in_balls(const Vec3& normal) const;
 
   std::array<Vec3, 3> rows_;
+  // Of rows_, whose largest entry is 1: at most 9 times the length of a unit vector's image.
+  double determinant_ = 0;
   std::array<BallVec3, 3> ball_rows_;  // of the model's transforms; a view loses nothing of a normal
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "libpipeline/numbers/exact_sum.h"
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/stream/triangle_reader.h"
 
@@ -12,24 +13,23 @@ namespace pipeline {
 
 namespace {
 
-/// The vector from a to b, scaled by a power of two to a largest coordinate in [1, 2).
-Vec3 scaled_edge(const Vec3& a, const Vec3& b) {
-  Vec3 edge = difference(b, a);
-  if (!std::isfinite(largest_in(edge))) edge = difference(scaled(b, 0.5), scaled(a, 0.5));
-  if (largest_in(edge) == 0) return edge;
-  const int exponent = std::ilogb(largest_in(edge));
-  return {std::scalbn(edge.x, -exponent), std::scalbn(edge.y, -exponent), std::scalbn(edge.z, -exponent)};
+/// The unit normal on the side from where the triangle is counterclockwise; 0 where doubles do not keep eight
+/// digits of it.
+Vec3 face_normal_in_doubles(const Triangle& p) {
+  const Vec3 b = difference(p[1], p[0]), c = difference(p[2], p[0]), normal = cross(b, c);
+  const double size = largest_in(b) * largest_in(c);
+  return size > 0x1p-900 && size < 0x1p900 && largest_in(normal) > 0x1p-20 * size ? unit_vector(normal)
+                                                                                  : Vec3{};
 }
 
-/// The unit normal on the side from where the triangle is counterclockwise, 0 if it has no area. Edges may
-/// have any length.
-Vec3 unit_face_normal(const Triangle& p) {
-  constexpr double kLeast = 0x1p-600, kMost = 0x1p1000;  // of products that are used as they are
-  const Vec3 normal = face_normal(p);
-  const double largest = largest_in(normal);  // but for nan, of products that both overflow
-  if (largest > kLeast && largest < kMost && std::isfinite(normal.x + normal.y + normal.z))
-    return unit_vector(normal);
-  return unit_vector(cross(scaled_edge(p[0], p[1]), scaled_edge(p[0], p[2])));
+/// That normal, of any length: (b - a) x (c - a), multiplied out.
+BallVec3 exact_face_normal(const Triangle& p) {
+  const Vec3 a = p[0], b = p[1], c = p[2];
+  const auto along = [&](double Vec3::*u, double Vec3::*v) {
+    return exact_sum(
+        {{b.*u, c.*v}, {b.*v, a.*u}, {a.*v, c.*u}, {-(b.*v), c.*u}, {-(b.*u), a.*v}, {-(a.*u), c.*v}});
+  };
+  return {along(&Vec3::y, &Vec3::z), along(&Vec3::z, &Vec3::x), along(&Vec3::x, &Vec3::y)};
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ AttributeSet ModelStage::columns() const {
 
 bool ModelStage::read(TriangleBatch& batch) {
   const bool has_objects = deferred_error_.read(batch, [&] { fill(batch); });
-  if (facets_) add_face_normals(batch);  // also of a batch that an error has ended
+  if (facets_) batch.attributes.normals.resize(batch.size());  // also of a batch that an error has ended
   return has_objects;
 }
 
@@ -83,10 +83,38 @@ void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) {
   if (!has_area_) look_for_area(batch);
   odd_transforms_.add(batch);
   for (std::size_t i = 0; i < runs_.size(); ++i) {
-    const auto& [first, world_from_model, world_normal_from_model] = runs_[i];
     const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : batch.object_count();
-    if (world_normal_from_model) world_normal_from_model->apply(batch.attributes, first, end);
-    world_from_model.apply(batch, first, end, rounder);
+    if (runs_[i].world_normal_from_model) transform_normals(batch, runs_[i], end, rounder);
+    runs_[i].world_from_model.apply(batch, runs_[i].first, end, rounder);
+  }
+}
+
+/// Transforms normals, and gives faces without any theirs: in doubles or, if these lose digits, exactly.
+void ModelStage::transform_normals(TriangleBatch& batch, const Run& run, std::size_t end,
+                                   CoordinateRounder& rounder) const {
+  const NormalTransform& transform = *run.world_normal_from_model;
+  const bool in_doubles = !facets_ || transform.keeps_digits();
+  const bool are_faces_without = facets_ && !scene_.appearance().columns().normal;
+  auto& normals = batch.attributes.normals;
+  if (in_doubles && are_faces_without)
+    for (std::size_t i = run.first; i < end; ++i)
+      if (normals[i][0] == Vec3{}) normals[i].fill(face_normal_in_doubles(batch.triangles[i]));
+  if (in_doubles) transform.apply(batch.attributes, run.first, end);
+  if (in_doubles && !are_faces_without) return;
+  for (std::size_t i = run.first; i < end; ++i) {
+    const bool is_face = are_faces_without && normals[i][0] == Vec3{};
+    if (in_doubles && !is_face) continue;
+    const BallVec3 face = is_face ? exact_face_normal(batch.triangles[i]) : BallVec3{};
+    for (Vec3& normal : normals[i]) {
+      const BallVec3 n = is_face ? face : to_balls(normal);
+      normal = transform.image_in_balls(n);
+      if (normal != Vec3{} || n == BallVec3{} || run.world_from_model.matrix().orientation == 0) continue;
+      run.world_from_model.apply(batch, run.first, i, rounder);
+      const SourceLocation location = rounder.location_of(batch.locations[i][0]);
+      batch.truncate(i);
+      throw InputError(location, expected_but_found("scales that leave a normal its digits",
+                                                    "some that differ by more than 31 digits"));
+    }
   }
 }
 
@@ -95,7 +123,8 @@ void ModelStage::look_for_area(const TriangleBatch& p_model) {
   has_area_ = !scale_by_0_ || !p_model.spheres.empty();
   for (std::size_t i = 0, run = 0; i < p_model.size() && !has_area_; ++i) {
     if (run + 1 < runs_.size() && runs_[run + 1].first <= i) ++run;
-    has_area_ = !runs_[run].world_from_model.flattens(p_model.triangles[i]);
+    const NormalTransform transform(runs_[run].world_from_model.matrix());
+    has_area_ = transform.image_in_balls(exact_face_normal(p_model.triangles[i])) != Vec3{};
   }
 }
 
@@ -159,7 +188,7 @@ void ModelStage::add(const TriangleCommand& triangle, TriangleBatch& batch) {
 void ModelStage::add(const SphereCommand& sphere, TriangleBatch& batch) {
   if (refuses_spheres_) throw refused_sphere(scene_.location());
   begin_run(batch.object_count());
-  if (runs_.back().world_from_model.orientation() == 0)
+  if (runs_.back().world_from_model.matrix().orientation == 0)
     throw InputError(scene_.location(),
                      expected_but_found("transforms that leave a sphere its volume", "a scale by 0"));
   if (facets_) {
@@ -178,10 +207,10 @@ void ModelStage::add(const SphereCommand& sphere, TriangleBatch& batch) {
 /// Adds facets of the sphere as long as there is room; all have its number. The outside of a mirrored sphere
 /// stays the front.
 void ModelStage::add_facets(TriangleBatch& batch) {
-  const bool is_mirrored = runs_.back().world_from_model.orientation() < 0;
+  const bool is_mirrored = runs_.back().world_from_model.matrix().orientation < 0;
   const LineAndColumn location = faceted_->center_location;
   const std::uint64_t number = next_number_;
-  add_face_normals(batch);
+  batch.attributes.normals.resize(batch.size());
   TriangleLines lines = scene_.lines();
   for (; next_facet_ < facets_->size() && batch.size() < kBatchSize; ++next_facet_) {
     auto [corners, normals] = (*facets_)(*faceted_, next_facet_);
@@ -196,14 +225,6 @@ void ModelStage::add_facets(TriangleBatch& batch) {
   if (next_facet_ < facets_->size()) return;
   faceted_.reset();
   ++next_number_;
-}
-
-/// Gives triangles without normals their face normal.
-void ModelStage::add_face_normals(TriangleBatch& batch) const {
-  for (std::size_t i = batch.attributes.normals.size(); i < batch.size(); ++i) {
-    const Vec3 normal = unit_face_normal(batch.triangles[i]);
-    batch.attributes.normals.push_back({normal, normal, normal});
-  }
 }
 
 /// Carries out any command but a triangle or a sphere.

@@ -40,7 +40,7 @@ class ModelStage {
   /// delivered.
   bool read(TriangleBatch& batch);
   /// Transforms the batch read last to world space, normals included. An InputError at the vertex on
-  /// overflow; the batch then keeps the triangles before it.
+  /// overflow, or where a facet's normal is lost; the batch then keeps the triangles before it.
   void transform(TriangleBatch& batch, CoordinateRounder& rounder);
   /// The first scale by 0, if no triangle transformed so far has an area; else none.
   [[nodiscard]] std::optional<SourceLocation> flattening_scale() const {
@@ -63,7 +63,8 @@ class ModelStage {
   void add(const TriangleCommand& triangle, TriangleBatch& batch);
   void add(const SphereCommand& sphere, TriangleBatch& batch);
   void add_facets(TriangleBatch& batch);
-  void add_face_normals(TriangleBatch& batch) const;
+  void transform_normals(TriangleBatch& batch, const Run& run, std::size_t end,
+                         CoordinateRounder& rounder) const;
   [[nodiscard]] AttributeSet columns() const;
   void carry_out(const Command& command);
   void keep_last_run();

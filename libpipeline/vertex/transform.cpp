@@ -95,11 +95,7 @@ AffineMatrix translation(const Vec3& offset) {
 
 // M3
 AffineMatrix scaling(const Vec3& factors) {
-  AffineMatrix::Rows rows;
-  rows[0][0] = factors.x;
-  rows[1][1] = factors.y;
-  rows[2][2] = factors.z;
-  return {rows, std::max({std::fabs(factors.x), std::fabs(factors.y), std::fabs(factors.z)})};
+  return scaled(identity(), factors);
 }
 
 // M4

@@ -88,24 +88,6 @@ void VertexTransform::apply(Sphere& sphere, CoordinateRounder& rounder) const {
   }
 }
 
-bool VertexTransform::flattens(const Triangle& triangle) const {
-  const auto image = [&](const Vec3& from, const Vec3& to) {
-    const BallVec3 edge = to_balls(to) - to_balls(from);
-    const auto along = [&](const std::array<Ball, 4>& row) {
-      return row[0] * edge.x + row[1] * edge.y + row[2] * edge.z;
-    };
-    return BallVec3{along(matrix_.rows[0]), along(matrix_.rows[1]), along(matrix_.rows[2])};
-  };
-  const BallVec3 normal = cross(image(triangle[0], triangle[1]), image(triangle[0], triangle[2]));
-  return normal.x.sign() == 0 && normal.y.sign() == 0 && normal.z.sign() == 0;
-}
-
-int VertexTransform::orientation() const {
-  const auto linear = [](const std::array<Ball, 4>& row) { return BallVec3{row[0], row[1], row[2]}; };
-  const auto& [x, y, z] = matrix_.rows;
-  return dot(linear(x), cross(linear(y), linear(z))).sign();
-}
-
 /// Replaces triangle `index` of a block by its image; vertices that failed the rounding test are calculated
 /// again.
 void VertexTransform::set_image(TriangleBatch& batch, const TransformedBlock& block, std::size_t index,

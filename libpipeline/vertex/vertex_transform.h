@@ -26,11 +26,7 @@ class VertexTransform {
   void apply(TriangleBatch& batch, CoordinateRounder& rounder) const {
     apply(batch, 0, batch.object_count(), rounder);
   }
-  /// True if the image of a triangle has no area, as far as 31 digits can tell.
-  [[nodiscard]] bool flattens(const Triangle& triangle) const;
-  /// The sign of the determinant: -1 if space is mirrored, 0 if it is flattened, as far as 31 digits can
-  /// tell.
-  [[nodiscard]] int orientation() const;
+  [[nodiscard]] const AffineMatrix& matrix() const { return matrix_; }
 
  private:
   /// Some triangles of a batch, from `first_triangle` on, and their images by a kernel.

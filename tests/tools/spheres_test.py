@@ -170,18 +170,31 @@ class Facets(ToolTest):
         self.assertEqual((done.returncode, done.stderr.decode()), (1, f"model: {message}"))
         self.assertTrue(done.stdout.decode().endswith(2 * corners + f"error model: {message}"), done.stdout)
 
-    def test_normals_of_edges_of_any_length(self):
-        for corners, normal in (
+    def test_normals_of_edges_and_scales_of_any_size(self):
+        for corners, normal, *scales in (
             ("0 0 0\n1e155 0 0\n0 1e155 0", "0 0 1"),
             ("0 0 0\n0 1e-200 0\n0 0 1e-200", "1 0 0"),
             ("0 0 0\n1e-200 0 0\n0 0 1e200", "0 -1 0"),
             ("-1.5e308 0 0\n1.5e308 0 0\n-1.5e308 3e307 4e307", "0 -0.8 0.6"),
-            ("1e155 -3 1\n0 1e155 0.5\n-1 1e155 1", "0.7071068 0.7071068 0"),
+            ("1e155 -3 1\n0 1e155 0.5\n-1 1e155 1", "0.4082483 0.4082483 0.8164966"),
             ("1e200 0 0\n1e200 0 0\n0 1e200 0", "0 0 0"),
+            ("0 0 0\n1e200 1e200 0\n1e200 1e200 1e-200", "0.7071068 -0.7071068 0"),
+                # 2^27 + 1 times 2^27 + 3 is one less than the square of 2^27 + 2, which doubles do not show.
+            ("0 0 0\n134217729 134217730 0\n134217730 134217731 0", "0 0 -1"),
+            ("0 0 0\n0 0 1\n1 0 0", "0 1 0", "scale 1e-200 1e200 1\n"),
+            ("0 0 0\n1 0 0\n0 1e-3 1", "0 -0.6 0.8", "scale 5e-324 1e3 0.75\n"),
+            ("0 0 0\n1 0 0\n0 1 0", "0 -0.6 -0.8",
+             "rotate 143.13010235415598 1 0 0\nscale -1e155 1 1e-160\n"),
         ):
-            text = pipe(["model", "--facets", "2"], stdin=scene(f"triangle\n{corners}\n")).decode()
+            text = pipe(["model", "--facets", "2"], stdin=scene(*scales, f"triangle\n{corners}\n")).decode()
             normals = [line.split()[3:] for line in text.splitlines()[-4:-1]]
             self.assertEqual(normals, 3 * [[f"{float(x):.7f}" for x in normal.split()]], corners)
+        for body in (SPHERE, TRIANGLE):
+            done = run("model", "--facets", "4", stdin=scene(
+                "rotate 30 1 2 3\nscale 1 1e200 1e-200\nrotate 9 3 2 1\n", body))
+            self.assertEqual((done.returncode, done.stderr.decode()),
+                             (1, "model: <stdin>:9:1: expected scales that leave a normal its digits, "
+                              "found some that differ by more than 31 digits\n"))
 
     def test_come_in_batches_and_with_normals_for_all(self):
         text = pipe(["model", "--facets", "64"], stdin=scene("rotate 10 1 0 0\n", SPHERE, TRIANGLE,
