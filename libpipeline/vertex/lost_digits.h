@@ -41,7 +41,7 @@ class LostDigits {
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  static constexpr std::size_t kRows = 54, kColumns = 81;
+  static constexpr std::size_t kSteps = 81;
 
   /// Half of a last decimal, of the text read and of the text written; 0 if that one is exact.
   struct HalfUnits {
@@ -59,9 +59,15 @@ class LostDigits {
     double z = 0, z_x = 0, z_y = 0;
     double area = 0;  // twice the triangle's, with a sign
   };
+  /// A triangle as it is before it is printed and as it was read: whole, if it is a piece.
+  struct Surface {
+    Triangle p_ndc, p_view;
+    Plane plane = {};
+    double reach = 0;  // no error in depth is larger
+  };
   struct Place {
     double z = 2;                   // nothing
-    double reach = 0;               // no error is larger
+    double reach = 0;               // of the nearest
     double gap = 0;                 // to the rival
     std::uint32_t nearest = kNone;  // an index of seen_
     std::uint32_t rival = kNone;    // one that may be nearer
@@ -71,12 +77,13 @@ class LostDigits {
     unsigned look_count = 0;
     std::vector<Place> places;
   };
-  /// Some values of x or y over the window.
+  /// Some values of x or y over the window, one of them near the middle.
   struct Steps {
-    /// `step_count` is a power of 3, or twice one.
+    static constexpr double kMiddle = 0.0037;  // so that no grid of vertices meets them
+    /// `step_count` is a power of 3.
     explicit Steps(std::size_t step_count);
     [[nodiscard]] double at(std::size_t index) const {
-      return (static_cast<double>(index) - static_cast<double>(count) / 2 + 0.5) / per_unit;
+      return (static_cast<double>(index) - static_cast<double>(count / 2)) / per_unit + kMiddle;
     }
     /// The index of the first that is at least `value`.
     [[nodiscard]] std::size_t from(double value) const;
@@ -89,27 +96,15 @@ class LostDigits {
     std::size_t count;
     double per_unit;
   };
-  /// A triangle, as it is before it is printed and as it was read: whole, if this is a piece.
-  struct Look {
-    const Triangle &p_ndc, &p_view;
-    Plane plane = {};
-    double reach = 0, nearest = 0;
-    std::uint32_t seen = kNone;
-  };
-  struct Seen {
-    Triangle p_ndc, p_view;
-  };
-
   /// A place where the decimals cannot tell which surface is nearer.
   struct Close {
     double gap, z;
-    Plane a, b;
+    const Surface &a, &b;
   };
   /// Counts of places, those that may be wrong by their share.
   struct Losses {
     double shown = 0, wrong = 0, at_edges = 0, in_one_plane = 0;
-    double by_writing = 0;  // error in depth, minus that by reading
-    double nearest = 2;     // the least z
+    double nearest = 2;  // the least z
     std::vector<Close> close;
   };
 
@@ -117,22 +112,20 @@ class LostDigits {
   [[nodiscard]] HalfUnits half_units(int more_decimals) const;
   void look_at_kept();
   [[nodiscard]] std::size_t count_between_rows(std::span<const Triangle> p_ndc) const;
-  [[nodiscard]] bool may_be_in_front(std::size_t triangle_count) const;
-  [[nodiscard]] bool is_in_front(const Triangle& p_ndc);
-  void look_at(Look look);
-  void look_along(Row& row, double y, Look& look);
-  void look_at(Place& place, double z, Look& look);
-  void thin_out_over(std::size_t most_work);
-  [[nodiscard]] Seen unrounded(const Look& look) const;
+  void look_at(const Triangle& p_ndc, const Triangle& p_view, std::size_t most_work);
+  void look_along(Row& row, double y, Surface& surface, std::uint32_t& index);
+  void look_at(Place& place, double z, Surface& surface, std::uint32_t& index);
+  void thin_out();
+  void undo_rounding(Surface& surface) const;
   [[nodiscard]] Triangle projected(const Triangle& p_view) const;
   [[nodiscard]] double depth_error(const Plane& plane, double z, const HalfUnits& half) const;
-  [[nodiscard]] double edge_share(const Triangle& p_ndc) const;
-  [[nodiscard]] Triangle possible_truth(const Seen& seen, unsigned trial) const;
+  [[nodiscard]] double edge_share(const Place& place) const;
+  [[nodiscard]] Triangle possible_truth(const Surface& surface, unsigned trial) const;
   [[nodiscard]] double depth_error(const Close& close, const HalfUnits& half) const;
   void add_rival(const Place& place, double x, double y, Losses& losses) const;
   [[nodiscard]] Losses losses() const;
   [[nodiscard]] bool suffice(int more_decimals, const Losses& losses) const;
-  [[nodiscard]] double wrong_share(const Place& place, double x, double y) const;
+  [[nodiscard]] double wrong_share(const Place& place, double x, double y, unsigned first_trial) const;
 
   ProjectionTransform projection_;
   ViewFromClip view_from_clip_;
@@ -142,15 +135,12 @@ class LostDigits {
   double unit_read_ = 0;  // a last decimal of the text read, if a stage has rounded its numbers
   HalfUnits half_;
 
-  std::vector<Triangle> first_read_;  // and some later ones
-  std::size_t next_read_ = 0;         // of them, an index of the next batch
-  std::vector<Seen> kept_;            // all triangles, while they are few
-  std::size_t triangle_count_ = 0, in_front_count_ = 0, work_ = 0;
-  std::size_t stride_ = 1, next_ = 0;  // the next that is looked at, in the next batch
-  Steps ys_{kRows}, columns_{kColumns};
-  double farthest_ = 2;     // of all rows
-  std::vector<Row> rows_;   // none while triangles are kept
-  std::vector<Seen> seen_;  // somewhere when they came, in the order of the stream
+  std::vector<Surface> kept_;  // all triangles, while they are few
+  std::size_t triangle_count_ = 0, work_ = 0;
+  Steps ys_{kSteps}, columns_{kSteps};
+  double farthest_ = 2;        // of all rows
+  std::vector<Row> rows_;      // none while triangles are kept
+  std::vector<Surface> seen_;  // somewhere when they came, in the order of the stream
 };
 
 }  // namespace pipeline

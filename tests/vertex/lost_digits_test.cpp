@@ -190,10 +190,11 @@ TEST(LostDigits, AreNotFoundInRandomScenesWithoutCloseLayers) {
 
 TEST(LostDigits, AreTheSameWhereverBatchesEnd) {
   RandomNumbers random(2);
-  TriangleBatch p_view = random_triangles(random, kDeep, 2500);
-  for (const Triangle& triangle : std::vector(p_view.triangles)) {
+  TriangleBatch p_view;
+  for (const Triangle& triangle : random_triangles(random, kDeep, 2500).triangles) {
     Triangle before = triangle;
     for (Vec3& p : before) p = {p.x / 1.0000001, p.y / 1.0000001, p.z / 1.0000001};
+    p_view.add(triangle, p_view.size(), {});
     p_view.add(before, p_view.size(), {});
   }
   const auto lost = found(p_view);
