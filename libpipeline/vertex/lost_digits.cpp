@@ -66,11 +66,6 @@ LostDigits::LostDigits(const ProjectionTransform& projection, std::optional<int>
       decimals_(decimals),
       decimals_read_(decimals_read.value_or(decimals.value_or(kMostDecimals + 1))) {}
 
-LostDigits::Steps::Steps(std::size_t step_count) : count(step_count) {
-  constexpr double kOdd = 0.13;  // likewise
-  per_unit = (static_cast<double>(count) + kOdd) / 2;
-}
-
 std::size_t LostDigits::Steps::from(double value) const {
   const double index = (value - kMiddle) * per_unit + static_cast<double>(count / 2);
   return static_cast<std::size_t>(std::ceil(std::clamp(index, 0.0, static_cast<double>(count))));
@@ -91,11 +86,6 @@ void LostDigits::look_for_decimals() {
       }
   unit_read_ = 1 / power_of_ten(decimals_read_);
   if (count >= asked_count * 9 / 4) half_.read = unit_read_ / 2;
-}
-
-LostDigits::HalfUnits LostDigits::half_units(int more_decimals) const {
-  return {half_.read / power_of_ten(more_decimals),
-          decimals_ ? 0.5 / power_of_ten(*decimals_ + more_decimals) : 0};
 }
 
 void LostDigits::add(const TriangleBatch& p_view, const TriangleBatch& p_ndc) {
@@ -265,8 +255,8 @@ double LostDigits::depth_error(const Plane& plane, double z, const HalfUnits& ha
   return (half.written + kDoubleError) * (1 + z_x + z_y) + 2 * half.read * by_view;
 }
 
-/// How much of the triangle its edges move over, if by as much as they do here. An edge is off by 0.38 half
-/// units in the mean, the square root of 2 times that if rounded twice; half of it is the triangle's own
+/// The share of the triangle that its edges sweep over, if by as much as they do here. An edge is off by 0.38
+/// half units in the mean, the square root of 2 times that if rounded twice; half of it is the triangle's own
 /// loss.
 double LostDigits::edge_share(const Place& place) const {
   const auto& [p_ndc, p_view, plane, reach] = seen_[place.nearest];
@@ -288,8 +278,8 @@ Triangle LostDigits::possible_truth(const Surface& surface, unsigned trial) cons
   }));
 }
 
-/// How often the two surfaces at a place are printed in another order than the true one, of equally likely
-/// cases, which should differ from place to place. Of equal depths, the earlier triangle is seen.
+/// The share of equally likely cases, which should differ from place to place, in which the two surfaces at a
+/// place are printed in the wrong order. Of equal depths, the earlier triangle is seen.
 double LostDigits::wrong_share(const Place& place, double x, double y, unsigned first_trial) const {
   const auto [first, second] = std::minmax(place.nearest, place.rival);
   const Surface &a = seen_[first], &b = seen_[second];
@@ -344,9 +334,9 @@ LostDigits::Losses LostDigits::losses() const {
 
 /// True if no pixel should be wrong with this many decimals more.
 bool LostDigits::suffice(int more_decimals, const Losses& losses) const {
-  const HalfUnits half = half_units(more_decimals);
-  return losses.in_one_plane == 0 &&
-         losses.at_edges / losses.shown / power_of_ten(more_decimals) < kNoPixel &&
+  const double times = power_of_ten(more_decimals);
+  const HalfUnits half = {half_.read / times, half_.written / times};
+  return losses.in_one_plane == 0 && losses.at_edges / losses.shown / times < kNoPixel &&
          std::ranges::all_of(losses.close,
                              [&](const Close& close) { return close.gap > depth_error(close, half); });
 }

@@ -41,7 +41,6 @@ class LostDigits {
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  static constexpr std::size_t kSteps = 81;
 
   /// Half of a last decimal, of the text read and of the text written; 0 if that one is exact.
   struct HalfUnits {
@@ -79,9 +78,7 @@ class LostDigits {
   };
   /// Some values of x or y over the window, one of them near the middle.
   struct Steps {
-    static constexpr double kMiddle = 0.0037;  // so that no grid of vertices meets them
-    /// `step_count` is a power of 3.
-    explicit Steps(std::size_t step_count);
+    static constexpr double kMiddle = 0.0037, kOdd = 0.13;  // so that no grid of vertices meets them
     [[nodiscard]] double at(std::size_t index) const {
       return (static_cast<double>(index) - static_cast<double>(count / 2)) / per_unit + kMiddle;
     }
@@ -93,8 +90,8 @@ class LostDigits {
       per_unit /= 3;
     }
 
-    std::size_t count;
-    double per_unit;
+    std::size_t count = 81;  // a power of 3
+    double per_unit = (81 + kOdd) / 2;
   };
   /// A place where the decimals cannot tell which surface is nearer.
   struct Close {
@@ -109,7 +106,6 @@ class LostDigits {
   };
 
   void look_for_decimals();
-  [[nodiscard]] HalfUnits half_units(int more_decimals) const;
   void look_at_kept();
   [[nodiscard]] std::size_t count_between_rows(std::span<const Triangle> p_ndc) const;
   void look_at(const Triangle& p_ndc, const Triangle& p_view, std::size_t most_work);
@@ -137,7 +133,7 @@ class LostDigits {
 
   std::vector<Surface> kept_;  // all triangles, while they are few
   std::size_t triangle_count_ = 0, work_ = 0;
-  Steps ys_{kSteps}, columns_{kSteps};
+  Steps ys_, columns_;
   double farthest_ = 2;        // of all rows
   std::vector<Row> rows_;      // none while triangles are kept
   std::vector<Surface> seen_;  // somewhere when they came, in the order of the stream
