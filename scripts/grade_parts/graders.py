@@ -123,7 +123,30 @@ def grade(path, tests, level, limits, keep):
             for number, (test, files) in accused.items():
                 with processor_seconds(limits.seconds):
                     judge_borders_first(graded, number, test, files, level)
+    with contextlib.suppress(TooLong), processor_seconds(limits.seconds):
+        take_back_causes(graded, tests, level)
     return graded
+
+
+def take_back_causes(graded, tests, level):
+    """Names no mistake of model that shows in another test, too, where the file is right, or wrong without a
+    cause: the hand-in does not make it, or not alone."""
+    files = [
+        (made, test, file) for made, test in zip(graded.tests, tests) for file in made.verdict.of("model")]
+    others = [test for _, test, file in files if file.is_good or file.verdict == WRONG and not file.causes]
+    for made, _, file in files:
+        against = {
+            cause.name: test.name
+            for cause in file.causes for test in others if any(
+                test.reference.scene.shows(name.removeprefix("model/"))
+                for name in cause.name.split(" and "))}
+        if not against:
+            continue
+        file.remarks += [
+            f"as if: {cause}; but {against[cause.name]} shows that it is not that alone"
+            for cause in file.causes if cause.name in against]
+        file.causes = [cause for cause in file.causes if cause.name not in against]
+        made.words, made.fixes = in_words(made.verdict, level), fixes(made.verdict, level)
 
 
 def judge_borders_first(graded, number, test, files, level):

@@ -184,6 +184,29 @@ class Results(ClassTest):
         self.assertEqual([words for _, words in findings(graders.Graded(tests))],
                          ["Other", "Other", "A third"])
 
+    def test_a_cause_that_another_test_contradicts_is_not_named(self):
+        """A pop that takes back two transforms is one to the identity where there are two."""
+        shutil.rmtree("tests/square")
+        corners, identity = "triangle\n1 0 0\n0 1 0\n0 0 1\n", "pop goes back to the identity"
+        for name, kept, taken, inner in (("one", "", "translate 1 0 0\n", "translate 0 1 0\n"),
+                                         ("two", "translate 3 0 0\n", "scale 1 2 3\n", "rotate 30 0 0 1\n")):
+            for folder, between in ((f"tests/{name}", (taken, "push\n")), (f"hand-ins/ada/{name}", ("push\n",
+                                                                                                    taken))):
+                os.makedirs(folder)
+                pathlib.Path(
+                    folder,
+                    "scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 9\n" + kept + "".join(between) +
+                                            inner + corners + "pop\n" + corners + "end\n")
+            text = pathlib.Path(folder, "scene.txt").read_bytes()
+            for file, stage in zip(FILES, ("model", "view", "project")):
+                bare = subprocess.run([BIN / stage, "--bare"], input=text, capture_output=True).stdout
+                pathlib.Path(folder, file).write_bytes(bare)
+                text = subprocess.run([BIN / stage], input=text, capture_output=True).stdout
+        self.assertNotIn(identity, self.grade().stdout)
+        self.assertIn("but two shows that it is not that alone", self.page(1))
+        shutil.rmtree("tests/two")
+        self.assertIn(identity, self.grade().stdout)
+
     def test_archives(self):
         self.add("anna", "wrapped", "square")
         for kind in ("zip", "tar", "gztar"):

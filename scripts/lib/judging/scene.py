@@ -42,6 +42,12 @@ class Scene:
                     yield image(stack.matrix, p, False), slack(stack.matrix, p, NO_UNITS, False)
             stack.command(keyword)
 
+    def shows(self, name):
+        """True if a mistake of model moves points here, in each of its forms; False for one without name."""
+        return name in model_habits.MODEL_MISTAKES and all(
+            any(math.dist(p, q) > 1e-3 for (p, _), (q, _) in zip(self.world(), self.world(habit)))
+            for habit in model_habits.MODEL_MISTAKES[name])
+
     def command_before(self, triangle):
         """The last command before a triangle that is none itself: the line after which it comes. None if
         there is none."""
