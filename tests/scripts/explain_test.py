@@ -574,6 +574,22 @@ ACTIVE EDGES: left ones turn their polygon's flag to in, right ones to out
             self.report(1).stdout)
         self.assertIn("\n  none: every pixel shows the background\n", self.report(0).stdout)
 
+    def test_has_the_colors_of_polygons_as_shading_info(self):
+        corners = ["-0.95 -1 -0.5 {}", "0.95 -1 -0.5 {}", "0.95 0.9 -0.5 {}"]
+        triangle = "triangle\n" + "\n".join(corners) + "\n"
+        self.SCENE = ("0 0 0\n0 0 -1\n0 1 0\northo -1 1 -1 1 0 2\nattributes color\n" +
+                      triangle.format("255 0 0", "255 0 0", "0 0 12.5") + triangle.format(*3 * ["9 8 7"]) +
+                      "end\n")
+        self.assertIn(
+            """
+SHADING INFO: red, green and blue; of each corner, where these differ
+  polygon   color
+  0         255 0 0, 255 0 0, 0 0 12.5
+  1         9 8 7
+
+ACTIVE EDGES""",
+            self.report(5).stdout)
+
     def test_fits_a_terminal(self):
         for sample in SAMPLES:
             lines = explain(sample / "scene.txt", sample / "config.txt", "--scan-line", 30).stdout.split("\n")

@@ -36,7 +36,7 @@ def scan_line_lines(stages, window, name, row):
         name, f"scan line {row} of 0 to {window.height - 1}, y = {short(y)} in NDC, coverage "
         f"{stages.settings.coverage}", "", f"EDGE TABLE, row {row}: the edges that begin there",
         *edge_table(triangles, window, rows, row), "", "POLYGON TABLE, of those on this row",
-        *polygon_table(triangles, rows, depths), "",
+        *polygon_table(triangles, rows, depths), *shading_info(text, depths), "",
         "ACTIVE EDGES: left ones turn their polygon's flag to in, right ones to out",
         *active_edges(sorted(edges_of(depths)), shown)]
 
@@ -101,6 +101,19 @@ def polygon_table(triangles, rows, depths):
     return aligned_left([("polygon", "rows", "plane")] +
                         [(str(polygon), "{} to {}".format(*rows[polygon]), planes[polygon])
                          for polygon in sorted(depths)])
+
+
+def shading_info(text, wanted):
+    """The colors of the polygons wanted, or of pieces of them, where the scene has some."""
+    columns = re.search(rb"^attributes (.*)", text, re.M)
+    if not columns or b"color" not in columns[1].split():
+        return []
+    start = 4 if b"w" in columns[1].split() else 3
+    table = [("polygon", "color")]
+    for number, lines in sorted(of_one for of_one in triangle_lines(io.BytesIO(text)) if of_one[0] in wanted):
+        colors = [" ".join(f"{float(word):.6g}" for word in line.split()[start:start + 3]) for line in lines]
+        table.append((str(number), ", ".join(colors) if len({*colors}) > 1 else colors[0]))
+    return ["", "SHADING INFO: red, green and blue; of each corner, where these differ", *aligned_left(table)]
 
 
 def plane(a, b, c):
