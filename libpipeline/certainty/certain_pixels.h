@@ -29,15 +29,15 @@ class CertainPixels {
   void add(const TriangleBatch& p_ndc);
   /// Takes the numbers of the triangles that the next drawn row shows.
   void add_row(std::span<const std::int64_t> shown);
-  /// `certain N`, `uncertain M`, and a line `ROW COLUMN` for each uncertain pixel but those beyond kMaxLines.
+  /// `certain N`, `uncertain M`, and a line `ROW COLUMN` for each of the first kMaxLines uncertain pixels.
   [[nodiscard]] std::string report() const;
 
  private:
   /// The depths of the triangles that may cover a pixel's center.
   struct Pixel {
-    double farthest;      // the least upper bound on a depth of those that surely cover it
-    std::int64_t number;  // of that one
-    // The two least lower bounds of those that may cover it.
+    double farthest;      // bounds the nearest depth of those that surely cover it
+    std::int64_t number;  // of the nearest of these
+    // The two smallest lower bounds of those that may cover it.
     double nearest, second_nearest = std::numeric_limits<double>::infinity();
   };
 

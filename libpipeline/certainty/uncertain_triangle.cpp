@@ -45,7 +45,7 @@ Vec3 magnitudes(const Vec3& v) {
 }  // namespace
 
 struct UncertainView::Corners {
-  /// How far true points may be off a plane, but for what printing moved.
+  /// How far true points may be off a plane, without the rounding of printing.
   [[nodiscard]] double moved(const Linear& plane) const {
     return dot(magnitudes(plane), by_axes) +
            by_w * (std::fabs(dot(plane, eye)) + kLost * dot(magnitudes(plane), magnitudes(eye)));

@@ -211,7 +211,7 @@ struct DoubleTriangleLanes {
     a = chosen(b, a);
     b = chosen(kept, b);
   }
-  /// Sorts from the top; masks those whose winding that turns.
+  /// Sorts from the top; masks those whose winding flips.
   HWY_INLINE static Mask sort(std::array<Corner, 3>& corners) {
     auto& [a, b, c] = corners;
     const Mask first = hn::Lt(b.row, a.row);

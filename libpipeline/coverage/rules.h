@@ -24,11 +24,11 @@ namespace pipeline {
 //   spans(triangles, rows, begin)   if it has a kernel for many triangles: the same spans, written as a
 //                     kernel does.
 
-/// From the pixel nearest to the left end of a row to the one nearest to its right end.
+/// On each row, from the pixel nearest to the triangle's left end to the one nearest to its right end.
 struct NearestCoverage {
   static constexpr std::string_view
       kName = "nearest",
-      kMeaning = "on each row from the pixel nearest to its left end to that nearest to its right end";
+      kMeaning = "on each row, those nearest to where it enters and leaves the triangle, and between";
   static constexpr bool kUsesDecimals = false;
   using Rows = NearestRows;
   explicit NearestCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(kNearestKernels)) {}

@@ -15,7 +15,7 @@ constexpr int kMaxExponent = 0;
 // They need the powers from 10^0 to 10^28.
 constexpr int kMaxPower = 28;
 
-/// 10^n = factor * 2^(log2 - 127) but for the last bit: the factor has 128 bits and is rounded up even where
+/// 10^n = factor * 2^(log2 - 127) except the last bit: the factor has 128 bits and is rounded up even where
 /// it is exact, as the algorithm requires.
 struct PowerOfTen {
   std::uint64_t high = 0;

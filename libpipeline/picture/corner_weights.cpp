@@ -11,7 +11,7 @@ namespace {
 // Below it, products of doubles lose digits.
 constexpr double kLeastDoubt = 0x1p-900;
 
-/// Twice the signed area that p and q make with a pixel's center, which is no double, exactly but for one
+/// Twice the signed area that p and q make with a pixel's center, which is no double, exact except for one
 /// rounding; times the count of pixels. `are_divided`: by w, so x and y are in NDC.
 Ball exact_area(const Vec3& p, const Vec3& q, const PixelGrid& grid, int row, int column, bool are_divided) {
   const double columns = grid.columns, rows = grid.rows;

@@ -71,8 +71,7 @@ struct PixelRun {
 /// No kernel shades more pixels at a time.
 constexpr std::size_t kMaxLanesShaded = 8;
 
-/// Writes the colors of a run's pixels, and as many as make the last kMaxLanesShaded whole. Every kernel
-/// writes the same.
+/// Writes the colors of a run's pixels, and up to kMaxLanesShaded - 1 more. Every kernel writes the same.
 using RunShader = void (*)(const PixelRun& run, const Lighting& lighting, Color* colors);
 
 extern const KernelTable<RunShader> kRunShaders;

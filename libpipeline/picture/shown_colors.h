@@ -12,10 +12,10 @@
 
 namespace pipeline {
 
-/// No channel of a color that looks black is greater.
+/// The largest channel of a color that looks black.
 constexpr double kBlackChannel = 8;
 
-/// True for most colors that look neither black nor white: no channel is so great, and one is beyond that.
+/// A quick test for most visible colors: true if not pure white and some channel exceeds kBlackChannel.
 constexpr bool looks_colored(Color color) {
   constexpr std::uint32_t kToHighBit = 128 - static_cast<std::uint32_t>(kBlackChannel) - 1,
                           kChannels = 0x010101;

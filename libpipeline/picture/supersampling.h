@@ -17,9 +17,9 @@ constexpr int kMaxSamples = 16;
 /// The screen whose pixels are the samples of `screen`: `count` x `count` per pixel, in a regular grid.
 Viewport sample_screen(const Viewport& screen, int count);
 
-/// The mean of colors, each channel rounded to the nearest integer, halves up. Of those that are not opaque,
-/// all the same one, so is the alpha; a color counts for the other channels as much as its alpha, and where
-/// all are invisible, they are that color's.
+/// The mean of colors, each channel rounded to the nearest integer, halves up. Colors that are not opaque
+/// must be equal. Alpha is averaged likewise; the other channels are weighted by alpha, and where all are
+/// invisible, the color is kept.
 class ColorMean {
  public:
   void add(Color color) {

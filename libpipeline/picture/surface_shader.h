@@ -96,7 +96,7 @@ class SurfaceShader {
   struct Worker {
     std::vector<CachedSurface> cache;  // each id has one entry; those of a row are mostly seen in the next
     std::vector<Color> row;
-    ShownColors shown;                       // but for those that look black,
+    ShownColors shown;                       // without the pixels that look black
     std::vector<std::uint32_t> dark_pixels;  // the pixels of an id; empty if there are none
     std::vector<bool> seen;                  // by id, while all have one color
   };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-/// The next float below `value`, which is at least that far away from it.
+/// The largest float below `value`.
 float below(double value) {
   const auto nearest = static_cast<float>(value);
   return static_cast<double>(nearest) < value ? nearest : std::nextafter(nearest, -HUGE_VALF);

@@ -38,13 +38,13 @@ class Ellipsoid {
   };
   /// Where the line of a ray meets the surface.
   [[nodiscard]] Meetings meetings(const Ray& ray) const;
-  /// The same for a ray that begins on the surface, but for rounding: where it leaves through the other side,
+  /// The same for a ray that begins on the surface, up to rounding: where it leaves through the other side,
   /// if it goes inward.
   [[nodiscard]] Meetings meetings_from_surface(const Ray& ray) const;
 
   /// The normal at a point of the surface: outward, of length 1.
   [[nodiscard]] Vec3 normal(const Vec3& point) const;
-  /// The box around it, but for rounding: 2^-50 of the largest coordinate of a point that it is made from.
+  /// The box around it, up to rounding: 2^-50 of the largest coordinate of a point that it is made from.
   [[nodiscard]] BoundingBox box() const;
 
  private:

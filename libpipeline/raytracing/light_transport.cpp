@@ -131,8 +131,8 @@ Vec3 LightTransport::follow(RayKind kind, const SurfaceRay& ray, const Path& pat
   return scaled(hit ? color_of(*hit, ray.ray, next) : setup_.background, share);
 }
 
-/// As SurfaceShader lights it, but with the light that arrives here. A ray that has been turned is seen by an
-/// eye at the end of its way, stretched to a line.
+/// As SurfaceShader lights it, but with the light that arrives here. For secondary rays, the eye lies
+/// straight back from the start, by the path's length.
 Vec3 LightTransport::local_color(const SurfaceHit& hit, const Ray& ray, const Path& path) {
   dark_.material = material(hit);
   dark_.greatest_channel = std::max(dark_.greatest_channel.value_or(0), largest(hit.color));
@@ -189,7 +189,7 @@ Vec3 LightTransport::part_through(const SurfaceHit& hit, const Vec3& light) {
   double last = 0;
   for (const SurfaceCaster::Crossing& crossing : crossings_) {
     const Material& m = setup_.materials[crossing.material];
-    // The same part is lost on either side of a surface; by the angle outside, light comes out of any solid.
+    // Both sides use the angle as if it were outside: no total reflection keeps light in a solid.
     part = scaled(part, (1 - m.alpha) * (1 - fresnel_reflectance(1 / m.index, crossing.cosine)));
     if (!crossing.is_front) part = product(part, passed(m, (crossing.t - last) * whole_length));
     last = crossing.t;

@@ -40,7 +40,7 @@ class RayCaster {
     double depth;
   };
 
-  /// `row_count`: rows between which calls go back and forth.
+  /// Caches each triangle's spans on `row_count` rows.
   RayCaster(const TracedTriangles& triangles, const Bvh& bvh, const ProjectionTransform& projection,
             const Viewport& screen, int row_count = 1)
       : triangles_(triangles),

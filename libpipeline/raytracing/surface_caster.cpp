@@ -89,7 +89,7 @@ double error_of_mean(const Triangle& p_view) {
   return 0x1p-49 * largest;
 }
 
-/// A ray that starts on the sphere itself leaves out that place as such, however near the other one is.
+/// A ray that starts on the sphere never meets it there, however near the other meeting is.
 Ellipsoid::Meetings SurfaceCaster::sphere_meetings(SurfaceId id, const SurfaceRay& ray) const {
   const Ellipsoid& surface = triangles_.sphere(id).surface;
   const Ellipsoid::Meetings all =

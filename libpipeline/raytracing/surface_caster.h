@@ -35,7 +35,7 @@ struct SurfaceRay {
 struct SurfaceHit {
   SurfaceId id = kNoSurface;
   double t = 0;      // the ray's parameter
-  Vec3 point;        // on the surface, but for `error`
+  Vec3 point;        // on the surface, within `error`
   double error = 0;  // a bound on the distance between the surface and the point, in each coordinate
   Vec3 face_normal;  // of length 1, on the front side: a triangle is counterclockwise from there
   Vec3 normal;       // for light, of any length and on either side

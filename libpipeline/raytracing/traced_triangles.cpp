@@ -85,7 +85,7 @@ void TracedTriangles::add_entry(const TriangleBatch& p_view, std::size_t index, 
 
 void TracedTriangles::add_image(const TriangleBatch& p_ndc, std::size_t index) {
   const std::size_t id = p_ndc_.size();
-  // Triangles before it may have left arrays shorter that they had no use for.
+  // Arrays that earlier triangles did not need may be shorter.
   const Triangle& triangle = p_ndc.triangles[index];
   for (const Vec3& p : triangle) largest_depth_ = std::max(largest_depth_, std::fabs(p.z));
   const auto set = [&](auto& array, const auto& value) {

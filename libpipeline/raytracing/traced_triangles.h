@@ -64,7 +64,7 @@ class TracedTriangles {
   /// Adds the triangles of a batch, which ExactProjection has projected, and its spheres. An InputError in
   /// `file` at a sphere whose points lie in a plane.
   void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc, const std::string& file);
-  /// Drops what rays from elsewhere than the eye meet, and boxes are made from: triangles in view space.
+  /// Drops triangles in view space, which only building boxes and secondary rays need.
   void keep_images_alone() {
     p_view_ = {};
     attributes_ = {};

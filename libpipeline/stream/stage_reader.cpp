@@ -144,8 +144,7 @@ void StageReader::fill(TriangleBatch& batch) {
     }
     const bool is_triangle = begins_like_number(line_.peek());
     const bool is_sphere = !is_triangle && accepts_spheres_ && line_.peek() == "sphere";
-    // A triangle after a sphere is of the next batch; a sphere's lines are waited for with an empty one
-    // alone.
+    // A triangle after a sphere is of the next batch; only an empty batch waits for a sphere's lines.
     line_is_pending_ = (is_triangle && !batch.spheres.empty()) ||
                        (is_sphere && !batch.empty() && !text_.has_buffered_lines(4));
     if (line_is_pending_) break;

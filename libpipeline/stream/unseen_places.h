@@ -8,11 +8,11 @@
 
 namespace pipeline {
 
-/// Why a triangle, or a sphere, shows at no pixel: the first that applies, in this order.
+/// Why a triangle, or a sphere, shows at no pixel: the first that applies, in order; fragments come last.
 enum class UnseenPlace {
   behind,  // the eye, all of it
-  near,    // before the near plane or the front limit, all of it, or all of its fragments but those
-  far,     // beyond the far plane or the rear limit, likewise
+  near,    // all of it before the near plane or front limit, or a fragment, if none is visible
+  far,     // likewise beyond the far plane or rear limit
   left,    // of the view volume or the window, all of it
   right,   // likewise ...
   below,

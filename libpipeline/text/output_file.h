@@ -20,7 +20,7 @@ struct FilePlace {
 
 /// The place of the file `path`: links are followed, so all names of a file give the same one. Nothing for a
 /// device or a socket, which any number of files may share, and where opening will fail. An IoError if
-/// symbolic links form a circle, and for a descriptor that is not open: it might be another file's later.
+/// symbolic links form a cycle, and for a descriptor that is not open: it might be another file's later.
 std::optional<FilePlace> place_of(const std::string& path);
 
 /// True if an OutputFile `path` is a new file or replaces a regular one, complete or not at all.

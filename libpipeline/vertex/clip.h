@@ -40,7 +40,7 @@ constexpr std::array<ClipPlane, 6> kAllClipPlanes = {ClipPlane::near,  ClipPlane
 constexpr std::array<ClipPlane, 1> kNearPlane = {ClipPlane::near};
 
 /// The signed distance from a plane in clip space, scaled: w + z for the near plane. Positive inside. Its
-/// sign is certain for the image of a vertex, but for the sides of a perspective whose tangent is no double.
+/// sign is certain for the image of a vertex, except at sides of a perspective whose tangent is no double.
 Ball distance_inside(ClipPlane plane, const ClipVertex& vertex);
 
 /// Its sign.

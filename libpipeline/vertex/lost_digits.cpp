@@ -136,10 +136,10 @@ void LostDigits::look_at_kept() {
   kept_ = {};
 }
 
-/// Looks at a triangle. If that is too much work, fewer rows stay; if these are few, it is left out, but for
+/// Looks at a triangle. If that is too much work, fewer rows stay; if these are few, it is left out, except
 /// some that hide places.
 void LostDigits::look_at(const Triangle& p_ndc, const Triangle& p_view, std::size_t most_work) {
-  constexpr double kMostReach = 1e-3;  // of all that lie behind the places but for their reach
+  constexpr double kMostReach = 1e-3;  // of triangles that lie behind all places except by their reach
   const auto& [a, b, c] = p_ndc;
   const double nearest = std::min({a.z, b.z, c.z});
   work_ += 2;
@@ -242,8 +242,8 @@ Triangle LostDigits::projected(const Triangle& p_view) const {
   return p_ndc;
 }
 
-/// At most so far is the depth of a plane from the true one where it is `z`, by the digits that are lost.
-/// model and view have rounded what is read.
+/// A bound on the error, from lost digits, of a plane's depth where that depth is `z`. The numbers read were
+/// rounded by model and view.
 double LostDigits::depth_error(const Plane& plane, double z, const HalfUnits& half) const {
   const double near = projection_.near, far = projection_.far;
   const double z_x = std::fabs(plane.z_x), z_y = std::fabs(plane.z_y);

@@ -14,11 +14,11 @@ namespace pipeline {
 
 /// Estimates the share of a picture that shows another surface than it would with all digits. Draws the scene
 /// at some places of the window. Where the two nearest surfaces are closer in depth than the decimals can
-/// tell, it asks whether they are printed in the true order; of every triangle, how much of its area the
-/// decimals move its edges over. These shares do not depend on the size of the picture.
+/// tell, it asks whether they are printed in the true order; for every triangle, what share of it the
+/// rounding sweeps its edges over. These shares do not depend on the size of the picture.
 ///
-/// The numbers written are known before they are rounded. What the text read has lost is not: some equally
-/// likely truths are tried.
+/// The numbers written are known before they are rounded. The digits that the text read has lost are not:
+/// some equally likely ones are tried.
 class LostDigits {
  public:
   struct Found {

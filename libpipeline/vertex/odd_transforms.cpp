@@ -35,7 +35,7 @@ bool looks_like_radians(double angle) {
   });
 }
 
-/// True for three points, no two of them equal, on a line, but for the rounding of decimals.
+/// True for three points, no two of them equal, on a line, up to the rounding of decimals.
 bool are_on_line(const Triangle& p) {
   constexpr double kSine = 1e-12;
   const Vec3 normal = cross(unit_vector(difference(p[1], p[0])), unit_vector(difference(p[2], p[0])));

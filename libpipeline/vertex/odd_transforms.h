@@ -10,7 +10,7 @@
 
 namespace pipeline {
 
-/// Legal transforms and triangles of a scene that hardly do what was meant; of each kind the first is noted.
+/// Legal but probably mistaken transforms and triangles of a scene; the first of each kind is noted.
 class OddTransforms {
  public:
   void add(const RotateCommand& rotate, const SourceLocation& location);

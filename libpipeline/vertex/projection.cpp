@@ -284,7 +284,7 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
 }
 
 /// The triangle with its attributes in clip space; null if a coordinate is too large for a double. The w of
-/// `corners`, which the clip extent may have multiplied, does not count.
+/// `corners` is not used: clip_inset may have scaled it.
 std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
     const std::array<ClipVertex, 3>& corners, const TriangleBatch& p_view, std::size_t index) {
   const double input_size = size_of(p_view.triangles[index]);

@@ -58,9 +58,9 @@ class ProjectionStage {
   /// From now on pieces keep the triangle they were cut from (TriangleBatch::unclipped), as lighting needs.
   void keep_unclipped_triangles() { keeps_unclipped_ = true; }
 
-  /// From now on writes w with every vertex, and drops only triangles of which clipping leaves nothing
-  /// wherever the vertices are, within `error` of those read; any other it passes on as a piece without area
-  /// of the triangle. Pieces keep that, too. Not with the clip modes frustum, reject and none.
+  /// From now on writes w with every vertex. A triangle that clipping drops, but might not with its vertices
+  /// moved by up to `error`, is passed on as a piece without area. All pieces keep their uncut triangle. Not
+  /// with the clip modes frustum, reject and none.
   void keep_bounds(const ErrorBound& error) {
     error_ = error;
     keeps_unclipped_ = true;

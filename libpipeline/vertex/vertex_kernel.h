@@ -67,8 +67,8 @@ struct ImageBlock : VertexBlock {
 /// for kAllClipPlanes[i]).
 struct CertainSides {
   std::uint64_t all_outside = 0;  // all corners lie outside, each by far more than is lost by rounding
-  std::uint64_t none_inside = 0;  // no corner lies as far inside
-  std::uint64_t some_unsure = 0;  // some corner does not
+  std::uint64_t none_inside = 0;  // no corner is surely inside
+  std::uint64_t some_unsure = 0;  // some is not
 };
 
 /// The planes of the view volume that a block's vertices lie outside, and inside of, by so much.
@@ -127,8 +127,8 @@ struct VertexKernel {
                   ImageBlock& p_ndc);
   /// With `beside` of all planes, else of near and far alone.
   void (*find_sides)(const ProjectionCoefficients&, const VertexBlock& p_view, SideBlock& sides, bool beside);
-  /// Replaces normals by their images, as NormalTransform (attribute_transform.h) does. Returns how many: up
-  /// to some with one that is 0 or whose image is below kNearlyLost, or to those that fill no vector.
+  /// Replaces normals by their images, as NormalTransform (attribute_transform.h) does. Returns how many:
+  /// stops at a vector with one that is 0 or has an image below kNearlyLost, or that is not full.
   std::size_t (*transform_normals)(const std::array<Vec3, 3>& rows, std::span<Vec3> normals);
 };
 

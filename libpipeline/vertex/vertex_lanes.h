@@ -44,7 +44,7 @@ HWY_INLINE Mask has_one_text(const Estimate& e, double scale, Doubles& value) {
   return hn::Lt(hn::Abs(offset) + scaled * all(kProductError), all(kBelowHalf) - e.error * all(scale));
 }
 
-/// The same for a pair: its product with the scale is exact but for the pair's error. Far enough from a tie,
+/// The same for a pair: its product with the scale is exact up to the pair's error. Far enough from a tie,
 /// it has the text of the nearest whole number of units, which is rounded to in two steps, since a double up
 /// to 2^53 may be one. Below a power of two where doubles lie closer than units, the nearest double to that
 /// many units has their text.

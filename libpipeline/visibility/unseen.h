@@ -19,9 +19,8 @@ struct FragmentDepths {
   bool beyond_rear = false;
 };
 
-/// The first place, but for `behind`, that applies to a triangle without visible fragments, in the box
-/// `extent`. A triangle that is before or beyond a limit with its fragments alone has none of the places
-/// between.
+/// Why a triangle with the box `extent` shows nowhere; never `behind`. Fragments before or beyond a limit
+/// decide only where neither the box nor a missing area does.
 UnseenPlace unseen_place(const Triangle& p_ndc, const BoundingBox& extent, const FragmentDepths& fragments,
                          const Viewport& screen);
 

@@ -95,7 +95,7 @@ def cameras_of(keys, fps, linear):
             i += 1
         h = times[i + 1] - times[i]
         t = (time - times[i]) / h
-        if abs(t - round(t)) < 1e-9:  # at a key, but for the rounding of times
+        if abs(t - round(t)) < 1e-9:  # at a key, up to the rounding of times
             t = round(t)
         if linear:
             numbers = [values[i] * (1 - t) + values[i + 1] * t for values in curves]

@@ -170,7 +170,7 @@ class GltfReader {
       if (!file) model_.fail("the file of its numbers", "no " + pipeline::quoted(uri));
       bytes = *file;
     } else if (json.value != document_["buffers"][0].value) {
-      model_.fail("the uri of a buffer", "none: the first alone is in the file itself");
+      model_.fail("the uri of a buffer", "none: only the first may be in the file");
     }
     if (count(json, "byteLength") > bytes.size())
       model_.fail(counted(count(json, "byteLength"), "byte") + " in a buffer",
@@ -283,7 +283,7 @@ class GltfReader {
     constexpr std::size_t kMostNodes = 1'000'000;
     const Json json = item("nodes", index);
     if (depth > kDeepest || ++node_count_ > kMostNodes)
-      model_.fail("nodes without a circle, at most 1,000 deep and 1,000,000 in all", "others");
+      model_.fail("nodes without a cycle, at most 1,000 deep and 1,000,000 in all", "others");
     const Json visible = json["extensions"]["KHR_node_visibility"]["visible"];
     if (visible.is_there() && !visible.is_true()) return;
     ModelNode node;

@@ -14,9 +14,9 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
 
 /// A unit normal for every corner of every triangle, three in a row for each: the mean of the normals of
 /// those triangles at this position whose planes turn by at most `crease_degrees` from the corner's own,
-/// weighted by the corner's angle and by the area in one plane. A plane that has nearly all of that area
-/// keeps its normal; what turns by at most half the crease from it shares it, and the rest is smoothed
-/// without it. 0 where no triangle has an area.
+/// weighted by the corner's angle and by the area in one plane. A plane with over 80 % of their area keeps
+/// its normal, shared by triangles within half the crease; the rest are smoothed without that plane. 0 where
+/// no triangle has an area.
 std::vector<Floats> smooth_normals(const ModelMesh& mesh, const std::vector<Vec3>& points,
                                    double crease_degrees);
 

@@ -61,7 +61,7 @@ double cosine(double degrees) {
   return std::cos(degrees * std::numbers::pi / 180) - 1e-6;
 }
 
-/// Makes the normals of a position's corners at a time.
+/// Makes the normals of all corners at a position.
 struct Smoothing {
   const ModelMesh& mesh;
   const std::vector<Vec3>& points;

@@ -17,8 +17,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the number of them so far, at most five times a second; and, if it is known that this is such a
-  /// `part` of the work, from 0 to 1, the per cent and the time left.
+  /// Shows the number of them so far, at most five times a second; with a known `part` of the work done, from
+  /// 0 to 1, also the percentage and the time left.
   void show(std::uint64_t count, double part = 0);
 
  private:

@@ -77,8 +77,8 @@ class Tool {
   void set_input(const std::string& path) { input_path_ = path; }
   /// Opens a text besides the input. A UsageError that names it `name` if both are standard input.
   [[nodiscard]] InputFile second_input(const std::string& path, const std::string& name) const;
-  /// A UsageError if an output of the run is another one, or an input: the operand INPUT or one of `inputs`.
-  /// It writes nothing to a file.
+  /// A UsageError if two outputs are one file, or one is an input: INPUT or one of `inputs`. Its error line
+  /// then goes to no file.
   void expect_separate(const std::vector<NamedFile>& outputs, std::vector<NamedFile> inputs = {});
   /// The output is a stage text from now on, though the tool's is another one.
   void write_stage_text() { output_kind_ = OutputKind::stage_text; }

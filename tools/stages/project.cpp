@@ -51,7 +51,7 @@ void ProjectOptions::add_clipping(CommandLine& options) {
   options.add_number(
       "--clip-inset", "F", clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
       "a number from 0 to less than 1",
-      "Move the planes of --clip near, frustum or reject in, to show the cuts: 0.1 keeps what is between "
+      "Pull in the planes of --clip near, frustum or reject, to show the cuts: 0.1 keeps what is between "
       "-0.9 "
       "and 0.9 in NDC");
   options.add_choice<CullMode>("--cull", cull, {{"back", CullMode::back}, {"front", CullMode::front}},

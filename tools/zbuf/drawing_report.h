@@ -30,8 +30,8 @@ class DrawingReport {
   void measure(const TriangleBatch& p_ndc);
 
   Viewport screen_;
-  BoundingBox extent_;    // of the triangles in the window, as far as
-  bool is_speck_ = true;  // it is small
+  BoundingBox extent_;    // of the triangles in the window, while they are a speck
+  bool is_speck_ = true;  // all of them together, so far
   EmptyPicture at_centers_;
   std::optional<EmptyPicture> at_samples_;
   std::optional<DrawingCounter> counter_;

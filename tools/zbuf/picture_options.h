@@ -44,8 +44,8 @@ struct PictureOptions {
   /// Chooses the options that depend on others, and on whether standard output is a terminal; without an
   /// image and depths by default where `writes_seen`. A UsageError if options exclude each other.
   void complete(bool is_terminal, bool writes_seen);
-  /// How many threads work: --threads or else one for each 2 million samples that are drawn, up to one on
-  /// every core; `samples` of them, or what takes as long.
+  /// The number of threads: --threads, or one per 2 million samples, at most one per core. `samples` counts
+  /// samples, or work that takes as long.
   [[nodiscard]] int threads_for(std::size_t samples) const;
   /// True if an image is written, once the options are complete.
   [[nodiscard]] bool has_image() const { return !image_path.empty(); }

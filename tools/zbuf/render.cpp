@@ -55,7 +55,7 @@ struct Reports {
   }
 };
 
-/// True if each triangle of a stream is nearer than all before it at any pixel or sample. Under a depth
+/// For each triangle: is it nearer than all before it at some pixel or sample? Under a depth
 /// epsilon any other may be left out of the text that `--seen` writes: a fragment that is drawn over one of
 /// depth c is nearer than c by more than epsilon, and none before it is.
 class NearestSoFar {

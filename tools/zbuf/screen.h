@@ -18,11 +18,11 @@ NamedFile config_of(Tool& tool, const PictureOptions& chosen);
 /// config.
 Viewport read_screen(Tool& tool, const PictureOptions& chosen, const NamedFile& config);
 
-/// The note on a picture whose shape parts from its camera's by more than whole pixels explain, so that no
-/// square is square. None for a perspective whose aspect is one of angles: then squares need not be.
+/// The note on a picture whose aspect ratio differs from its camera's by more than rounding to pixels, which
+/// distorts squares. None for a perspective with AspectRule::angle, which may distort them.
 std::optional<std::string> squeezed_note(const Projection& projection, const Viewport& screen);
-/// The same for what project has done, which does not tell the rule of a perspective's aspect: none for a
-/// window around the middle.
+/// The same for a projection carried out, which may be a perspective by either rule: none for a window around
+/// the middle.
 std::optional<std::string> squeezed_note_of_projected(const Projection& projected, const Viewport& screen);
 
 }  // namespace pipeline

@@ -18,7 +18,7 @@ bool is_in_clip_plane(const Vec3& p, const Vec3& q) {
   return is_on_limit(p.x, q.x) || is_on_limit(p.y, q.y) || is_on_limit(p.z, q.z);
 }
 
-/// Exactly but for its rounding where balls lose too much.
+/// Exact, except for its rounding where balls lose too much.
 BallVec3 plane_normal(const Triangle& p) {
   constexpr double kCertain = 0x1p-50;
   const Vec3 &a = p[0], &b = p[1], &c = p[2];

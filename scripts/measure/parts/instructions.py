@@ -55,7 +55,7 @@ def no_count_at_all():
 
 
 def callgrind_count(words, folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, **environment):
-    """The instructions of one command in `folder`, in the same environment, but for what is given, whatever
+    """The instructions of one command in `folder`, in the same environment, except what is given, whatever
     the caller's."""
     done = subprocess.run(
         [shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", *words], cwd=folder,
