@@ -12,13 +12,6 @@ PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET == HWY_SCALAR
 
-TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
-                         const RowRange& rows, TaggedSpan* spans) {
-  for (const auto& [triangle, tag] : triangles)
-    spans = append_spans(CenterRows(grid, triangle), tag, rows, spans);
-  return spans;
-}
-
 /// The plane of one triangle.
 Planes plane_of(const ExactGrid& grid, const ExactTriangle& triangle) {
   std::array<Vectors, 3> corners;
@@ -278,49 +271,35 @@ using Rule = RuleOf<AxisLanes, TriangleLanes, RowLanes>;
 /// For triangles that have other coordinates than decimals.
 using DoubleRule = RuleOf<PixelAxis, DoubleTriangleLanes, DoubleRowLanes>;
 
-/// The triangles whose x and y are decimals. Usually all are, or none.
-LaneSet decimals_of(const TaggedTriangle* triangles) {
-  ExactTriangle all_of_them = triangles[0].triangle;
-  for (std::size_t i = 1; i < kLanes; ++i) all_of_them.decimal_marks &= triangles[i].triangle.decimal_marks;
-  if (all_of_them.is_decimal()) return {};
-  LaneSet result = {0};
-  for (std::size_t i = 0; i < kLanes; ++i)
-    result.bits |= static_cast<unsigned>(triangles[i].triangle.is_decimal()) << i;
-  return result;
-}
-
 template <typename Rule>
 TaggedSpan* append_by(const Rule& rule, const TaggedTriangle* triangles, const RowRange& rows,
                       TaggedSpan* spans) {
   return append_triangles(rule, rule.prepared(triangles, rows), triangles, rows, spans);
 }
 
-TaggedSpan* append_mixed(const ExactGrid& grid, LaneSet decimals, const TaggedTriangle* triangles,
-                         const RowRange& rows, TaggedSpan* spans) {
-  const Rule rule(grid);
-  const DoubleRule double_rule(grid);
-  const auto whole = rule.prepared(triangles, rows);
-  const auto others = double_rule.prepared(triangles, rows);
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    spans = decimals.has(lane) ? append_triangle(rule, whole, lane, triangles[lane], rows, spans)
-                               : append_triangle(double_rule, others, lane, triangles[lane], rows, spans);
+#endif
+
+TaggedSpan* append_each(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
+                        const RowRange& rows, TaggedSpan* spans) {
+  for (const auto& [triangle, tag] : triangles)
+    spans = append_spans(CenterRows(grid, triangle), tag, rows, spans);
   return spans;
 }
 
 TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
                          const RowRange& rows, TaggedSpan* spans) {
+#if HWY_TARGET != HWY_SCALAR
   for (; triangles.size() >= kLanes; triangles = triangles.subspan(kLanes)) {
-    const LaneSet decimals = decimals_of(triangles.data());
-    spans = decimals.has_all()   ? append_by(Rule(grid), triangles.data(), rows, spans)
-            : decimals.bits == 0 ? append_by(DoubleRule(grid), triangles.data(), rows, spans)
-                                 : append_mixed(grid, decimals, triangles.data(), rows, spans);
+    // Usually all of a text have decimals, or none.
+    std::size_t decimal_count = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) decimal_count += triangles[i].triangle.is_decimal() ? 1 : 0;
+    spans = decimal_count == kLanes ? append_by(Rule(grid), triangles.data(), rows, spans)
+            : decimal_count == 0    ? append_by(DoubleRule(grid), triangles.data(), rows, spans)
+                                    : append_each(grid, triangles.first(kLanes), rows, spans);
   }
-  for (const TaggedTriangle& triangle : triangles)
-    spans = append_spans(CenterRows(grid, triangle.triangle), triangle.tag, rows, spans);
-  return spans;
-}
-
 #endif
+  return append_each(grid, triangles, rows, spans);
+}
 
 PIPELINE_END_KERNELS();
 

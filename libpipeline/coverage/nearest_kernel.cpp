@@ -8,16 +8,7 @@
 
 PIPELINE_BEGIN_KERNELS();
 
-#if HWY_TARGET == HWY_SCALAR
-
-TaggedSpan* nearest_spans(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
-                          const RowRange& rows, TaggedSpan* spans) {
-  for (const auto& [triangle, tag] : triangles)
-    spans = append_spans(NearestRows(grid, triangle.p_ndc), tag, rows, spans);
-  return spans;
-}
-
-#else
+#if HWY_TARGET != HWY_SCALAR
 
 // The same operations as in NearestRows, as long as neither a triangle nor a row is out of the ordinary: no
 // product near the ends of a double's range, no corner on the line of pixel centers.
@@ -162,12 +153,19 @@ struct Rule {
   const PixelGrid& grid;
 };
 
+#endif
+
 TaggedSpan* nearest_spans(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
                           const RowRange& rows, TaggedSpan* spans) {
-  return append_all(Rule{grid}, triangles, rows, spans);
-}
-
+#if HWY_TARGET != HWY_SCALAR
+  const Rule rule{grid};
+  for (; triangles.size() >= kLanes; triangles = triangles.subspan(kLanes))
+    spans = append_triangles(rule, rule.prepared(triangles.data(), rows), triangles.data(), rows, spans);
 #endif
+  for (const auto& [triangle, tag] : triangles)
+    spans = append_spans(NearestRows(grid, triangle.p_ndc), tag, rows, spans);
+  return spans;
+}
 
 PIPELINE_END_KERNELS();
 

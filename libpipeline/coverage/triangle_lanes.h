@@ -121,10 +121,11 @@ struct LaneSet {
   unsigned bits = kAll;
 };
 
-/// Appends the spans of one of some triangles: as many rows at a time.
+/// Appends the spans of one of some triangles: as many rows at a time. Not inlined, so that its caller is.
 template <typename Rule, typename TriangleLanes>
-TaggedSpan* append_triangle(const Rule& rule, const TriangleLanes& some, std::size_t lane,
-                            const TaggedTriangle& triangle, const RowRange& range, TaggedSpan* spans) {
+[[gnu::noinline]] TaggedSpan* append_triangle(const Rule& rule, const TriangleLanes& some, std::size_t lane,
+                                              const TaggedTriangle& triangle, const RowRange& range,
+                                              TaggedSpan* spans) {
   if (!some.ordinary.has(lane)) return append_spans(rule.rows(triangle), triangle.tag, range, spans);
   const auto sources = lane_of(some.sources, lane);
   const Axis axis = rule.axis();
@@ -175,17 +176,6 @@ TaggedSpan* append_triangles(const Rule& rule, const TriangleLanes& some, const 
       spans = rows.spans.append(lane, axis, rule.slope(some, lane, rows, lane), tag, spans);
     }
   }
-  return spans;
-}
-
-/// The body of a kernel: appends the spans of all triangles.
-template <typename Rule>
-TaggedSpan* append_all(const Rule& rule, std::span<const TaggedTriangle> triangles, const RowRange& range,
-                       TaggedSpan* spans) {
-  for (; triangles.size() >= kLanes; triangles = triangles.subspan(kLanes))
-    spans = append_triangles(rule, rule.prepared(triangles.data(), range), triangles.data(), range, spans);
-  for (const TaggedTriangle& triangle : triangles)
-    spans = append_spans(rule.rows(triangle), triangle.tag, range, spans);
   return spans;
 }
 
