@@ -15,35 +15,18 @@ namespace {
 #if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
 
 /// std::from_chars of a double, which libc++ has from its version 20 on: here by strtod, of a word that
-/// begins with a digit, a point or a minus. It rounds to nearest, and nobody sets another locale than "C".
+/// begins with a digit, a point or a minus; a number too small for a double becomes 0. It rounds to nearest,
+/// and nobody sets another locale than "C".
 std::from_chars_result double_from_chars(const char* first, const char* last, double& value) {
-  const char* p = first;
-  bool has_digit = false;
-  bool is_zero = true;
-  const auto skip_digits = [&] {
-    for (; p != last && is_digit(*p); ++p) {
-      has_digit = true;
-      is_zero = is_zero && *p == '0';
-    }
-  };
-  if (p != last && *p == '-') ++p;
-  skip_digits();
-  if (p != last && *p == '.') {
-    ++p;
-    skip_digits();
-  }
-  if (!has_digit) return {first, std::errc::invalid_argument};
-  const char* exponent = p;
-  if (exponent != last && (*exponent == 'e' || *exponent == 'E')) {
-    ++exponent;
-    if (exponent != last && (*exponent == '+' || *exponent == '-')) ++exponent;
-    if (exponent != last && is_digit(*exponent))
-      for (p = exponent; p != last && is_digit(*p);) ++p;
-  }
-  const double parsed = std::strtod(std::string(first, p).c_str(), nullptr);
-  if (std::isinf(parsed) || (parsed == 0 && !is_zero)) return {p, std::errc::result_out_of_range};
-  value = parsed;
-  return {p, std::errc()};
+  // Less than strtod takes: no "0x10" and no "-inf".
+  const std::string word(first, std::find_if(first, last, [](char c) {
+                           return !is_digit(c) && std::string_view("+-.eE").find(c) == std::string_view::npos;
+                         }));
+  char* end = nullptr;
+  value = std::strtod(word.c_str(), &end);
+  const char* const stop = first + (end - word.c_str());
+  if (stop == first) return {first, std::errc::invalid_argument};
+  return {stop, std::isinf(value) ? std::errc::result_out_of_range : std::errc()};
 }
 
 #else
