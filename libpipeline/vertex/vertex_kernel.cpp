@@ -31,43 +31,40 @@ HWY_INLINE void set_images(ImageBlock& image, std::size_t i, double scale, Mask 
   hn::StoreU(hn::VecFromMask(kBits, hn::RebindMask(kBits, are_safe)), kBits, &image.passes_rounding_test[i]);
 }
 
-template <RoundingTestKind kind>
-HWY_INLINE void transform_in_doubles(AffineCoefficients m, double scale, const VertexBlock& p,
-                                     ImageBlock& image) {
+template <RoundingTestKind kind, bool in_pairs>
+HWY_INLINE void transform_all(AffineCoefficients m, double scale, const VertexBlock& p, ImageBlock& image) {
   for (std::size_t i = 0; i < p.count; i += kLanes) {
-    const Vectors v =
-        Vectors{coordinates(p, 0, i), coordinates(p, 1, i), coordinates(p, 2, i)} - all(m.origin);
-    set_images<kind>(image, i, scale, hn::Eq(all(0), all(0)),
-                     [&](std::size_t axis) HWY_ATTR { return image_in_doubles(m.rows[axis], v); });
+    const Doubles x = coordinates(p, 0, i), y = coordinates(p, 1, i), z = coordinates(p, 2, i);
+    set_images<kind>(image, i, scale, hn::Eq(all(0), all(0)), [&](std::size_t axis) HWY_ATTR {
+      if constexpr (in_pairs)
+        return image_in_pairs(m.rows[axis],
+                              std::array{two_sum(x, all(-m.origin.x)), two_sum(y, all(-m.origin.y)),
+                                         two_sum(z, all(-m.origin.z))});
+      else
+        return image_in_doubles(m.rows[axis], Vectors{x, y, z} - all(m.origin));
+    });
   }
 }
 
-template <RoundingTestKind kind>
-HWY_INLINE void transform_in_pairs(AffineCoefficients m, double scale, const VertexBlock& p,
-                                   ImageBlock& image) {
-  const auto [x, y, z] = m.origin;
-  for (std::size_t i = 0; i < p.count; i += kLanes) {
-    const std::array<Pairs, 3> v = {two_sum(coordinates(p, 0, i), all(-x)),
-                                    two_sum(coordinates(p, 1, i), all(-y)),
-                                    two_sum(coordinates(p, 2, i), all(-z))};
-    set_images<kind>(image, i, scale, hn::Eq(all(0), all(0)),
-                     [&](std::size_t axis) HWY_ATTR { return image_in_pairs(m.rows[axis], v); });
-  }
+/// Calls `run` with the kind of test and whether it takes pairs.
+template <typename Run>
+HWY_INLINE void by_test(const RoundingTest& test, const Run& run) {
+  using Kind = RoundingTestKind;
+  if (test.kind == Kind::finite)
+    run.template operator()<Kind::finite, false>();
+  else if (test.kind == Kind::nearest)
+    run.template operator()<Kind::nearest, true>();
+  else if (test.needs_pairs)
+    run.template operator()<Kind::decimals, true>();
+  else
+    run.template operator()<Kind::decimals, false>();
 }
 
 void transform(const AffineCoefficients& m, const RoundingTest& test, const VertexBlock& p,
                ImageBlock& image) {
-  using Kind = RoundingTestKind;
   image.count = p.count;
-  if (test.kind == Kind::finite) {
-    transform_in_doubles<Kind::finite>(m, test.scale, p, image);
-  } else if (test.kind == Kind::nearest) {
-    transform_in_pairs<Kind::nearest>(m, test.scale, p, image);
-  } else if (test.needs_pairs) {
-    transform_in_pairs<Kind::decimals>(m, test.scale, p, image);
-  } else {
-    transform_in_doubles<Kind::decimals>(m, test.scale, p, image);
-  }
+  by_test(test, [&]<RoundingTestKind kind, bool in_pairs>()
+                    HWY_ATTR { transform_all<kind, in_pairs>(m, test.scale, p, image); });
 }
 
 template <RoundingTestKind kind, bool in_pairs>
@@ -89,17 +86,9 @@ HWY_INLINE void project_all(ProjectionCoefficients m, double scale, const Vertex
 
 void project(const ProjectionCoefficients& m, const RoundingTest& test, const VertexBlock& p,
              ImageBlock& p_ndc) {
-  using Kind = RoundingTestKind;
   p_ndc.count = p.count;
-  if (test.kind == Kind::finite) {
-    project_all<Kind::finite, false>(m, test.scale, p, p_ndc);
-  } else if (test.kind == Kind::nearest) {
-    project_all<Kind::nearest, true>(m, test.scale, p, p_ndc);
-  } else if (test.needs_pairs) {
-    project_all<Kind::decimals, true>(m, test.scale, p, p_ndc);
-  } else {
-    project_all<Kind::decimals, false>(m, test.scale, p, p_ndc);
-  }
+  by_test(test, [&]<RoundingTestKind kind, bool in_pairs>()
+                    HWY_ATTR { project_all<kind, in_pairs>(m, test.scale, p, p_ndc); });
 }
 
 /// Adds the two planes of an axis, `low` and the bit after it. A vertex is at the distances w + v and w - v
