@@ -132,9 +132,7 @@ bool is_device_without_extension(const std::string& path) {
 void reject_extension(const std::string& path, const std::string& kind,
                       const std::vector<std::string_view>& extensions) {
   const std::string found = std::filesystem::path(path).extension().string();
-  std::string expected = kind + " that ends in ";
-  for (std::size_t i = 0; i < extensions.size(); ++i)
-    expected.append(i == 0 ? "" : i + 1 < extensions.size() ? ", " : " or ").append(extensions[i]);
+  std::string expected = kind + " that ends in " + listed(extensions);
   if (!can_write_png() && extension_of(path) == ".png")
     expected += " (this build is without libpng, which .png needs)";
   throw InputError({path}, expected_but_found(expected, found.empty() ? "a name without extension"

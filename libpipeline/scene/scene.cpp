@@ -12,20 +12,6 @@
 #include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
-namespace {
-
-/// "a, b or c": the words of the rows for which `is_wanted(row)`.
-template <typename IsWanted>
-std::string alternatives(IsWanted&& is_wanted) {
-  const std::vector<std::string_view> words = scene_words(is_wanted);
-  std::string text(words.front());
-  for (std::size_t i = 1; i < words.size(); ++i)
-    text.append(i + 1 < words.size() ? ", " : " or ").append(words[i]);
-  return text;
-}
-
-}  // namespace
-
 SceneReader::SceneReader(TextReader& text) : text_(text) {
   camera_.eye = read_camera_vec3("the eye");
   camera_.look = read_camera_vec3("the point looked at");
@@ -144,8 +130,8 @@ std::string SceneReader::expected_commands() const {
     if (command.kind == CommandKind::of_material) return !has_triangle_ && !appearance_.materials.empty();
     return command.kind == CommandKind::use && appearance_.materials.size() > 1;
   });
-  std::string commands = "a command (" + alternatives(is_of_all);
-  if (!has_triangle_) commands += "; before the first triangle also " + alternatives(comes_first);
+  std::string commands = "a command (" + listed(scene_words(is_of_all));
+  if (!has_triangle_) commands += "; before the first triangle also " + listed(scene_words(comes_first));
   for (const std::string_view word : others)
     commands.append(word == others.front() ? "; also " : " and ").append(word);
   return commands + ")";

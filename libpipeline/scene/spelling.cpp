@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace pipeline {
 namespace {
@@ -37,6 +36,13 @@ std::string in_lower_case(std::string_view word) {
   std::string lower(word);
   std::ranges::transform(lower, lower.begin(), to_lower);
   return lower;
+}
+
+std::string listed(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 < words.size() ? ", " : " or ").append(words[i]);
+  return text;
 }
 
 std::string_view nearest_word(std::string_view found, std::span<const std::string_view> known) {

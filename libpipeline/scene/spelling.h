@@ -3,10 +3,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pipeline {
 
 std::string in_lower_case(std::string_view word);
+
+/// "a, b or c".
+std::string listed(const std::vector<std::string_view>& words);
 
 /// The known word that `found` is most likely meant to be: the nearest, if at most every third letter has to
 /// be inserted, deleted, replaced or swapped with its neighbor; empty if there is none. Upper and lower case

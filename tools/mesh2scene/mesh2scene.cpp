@@ -9,6 +9,7 @@
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
+#include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
 #include "tools/mesh2scene/readers.h"

@@ -193,13 +193,6 @@ class HelpForm : public CLI::Formatter {
 
 }  // namespace
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
-  return text;
-}
-
 CommandLine::CommandLine(const ToolDescription& tool, const std::string& version)
     : tool_(tool), version_(version), group_(kLastGroup) {}
 
@@ -316,10 +309,10 @@ void CommandLine::add_choice_of_words(const std::string& name, const std::vector
   }
   const auto choose = [name, words, take](const std::string& found) {
     const auto word = std::find(words.begin(), words.end(), found);
+    const std::vector<std::string_view> known(words.begin(), words.end());
     if (word == words.end())
       throw CLI::ValidationError(
-          name, expected_but_found(listed(words), pipeline::quoted(found)) +
-                    spelling_hint(found, std::vector<std::string_view>(words.begin(), words.end())));
+          name, expected_but_found(listed(known), pipeline::quoted(found)) + spelling_hint(found, known));
     take(static_cast<std::size_t>(word - words.begin()));
   };
   declare(name, [=](CLI::App& app) {

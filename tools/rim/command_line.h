@@ -26,9 +26,6 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// "a, b or c".
-std::string listed(const std::vector<std::string>& words);
-
 /// Describes the error in a word; empty if there is none.
 using WordCheck = std::function<std::string(const std::string& word)>;
 

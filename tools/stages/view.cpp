@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libpipeline/scene/spelling.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
@@ -29,7 +30,7 @@ constexpr ToolDescription kDescription = {
 
 /// The view transform of a camera, which needs all three parts.
 ViewTransform view_of(const CameraParameters& camera, const StageReader& reader) {
-  std::vector<std::string> missing;
+  std::vector<std::string_view> missing;
   if (!camera.eye) missing.emplace_back("eye");
   if (!camera.look) missing.emplace_back("look");
   if (!camera.up) missing.emplace_back("up");

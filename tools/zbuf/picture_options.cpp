@@ -12,6 +12,7 @@
 #include "libpipeline/picture/image_file.h"
 #include "libpipeline/picture/pixel_files.h"
 #include "libpipeline/scene/config.h"
+#include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/error.h"
 #include "tools/zbuf/surface_shading.h"
 
@@ -47,10 +48,9 @@ PictureOptions::PictureOptions(CommandLine& options, const std::string& tool, bo
 }
 
 void PictureOptions::add_outputs(CommandLine& options, bool has_seen) {
-  const std::vector<std::string_view> extensions = image_extensions();
   options.add_word(
       "-o,--image", "FILE", image_path,
-      "The image, a " + listed({extensions.begin(), extensions.end()}) +
+      "The image, a " + listed(image_extensions()) +
           " file, or png:FILE for any name; - (PPM) and png:- go to standard output, without depths "
           "(default: "
           "out.bmp" +
