@@ -42,6 +42,14 @@ WordCheck wrong_with_name(F check) {
   };
 }
 
+/// A check that describes words for which `is_fine` does not hold as not the expected ones.
+template <typename F>
+WordCheck expects(const char* expected, F is_fine) {
+  return [=](const std::string& word) {
+    return is_fine(word) ? std::string() : expected_but_found(expected, pipeline::quoted(word));
+  };
+}
+
 /// A tool's part of --help.
 struct ToolDescription {
   const char* name;

@@ -20,16 +20,14 @@ std::string joined(const std::vector<std::string>& words) {
 }  // namespace
 
 NumberOptions::NumberOptions(CommandLine& options) {
-  const auto check = [](const std::string& text) {
+  const auto is_fine = [](const std::string& text) {
     std::uint64_t count = 0;
-    const bool is_fine = text == "exact" || (parse_count(text, count) && count <= kMaxDecimals);
-    return is_fine
-               ? std::string()
-               : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
+    return text == "exact" || (parse_count(text, count) && count <= kMaxDecimals);
   };
   options.begin_group("Numbers");
   options.add_word("--digits", "N|exact", digits_,
-                   "Decimals of a coordinate, 0 to 17, or exact: as many as a double needs", check);
+                   "Decimals of a coordinate, 0 to 17, or exact: as many as a double needs",
+                   expects("a number of decimals from 0 to 17, or exact", is_fine));
   options.add_choice<Precision>(
       "--precision", precision_, {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
       "extended: every coordinate printed is correctly rounded, or noted; double: faster");

@@ -39,11 +39,7 @@ PictureOptions::PictureOptions(CommandLine& options, const std::string& tool, bo
       "--size", "WIDTHxHEIGHT", size,
       "The screen's size, overriding CONFIG; without CONFIG, limits are -1 and 1, and a single operand is "
       "INPUT",
-      [](const std::string& word) {
-        return parse_size(word)
-                   ? std::string()
-                   : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300", pipeline::quoted(word));
-      });
+      expects("WIDTHxHEIGHT in pixels, such as 400x300", parse_size));
   add_outputs(options, has_seen);
 }
 
@@ -91,11 +87,7 @@ void PictureOptions::add_background(CommandLine& options) {
                    "The color of pixels without a triangle, in hexadecimal digits, in place of the scene's "
                    "(default: black). AA "
                    "is its alpha, 00 (invisible) to ff (opaque), below ff for PNG only",
-                   [](const std::string& word) {
-                     return parse_color(word) ? std::string()
-                                              : expected_but_found("RRGGBB or RRGGBBAA, hexadecimal digits",
-                                                                   pipeline::quoted(word));
-                   });
+                   expects("RRGGBB or RRGGBBAA, hexadecimal digits", parse_color));
 }
 
 void PictureOptions::add_framed(CommandLine& options) {

@@ -29,10 +29,7 @@ ZbufOptions::ZbufOptions(CommandLine& options) : PictureOptions(options, "zbuf",
       "--rows", "A:B", rows,
       "Draw only the rows from A to before B, counted from 0 at the top; cat joins the depths of such bands, "
       "join-images the images",
-      [](const std::string& word) {
-        return word.empty() ? expected_but_found("A:B, such as 0:100", pipeline::quoted(word))
-                            : std::string();
-      });
+      expects("A:B, such as 0:100", [](const std::string& word) { return !word.empty(); }));
   options.add_word("--seen", "FILE", seen_path,
                    "Write the visible triangles, as text from which zbuf draws the same picture; - is "
                    "standard output. Image and "
