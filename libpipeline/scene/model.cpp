@@ -60,7 +60,7 @@ void note_unused_points(Model& model) {
 
 Vec3 NodeMatrix::normal(const Vec3& n) const {
   const Vec3 image = NodeMatrix{cross(y, z), cross(z, x), cross(x, y), {}}.direction(n);
-  return dot(x, cross(y, z)) < 0 ? scaled(image, -1) : image;
+  return mirrors() ? scaled(image, -1) : image;
 }
 
 bool are_floats(const Vec3& v) {
@@ -106,7 +106,7 @@ void scale_colors(Model& model, std::span<Floats> colors, double full, bool is_l
       has_odd = has_odd || channel < 0;
       if (std::isfinite(channel)) largest = std::max(largest, double{channel} / full);
     }
-  const bool are_bytes = largest > 2;
+  const bool are_bytes = largest > 2 && !is_linear;
   for (Floats& color : colors) {
     const bool is_none = !(std::min({color[0], color[1], color[2]}) >= 0);
     for (float& c : color)

@@ -27,6 +27,7 @@ struct NodeMatrix {
   }
   /// The image of a normal, of any length, as a plane's: by the matrix of cofactors.
   [[nodiscard]] Vec3 normal(const Vec3& n) const;
+  [[nodiscard]] bool mirrors() const { return dot(x, cross(y, z)) < 0; }
 };
 
 inline NodeMatrix product(const NodeMatrix& a, const NodeMatrix& b) {
@@ -53,6 +54,7 @@ struct ModelMesh {
   std::vector<Floats> normals{};         // for each corner; empty where the file gives none
   std::optional<std::size_t> material{};
   bool has_colors = false;  // in the model's colors
+  std::size_t surface = 1;  // normals that are made smooth those of one number together; 0 stays flat
 };
 
 /// A node's scaling, then rotation by a unit quaternion, then translation.
@@ -143,7 +145,8 @@ struct Model {
 /// A color as a file gives it, with -1 for a channel that is no number.
 Floats file_color(const Vec3& color);
 /// Converts a file's colors to a scene's; `full` is its value of white: 1, 255 or 65535. If some reach beyond
-/// twice that, they are parts of 255. One with a negative channel becomes kNoColor. Notes report both.
+/// twice that, and are not linear, they are parts of 255. One with a negative channel becomes kNoColor. Notes
+/// report both.
 void scale_colors(Model& model, std::span<Floats> colors, double full, bool is_linear = false);
 
 /// From 0 to 1; a number that is none is 0.

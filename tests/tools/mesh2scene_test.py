@@ -180,6 +180,16 @@ class Normals(ToolTest):
                 for vertex in triangle if vertex[:3] == (0, 0, 0)}
             self.assertEqual(normals, expected, crease)
 
+    def test_groups_and_materials_end_no_surface(self):
+        """Two triangles that meet at 11 degrees share the normals of their edge whatever their groups and
+        materials are, but not where their smoothing groups differ or are off."""
+        points = "v 0 0 0\nv 0 1 0\nv 1 0 0.1\nv -1 0 0.1\n"
+        for between, before, count in (("", "", 1), ("g b\n", "", 1), ("usemtl b\no b\n", "", 1),
+                                       ("g b\n", "s 1\n", 1), ("s 2\n", "s 1\n", 2), ("g b\n", "s off\n", 2)):
+            pathlib.Path("roof.obj").write_text(f"{points}{before}f 1 3 2\n{between}f 1 2 4\n")
+            corners = [vertex for triangle in world_triangles(scene_of("roof.obj")) for vertex in triangle]
+            self.assertEqual(len({vertex[3:] for vertex in corners if vertex[0] == 0}), count, between)
+
     def test_an_edge_stays_sharp_beyond_the_crease(self):
         pathlib.Path("box.obj").write_text(BOX)
         for options, is_sharp in ((["--crease", "60"], True), (["--crease", "100"], False), ([], True)):
@@ -348,12 +358,18 @@ class Nodes(ToolTest):
             x, y, z = p
             return (z + 1, y + 2, -x + 3)  # rotated by 90 degrees about y, then moved
 
-        for place in (lambda p: root((2 * p[0], p[1], 0.5 * p[2])), lambda p: root((-p[0], p[1], p[2] + 4))):
-            yield from ([place(self.mesh.vertices[i]) for i in indices] for indices in self.mesh.triangles)
+        # A mirror image turns around, so that its front stays its front.
+        for place, order in ((lambda p: root((2 * p[0], p[1], 0.5 * p[2])), (0, 1, 2)), (lambda p: root(
+            (-p[0], p[1], p[2] + 4)), (0, 2, 1))):
+            yield from ([place(self.mesh.vertices[indices[i]]) for i in order]
+                        for indices in self.mesh.triangles)
 
     def test_transforms_are_applied(self):
         for options in ([], ["--nodes"]):
             found = world_triangles(scene_of("model.gltf", *options))
+            for a, b, c in found:
+                face = cross(*([q - p for p, q in zip(a, other)] for other in (b, c)))
+                self.assertGreater(sum(x * y for x, y in zip(face, a[-3:])), -1e-6)
             expected = list(self.expected())
             self.assertEqual(len(found), len(expected))
             for got, triangle in zip(found, expected):
@@ -875,6 +891,9 @@ class Readers(ToolTest):
          ": no scene can hold its points and lines"),
         ("a.ply", (PLY % ("face", RGB, "3 0 1 3 250 20 10\n3 4 5 3 250 20 10")).replace(
             "face 1", "face 2"), 0, ":18:3: expected the index of a vertex, found '4'"),
+        ("a.ply", PLY % ("face", "", "3 0 1 2\n3 1 2 3"), 1, ": more follows its last element: left out"),
+        ("a.ply", PLY % ("face", "", "3 0 1 2 3"), 0, ":14:9: expected the end of the line, found '3'"),
+        ("a.ply", PLY % ("face", "", "3.5 0 1 2"), 0, ":14:1: expected a count, found '3.5'"),
         ("a.ply", PLY % ("face", "", "3 0 1 9"), 0, ":14:7: expected the index of a vertex, found '9'"),
         ("a.ply", PLY % ("face", "", "3 0 1 -2"), 0, ":14:7: expected the index of a vertex, found '-2'"),
         ("a.ply", PLY % ("face", "", "3 0 1"), 0, ":15:1: expected a number, found the end of the file"),
@@ -888,6 +907,10 @@ class Readers(ToolTest):
         ("a.obj", "  " + V + "  f 1/1/1 2/2/1 3/3/1 # it\n", 1),
         ("a.obj", V + "f -3 -2 \\\n -1\n", 1),
         ("a.obj", V + "v 1 1 0\nv 0.5 0.4 0\nf 1 5 2 4 3\n", 3),
+        ("a.obj", V + "f 1 2 3\nsurf 0 1 0 1 1 2 3\n", 1,
+         ": no scene can hold its free-form curves and surfaces"),
+        ("a.obj", V + "f 1//1 2//1 3//9\nvn 1 0 0\n", 1,
+         ": faces come before their normals, which are made anew"),
         ("a.obj", V + "f 1 2 99\n", 0, ":4:7: expected a vertex from 1 to 3, or back from -1, found '99'"),
         ("a.obj", V + "f 0 1 2\n", 0, ":4:3: expected a vertex from 1 to 3, or back from -1, found '0'"),
         ("a.obj", V + "v -1.#IND 1 1\n", 0, ":4:3: expected a coordinate, found '-1.#IND'"),
@@ -979,10 +1002,23 @@ class Readers(ToolTest):
                 "a.gltf: its own camera shows it on 0.0[0-9]* % of the picture: --eye-from 30 15 frames it")
             self.assertGreater(float(header(scene_of("a.gltf"))["projection"].split()[3]), reach)
         document = changed()
-        for count, message in ((2, "indices below 2 in meshes[0], found 2"),
+        for count, message in ((2, "whole indices below 2 in meshes[0], found 2"),
                                (4000000000, "4000000000 values in a view of 36 bytes, found the view's end")):
             document["accessors"][0]["count"] = count
             self.expect("a.gltf", json.dumps(document), 0, ": expected " + message)
+        document = changed()
+        document["buffers"].append({"byteLength": 36, "uri": "c.bin"})
+        pathlib.Path("c.bin").write_bytes(struct.pack("<9f", 2.5, 0, 0, 2.5, 0, 0, 2.5, 0, 0))
+        document["bufferViews"].append({"buffer": 1, "byteLength": 36})
+        document["accessors"].append(
+            {**document["accessors"][0], "bufferView": len(document["bufferViews"]) - 1})
+        document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = len(document["accessors"]) - 1
+        self.expect("a.gltf", json.dumps(document), 1,
+                    ": its colors reach to 2.5: they are drawn as 1, which is full", "255 0 0")
+        document["accessors"].append({**document["accessors"][-1], "type": "SCALAR"})
+        document["meshes"][0]["primitives"][0]["indices"] = len(document["accessors"]) - 1
+        self.expect("a.gltf", json.dumps(document), 0,
+                    ": expected whole indices below 3 in meshes[0], found 2.5")
         document = changed()
         document["accessors"].append({**document["accessors"][0], "count": 1})
         document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = len(document["accessors"]) - 1

@@ -39,11 +39,7 @@ void add_options(CommandLine& options, Options& chosen) {
                     "Read at most this many megabytes, in the model and the files that it names");
   options.begin_group("Camera");
   options.add_word("--size", "WIDTHxHEIGHT", chosen.size, "The size of the picture, for its aspect",
-                   [](const std::string& word) {
-                     return parse_size(word) ? std::string()
-                                             : expected_but_found("WIDTHxHEIGHT in pixels, such as 800x600",
-                                                                  pipeline::quoted(word));
-                   });
+                   expects("WIDTHxHEIGHT in pixels, such as 800x600", parse_size));
   options.add_words(
       "--eye-from", 2, "AZIMUTH ELEVATION", chosen.eye_from,
       "Look at the model from this many degrees to the right of its front, and above it (default: 30 15)");
@@ -66,12 +62,9 @@ void add_options(CommandLine& options, Options& chosen) {
   options.begin_group("Triangles");
   options.add_word("--color", "RRGGBB", chosen.color,
                    "The color of everything, six hexadecimal digits, in place of the model's colors",
-                   [](const std::string& word) {
-                     const auto color = parse_color(word);
-                     return color && color->is_opaque()
-                                ? std::string()
-                                : expected_but_found("RRGGBB, hexadecimal digits", pipeline::quoted(word));
-                   });
+                   expects("RRGGBB, hexadecimal digits", [](const std::string& word) {
+                     return parse_color(word).value_or(Color().with_alpha(0)).is_opaque();
+                   }));
   options.add_number(
       "--crease", "DEGREES", chosen.crease_degrees, [](double value) { return value >= 0 && value <= 175; },
       "0 to 175", "Where the file has no normals: an edge stays sharp if its sides meet at more than this");
@@ -120,12 +113,6 @@ ViewChoice view_of(const Options& chosen, const Model& model) {
   return view;
 }
 
-/// True if an option asks for the framing camera, where a file has a camera of its own.
-bool chooses_view(const CommandLine& options) {
-  return std::ranges::any_of(std::array{"--eye-from", "--fov", "--up-axis", "--at", "--zoom"},
-                             [&](const char* name) { return options.is_given(name); });
-}
-
 /// Notes on pictures that show next to nothing.
 void note_what_hides(const Model& model, const SceneSetting& setting, bool is_files_camera,
                      const Options& chosen, const Tool& tool) {
@@ -167,7 +154,9 @@ int main(int argc, char** argv) {
     tool.timing().triangle_count = model.triangle_count();
     const std::string& name = model.name;
     const ViewChoice view = view_of(chosen, model);
-    const bool has_own_view = model.camera && !chooses_view(tool.options());
+    const bool has_own_view =
+        model.camera && std::ranges::none_of(std::array{"--eye-from", "--fov", "--up-axis", "--at", "--zoom"},
+                                             [&](auto option) { return tool.options().is_given(option); });
     SceneSetting setting = has_own_view ? setting_of_file(model, view.aspect) : framed_setting(model, view);
     if (!has_own_view && !chosen.up && model.format != "glTF")
       tool.note(std::string(view.up == kY ? "y" : "z") + " is taken for up, as in most " + model.format +

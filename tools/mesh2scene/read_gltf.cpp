@@ -334,12 +334,13 @@ class GltfReader {
     const std::string own = json["name"].text(),
                       name = own.empty() ? "meshes[" + std::to_string(index) + "]" : own;
     for (std::size_t i = 0; is_new && i < primitives.size(); ++i)
-      if (add_primitive(primitives[i], primitives.size() > 1 ? name + "-" + std::to_string(i) : name))
+      if (add_primitive(primitives[i], primitives.size() > 1 ? name + "-" + std::to_string(i) : name,
+                        index + 1))
         known->second.push_back(model_.meshes.size() - 1);
     node.meshes.insert(node.meshes.end(), known->second.begin(), known->second.end());
   }
 
-  bool add_primitive(Json json, const std::string& name) {
+  bool add_primitive(Json json, const std::string& name, std::size_t surface) {
     const double mode = json["mode"].number(4);
     const Json attributes = json["attributes"], material = json["material"];
     if (mode < 4) model_.unheld.insert("points and lines");
@@ -351,11 +352,11 @@ class GltfReader {
     std::iota(indices.begin(), indices.end(), base);
     if (json["indices"].is_there())
       for (const double i : numbers(json["indices"], 1)) {
-        if (!(i >= 0 && i < size))
-          model_.fail("indices below " + std::to_string(size) + " in " + name, shortest_text(i));
+        if (!(i >= 0 && i < size) || i != std::floor(i))
+          model_.fail("whole indices below " + std::to_string(size) + " in " + name, shortest_text(i));
         indices.push_back(base + static_cast<std::uint32_t>(i));
       }
-    ModelMesh mesh = {.name = name};
+    ModelMesh mesh = {.name = name, .surface = surface};
     // assimp gives a material of this name to meshes without one.
     if (material.is_there() &&
         (is_linear_ || item("materials", material)["name"].text() != "DefaultMaterial"))

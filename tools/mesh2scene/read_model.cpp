@@ -84,8 +84,7 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
     refuse(begin.empty() ? "an empty file" : "another", begin.empty() ? "" : kAssimp);
   if (!files.refusal().empty()) model.note(files.refusal() + ": left out");
   complete(model);
-  for (ModelMesh& mesh : model.meshes)
-    if (mesh.normals.empty()) mesh.normals = smooth_normals(mesh, model.points, crease_degrees);
+  add_normals(model, crease_degrees);
   return model;
 }
 

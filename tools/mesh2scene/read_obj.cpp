@@ -119,6 +119,10 @@ class ObjReader {
         read_face();
       else if (word == "l" || word == "p")
         model_.unheld.insert("points and lines");
+      else if (word == "curv" || word == "curv2" || word == "surf")
+        model_.unheld.insert("free-form curves and surfaces");
+      else if (word == "s")
+        surface_ = 0, is_open_ = false, parse_count(text_.word(), surface_);  // else off
       else if (word == "o" || word == "g")
         name_ = text_.rest_of_line(), is_open_ = false;
       else if (word == "usemtl")
@@ -133,6 +137,8 @@ class ObjReader {
       scale_colors(model_, model_.colors, 1);
       for (ModelMesh& mesh : model_.meshes) mesh.has_colors = true;
     }
+    if (has_early_faces_ && !normals_.empty())
+      model_.note("faces come before their normals, which are made anew");
     find_materials();
   }
 
@@ -166,7 +172,8 @@ class ObjReader {
   }
 
   /// The index that begins a word, counted from 0, of so many things; `word` keeps what follows the number.
-  std::uint32_t index(std::string_view& word, std::size_t count, const char* of_what) const {
+  [[gnu::always_inline]] std::uint32_t index(std::string_view& word, std::size_t count,
+                                             const char* of_what) const {
     const std::string_view whole = word;
     const bool is_from_end = word.starts_with('-');
     if (is_from_end || word.starts_with('+')) word.remove_prefix(1);
@@ -191,8 +198,9 @@ class ObjReader {
         text_.fail(word, "a face's corner, such as 1, 1/2, 1//3 or 1/2/3");
       // A texture's index is not needed, and a normal's only if there are normals.
       std::string_view normal = rest.substr(std::min(rest.find('/', 1), rest.size() - 1) + 1);
-      if (!rest.empty() && !normal.empty() && !normals_.empty())
-        corner_normals_.push_back(index(normal, normals_.size(), "normal"));
+      if (normal.empty()) continue;
+      has_early_faces_ |= normals_.empty();
+      if (!normals_.empty()) corner_normals_.push_back(index(normal, normals_.size(), "normal"));
     }
     if (corners_.size() < 3) {
       model_.unheld.insert("points and lines");
@@ -223,7 +231,8 @@ class ObjReader {
     if (is_open_) return model_.meshes.back();
     is_open_ = true;
     material_names_.push_back(material_name_);
-    return model_.add_mesh(name_);
+    model_.add_mesh(name_).surface = surface_;
+    return model_.meshes.back();
   }
 
   /// Gives the meshes their materials, whose library may stand anywhere.
@@ -268,7 +277,8 @@ class ObjReader {
   std::vector<Floats> normals_;
   std::map<std::string, bool> libraries_;  // by name: true for those that are there
   std::set<std::string> missing_;          // those of the notes
-  bool lacks_library_ = false, is_open_ = false;
+  bool lacks_library_ = false, is_open_ = false, has_early_faces_ = false;
+  std::uint64_t surface_ = 1;
   std::string name_ = "defaultobject", material_name_;
   std::vector<std::string> material_names_;  // of meshes
   Materials materials_;

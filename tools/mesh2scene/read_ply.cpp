@@ -75,6 +75,8 @@ class PlyReader {
         read_faces(*e);
       else
         read_records(*e, [] {});
+    if (is_text_ ? !text_.word_of_any_line().empty() : !text_.rest().empty())
+      model_.note("more follows its last element: left out");
     if (!model_.colors.empty()) scale_colors(model_, model_.colors, full_color_);
     mesh_->has_colors = !model_.colors.empty();
     for (const std::uint32_t corner : mesh_->corners)
@@ -157,13 +159,15 @@ class PlyReader {
           read_list(p, element.name == "tristrips");
         else
           record_[p.slot] = next(p.type, p.slot < kNormal);
+      if (is_text_ && !text_.rest().starts_with('\n') && !(word_ = text_.word()).empty())
+        text_.fail(word_, "the end of the line");
       visit();
     }
   }
 
   void read_list(const Property& p, bool may_restart) {
     const double count = next(*p.count_type, true);
-    if (!(count >= 0)) fail("a count", count);
+    if (!(count >= 0) || count != std::floor(count)) fail("a count", count);
     const bool are_indices = p.slot == kIndices && has_points_;
     if (are_indices) indices_.clear();
     for (double n = 0; n < count; ++n) {

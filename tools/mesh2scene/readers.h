@@ -12,13 +12,12 @@ namespace pipeline {
 /// made. Throws InputError or std::runtime_error, whose message names the file.
 Model read_model(const std::string& path, ModelFiles& files, double crease_degrees);
 
-/// A unit normal for every corner of every triangle, three in a row for each: the mean of the normals of
-/// those triangles at this position whose planes turn by at most `crease_degrees` from the corner's own,
-/// weighted by the corner's angle and by the area in one plane. A plane with over 80 % of their area keeps
-/// its normal, shared by triangles within half the crease; the rest are smoothed without that plane. 0 where
-/// no triangle has an area.
-std::vector<Floats> smooth_normals(const ModelMesh& mesh, const std::vector<Vec3>& points,
-                                   double crease_degrees);
+/// Gives meshes without normals a unit normal for every corner, those of one surface together: the mean of
+/// the normals of those triangles at this position whose planes turn by at most `crease_degrees` from the
+/// corner's own, weighted by the corner's angle and by the area in one plane. A plane with over 80 % of their
+/// area keeps its normal, shared by triangles within half the crease; the rest are smoothed without that
+/// plane. 0 where no triangle has an area.
+void add_normals(Model& model, double crease_degrees);
 
 // The readers of formats add to a model that has only its name.
 

@@ -34,34 +34,29 @@ ViewAxes axes_of(const ModelCamera& camera) {
   return {right, cross(back, right), back};
 }
 
-/// The file's lights; without any, a key light from the upper left, a weaker fill from the right, and a
-/// little from everywhere.
-void set_lights(const Model& model, SceneSetting& setting) {
-  const ModelCamera& camera = setting.camera;
-  const ViewAxes axes = axes_of(camera);
-  const auto beside = [&](double x, double y, double z) {  // the middle of the model, in distances of the eye
-    const Vec3 offset = sum(sum(scaled(axes.right, x), scaled(axes.up, y)), scaled(axes.back, z));
-    return sum(camera.look, scaled(offset, camera.distance));
-  };
-  setting.lights = model.lights;
-  for (ModelLight& light : setting.lights)
-    if (light.is_far)
-      light.position = sum(camera.look, scaled(unit_vector(light.position), -kFar * camera.distance));
-  if (!model.lights.empty()) return;
-  setting.ambient = {0.22, 0.22, 0.22};
-  setting.lights = {{beside(-0.7, 1, 1.4), {0.74, 0.74, 0.72}}, {beside(1.5, 0.3, 0.8), {0.24, 0.24, 0.26}}};
-}
-
+/// The setting with the file's lights; without any, with a key light from the upper left, a weaker fill from
+/// the right, and a little from everywhere.
 SceneSetting setting_with(const ModelCamera& camera, double aspect, const Model& model) {
   SceneSetting setting;
   setting.camera = camera;
   setting.aspect = aspect;
   setting.background = {232, 235, 240};
   setting.color = {228, 222, 210};
-  set_lights(model, setting);
   constexpr double kSmall = 0.03, kLarge = 1e12;
   if (camera.distance < kSmall || camera.distance > kLarge)
     setting.scale = std::pow(10, -std::floor(std::log10(camera.distance)));
+  setting.lights = model.lights;
+  for (ModelLight& light : setting.lights)
+    if (light.is_far)
+      light.position = sum(camera.look, scaled(unit_vector(light.position), -kFar * camera.distance));
+  if (!model.lights.empty()) return setting;
+  const ViewAxes axes = axes_of(camera);
+  const auto beside = [&](double x, double y, double z) {  // the middle of the model, in distances of the eye
+    const Vec3 offset = sum(sum(scaled(axes.right, x), scaled(axes.up, y)), scaled(axes.back, z));
+    return sum(camera.look, scaled(offset, camera.distance));
+  };
+  setting.ambient = {0.22, 0.22, 0.22};
+  setting.lights = {{beside(-0.7, 1, 1.4), {0.74, 0.74, 0.72}}, {beside(1.5, 0.3, 0.8), {0.24, 0.24, 0.26}}};
   return setting;
 }
 

@@ -29,26 +29,13 @@ Vec3 color_of(const ModelMesh& mesh, const Model& model, const SceneSetting& set
 }
 
 /// The materials of a scene made from a model: each distinct one that a mesh has, in the order of the meshes.
-/// They carry the colors of their meshes as paints, if all colors come from materials or the setting, and the
-/// paints leave no more than kMostMaterials.
+/// They may carry the colors of their meshes as paints.
 struct SceneMaterials {
-  SceneMaterials(const Model& model, const SceneSetting& setting)
-      : have_paints(setting.has_one_color || !model.has_vertex_colors()) {
-    number_all(model, setting);
-    if (!have_paints || !are_too_many) return;
-    have_paints = are_too_many = false;
-    lines.clear();
-    numbers.clear();
-    number_all(model, setting);
-  }
-
   std::vector<std::string> lines;  // `material` and perhaps `paint`, for each; at least one
   std::map<std::optional<std::size_t>, std::size_t> numbers;  // by the model's
-  bool have_paints;
-  bool are_too_many = false;  // more than kMostMaterials: each one more has the number 0
+  bool have_paints = false, are_too_many = false;  // more than kMostMaterials: further ones have the number 0
 
- private:
-  void number_all(const Model& model, const SceneSetting& setting) {
+  SceneMaterials(const Model& model, const SceneSetting& setting, bool paints) : have_paints(paints) {
     for (const PlacedMesh& placed : model.placed) {
       const auto [known, is_new] = numbers.try_emplace(placed.mesh->material);
       if (!is_new) continue;
@@ -150,15 +137,12 @@ double without_noise(double value, double units, double noise) {
   return (std::fabs(value - coarse) <= noise ? coarse : value) + 0.0;
 }
 
-class SceneWriter {
- public:
-  SceneWriter(const Model& model, const SceneSetting& setting, const SceneMaterials& materials,
-              TextWriter& out)
-      : model_(model),
-        setting_(setting),
-        materials_(materials),
-        out_(out),
-        has_color_columns_(model.has_vertex_colors() && !setting.has_one_color) {}
+struct SceneWriter {
+  const Model& model_;
+  const SceneSetting& setting_;
+  const SceneMaterials& materials_;
+  TextWriter& out_;
+  bool has_color_columns_ = model_.has_vertex_colors() && !setting_.has_one_color;
 
   void write_setting() {
     for (const std::string& comment : setting_.comments) line("# " + on_one_line(comment));
@@ -182,12 +166,13 @@ class SceneWriter {
   }
 
   void write_meshes() {
-    for (const PlacedMesh& placed : model_.placed) write(placed);
+    for (const PlacedMesh& placed : model_.placed) write(placed, placed.model_from_mesh.mirrors());
   }
 
-  void write_node(const ModelNode& node, const NodeMatrix& above) {
+  void write_node(const ModelNode& node, const NodeMatrix& above, bool is_above_mirrored) {
     const bool is_in_commands = node.steps && above.is_identity() && !node.parent_from_node.is_identity();
     const NodeMatrix pending = is_in_commands ? NodeMatrix() : product(above, node.parent_from_node);
+    const bool is_mirrored = is_above_mirrored != node.parent_from_node.mirrors();
     if (is_in_commands) {
       const auto& [translation, turn, cosine, scaling] = *node.steps;
       line("push");
@@ -202,8 +187,8 @@ class SceneWriter {
     }
     for (const std::size_t index : node.meshes)
       if (const ModelMesh& mesh = model_.meshes[index]; !mesh.corners.empty())
-        write({&mesh, model_.points.data(), pending});
-    for (const ModelNode& child : node.children) write_node(child, pending);
+        write({&mesh, model_.points.data(), pending}, is_mirrored);
+    for (const ModelNode& child : node.children) write_node(child, pending, is_mirrored);
     if (is_in_commands) line("pop");
   }
 
@@ -212,8 +197,7 @@ class SceneWriter {
     out_.append("\n");
   }
 
- private:
-  void write(const PlacedMesh& placed) {
+  void write(const PlacedMesh& placed, bool is_mirrored) {
     const ModelMesh& mesh = *placed.mesh;
     if (!mesh.name.empty()) line("# " + on_one_line(mesh.name));
     const Vec3 color = pipeline::color_of(mesh, model_, setting_);
@@ -225,7 +209,9 @@ class SceneWriter {
     material_in_force_ = material;
     placed_ = &placed;
     color_ = color;
-    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) write_triangle(i);
+    // Corners of a mirror image turn around.
+    const std::array<std::size_t, 3> order = {0, is_mirrored ? 2U : 1U, is_mirrored ? 1U : 2U};
+    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) write_triangle(i, order);
   }
 
   /// The normal at a corner of the mesh; its triangle's own if there is none of use.
@@ -241,7 +227,7 @@ class SceneWriter {
   [[nodiscard]] Vec3 face_normal(const std::uint32_t* indices) const {
     const Vec3 n = unit_vector(pipeline::face_normal(
         {placed_->position(indices[0]), placed_->position(indices[1]), placed_->position(indices[2])}));
-    return is_direction(n) ? n : setting_.camera.up;
+    return !is_direction(n) ? setting_.camera.up : placed_->model_from_mesh.mirrors() ? scaled(n, -1) : n;
   }
 
   /// True if a scene takes it as a normal.
@@ -250,11 +236,12 @@ class SceneWriter {
     return std::isfinite(n.x + n.y + n.z) && !(is_0(n.x) && is_0(n.y) && is_0(n.z));
   }
 
-  void write_triangle(std::size_t first_corner) {
+  void write_triangle(std::size_t first_corner, const std::array<std::size_t, 3>& order) {
     static constexpr std::string_view kKeyword = "triangle\n";
     char* p = out_.reserve(kKeyword.size() + std::size_t{3} * 9 * (kMaxFloatLength + 1));
     p = std::copy(kKeyword.begin(), kKeyword.end(), p);
-    for (std::size_t corner = first_corner; corner < first_corner + 3; ++corner) {
+    for (const std::size_t i : order) {
+      const std::size_t corner = first_corner + i;
       const std::uint32_t index = placed_->mesh->corners[corner];
       VertexNumbers vertex;
       vertex.add(placed_->position(index));
@@ -272,26 +259,23 @@ class SceneWriter {
     return std::isnan(red + green + blue) ? color_ : Vec3{red, green, blue};
   }
 
-  const Model& model_;
-  const SceneSetting& setting_;
-  const SceneMaterials& materials_;
-  TextWriter& out_;
-  bool has_color_columns_;
-  std::optional<Vec3> color_in_force_;
+  std::optional<Vec3> color_in_force_{};
   std::size_t material_in_force_ = 0;
   // The mesh that is being written:
   const PlacedMesh* placed_ = nullptr;
-  Vec3 color_;
-  VertexLines lines_;
+  Vec3 color_{};
+  VertexLines lines_{};
 };
 
 }  // namespace
 
 bool write_scene(const Model& model, const SceneSetting& setting, bool as_nodes, TextWriter& out) {
-  const SceneMaterials materials(model, setting);
-  SceneWriter writer(model, setting, materials, out);
+  // Paints are for scenes whose colors all come from materials or the setting, unless they make too many.
+  SceneMaterials materials(model, setting, setting.has_one_color || !model.has_vertex_colors());
+  if (materials.have_paints && materials.are_too_many) materials = {model, setting, false};
+  SceneWriter writer = {model, setting, materials, out};
   writer.write_setting();
-  as_nodes ? writer.write_node(model.root, {}) : writer.write_meshes();
+  as_nodes ? writer.write_node(model.root, {}, false) : writer.write_meshes();
   writer.line("end");
   return !materials.are_too_many;
 }

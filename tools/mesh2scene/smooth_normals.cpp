@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <span>
 #include <thread>
@@ -22,13 +23,13 @@ constexpr auto kNone = static_cast<std::uint32_t>(-1);
 struct CornersByPosition {
   std::vector<std::uint32_t> first, next;  // of a slot; after a corner
 
-  CornersByPosition(const ModelMesh& mesh, const std::vector<Vec3>& points)
-      : first(std::bit_ceil(mesh.corners.size() + 1), kNone), next(mesh.corners.size()) {
+  CornersByPosition(const std::vector<std::uint32_t>& corners, const std::vector<Vec3>& points)
+      : first(std::bit_ceil(corners.size() + 1), kNone), next(corners.size()) {
     const std::size_t mask = first.size() - 1;
     for (auto corner = static_cast<std::uint32_t>(next.size()); corner-- > 0;) {
-      const Vec3& p = points[mesh.corners[corner]];
+      const Vec3& p = points[corners[corner]];
       std::size_t slot = hash(p) & mask;
-      while (first[slot] != kNone && points[mesh.corners[first[slot]]] != p) slot = (slot + 1) & mask;
+      while (first[slot] != kNone && points[corners[first[slot]]] != p) slot = (slot + 1) & mask;
       next[corner] = std::exchange(first[slot], corner);
     }
   }
@@ -63,7 +64,7 @@ double cosine(double degrees) {
 
 /// Makes the normals of all corners at a position.
 struct Smoothing {
-  const ModelMesh& mesh;
+  const std::vector<std::uint32_t>& all_corners;
   const std::vector<Vec3>& points;
   double least_cosine, half_way_cosine;  // of the crease, and of half of it
   std::vector<Floats>& normals;
@@ -99,7 +100,7 @@ struct Smoothing {
 
   [[nodiscard]] Share share_of(std::size_t corner) const {
     const auto vertex = [&](std::size_t k) {
-      return points[mesh.corners[corner - corner % 3 + (corner + k) % 3]];
+      return points[all_corners[corner - corner % 3 + (corner + k) % 3]];
     };
     const Vec3 p = vertex(0), a = difference(vertex(1), p), b = difference(vertex(2), p), n = cross(a, b);
     const double area = std::sqrt(dot(n, n));
@@ -142,19 +143,17 @@ struct Smoothing {
   }
 };
 
-}  // namespace
-
-std::vector<Floats> smooth_normals(const ModelMesh& mesh, const std::vector<Vec3>& points,
-                                   double crease_degrees) {
-  const CornersByPosition by_position(mesh, points);
+std::vector<Floats> smooth_normals(const std::vector<std::uint32_t>& all_corners,
+                                   const std::vector<Vec3>& points, double crease_degrees) {
+  const CornersByPosition by_position(all_corners, points);
   const std::size_t slot_count = by_position.first.size();
-  std::vector<Floats> normals(mesh.corners.size());
+  std::vector<Floats> normals(all_corners.size());
   constexpr std::size_t kSlotsAtOnce = 1 << 14;
   const std::size_t task_count = slot_count / kSlotsAtOnce + 1;
   ThreadPool pool(task_count < 4 ? 1
                                  : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)));
   pool.start(static_cast<int>(task_count), [&](int task, int) {
-    Smoothing smoothing = {mesh, points, cosine(crease_degrees), cosine(crease_degrees / 2), normals};
+    Smoothing smoothing = {all_corners, points, cosine(crease_degrees), cosine(crease_degrees / 2), normals};
     std::vector<std::uint32_t> corners;
     const std::size_t begin = static_cast<std::size_t>(task) * kSlotsAtOnce;
     for (std::size_t slot = begin; slot < std::min(begin + kSlotsAtOnce, slot_count); ++slot) {
@@ -166,6 +165,30 @@ std::vector<Floats> smooth_normals(const ModelMesh& mesh, const std::vector<Vec3
   });
   pool.finish();
   return normals;
+}
+
+}  // namespace
+
+void add_normals(Model& model, double crease_degrees) {
+  std::map<std::size_t, std::vector<ModelMesh*>> surfaces;
+  for (ModelMesh& mesh : model.meshes)
+    if (mesh.normals.empty()) surfaces[mesh.surface].push_back(&mesh);
+  for (const auto& [surface, meshes] : surfaces) {
+    std::vector<std::uint32_t> corners;
+    for (const ModelMesh* mesh : meshes)
+      corners.insert(corners.end(), mesh->corners.begin(), mesh->corners.end());
+    std::vector<Floats> normals(corners.size());  // 0, which makes them flat
+    if (surface != 0) normals = smooth_normals(corners, model.points, crease_degrees);
+    if (meshes.size() == 1) {
+      meshes[0]->normals = std::move(normals);
+      continue;
+    }
+    const Floats* begin = normals.data();
+    for (ModelMesh* mesh : meshes) {
+      mesh->normals.assign(begin, begin + mesh->corners.size());
+      begin += mesh->corners.size();
+    }
+  }
 }
 
 }  // namespace pipeline
