@@ -18,8 +18,8 @@ def setUpModule():  # noqa: N802
     expect_mesh2scene()
 
 
-def picture(*words):
-    return subprocess.run([SOURCE / "scripts/picture", *words], capture_output=True, text=True,
+def picture(*words, command="picture"):
+    return subprocess.run([SOURCE / "scripts" / command, *words], capture_output=True, text=True,
                           env={**os.environ, "BIN": str(BIN)})
 
 
@@ -145,11 +145,13 @@ class Picture(ToolTest):
     def test_a_file_that_the_model_names_is_not_replaced(self):
         pathlib.Path("named.obj").write_text("mtllib own.png\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         pathlib.Path("own.png").write_text("newmtl red\n")
-        done = picture("named.obj", "-o", "./own.png")
-        self.assertEqual(
-            (done.returncode, done.stderr),
-            (2, "picture: expected a place of its own for every output, found the same one for file of MODEL "
-             "'./own.png' and -o './own.png' (try picture --help)\n"))
+        pathlib.Path("link.png").symlink_to("own.png")
+        for command, output in ("picture", "./own.png"), ("picture", "link.png"), ("inspect", "own.png"):
+            done = picture("named.obj", "-o", output, command=command)
+            self.assertEqual(
+                (done.returncode, done.stderr),
+                (2, f"{command}: mesh2scene: expected a place of its own for --writes '{output}', found "
+                 "'own.png', which the model names (try mesh2scene --help)\n"))
         self.assertEqual(pathlib.Path("own.png").read_text(), "newmtl red\n")
 
     def test_options_of_trace_need_trace(self):

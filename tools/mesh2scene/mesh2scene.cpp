@@ -30,6 +30,7 @@ struct Options {
   double crease_degrees = 40;
   bool as_nodes = false;
   int most_megabytes = 1000;
+  std::vector<std::string> written;
   std::optional<Vec3> up;
   ViewChoice view;
 };
@@ -37,6 +38,7 @@ struct Options {
 void add_options(CommandLine& options, Options& chosen) {
   options.add_whole("--max-input", chosen.most_megabytes, 1, 1'000'000,
                     "Read at most this many megabytes, in the model and the files that it names");
+  options.add_repeatable("--writes", "FILE", chosen.written, "Refuse a model that reads this output");
   options.begin_group("Camera");
   options.add_word("--size", "WIDTHxHEIGHT", chosen.size, "The size of the picture, for its aspect",
                    expects("WIDTHxHEIGHT in pixels, such as 800x600", parse_size));
@@ -139,7 +141,7 @@ int main(int argc, char** argv) {
              "The model file, which may name regular files in or below its folder",
              {"mesh2scene bunny.obj > scene.txt",
               "mesh2scene --up-axis z part.obj | model | view | project | zbuf --size 800x600"},
-             "--crease --nodes --max-input"},
+             "--crease --nodes --max-input --writes"},
             OutputKind::other_text);
   Options chosen;
   add_options(tool.options(), chosen);
@@ -148,7 +150,7 @@ int main(int argc, char** argv) {
     tool.expect_separate({kStandardOutput});
     const std::string& path = tool.input_path();
     // Never destroyed: to free all would keep the next stage waiting for the end of the scene.
-    static ModelFiles& files = *new ModelFiles(path, chosen.most_megabytes);
+    static ModelFiles& files = *new ModelFiles(path, chosen.most_megabytes, chosen.written);
     static Model& model = *new Model(read_model(path, files, chosen.crease_degrees));
     tool.timing().lap(&Timing::read_seconds);
     tool.timing().triangle_count = model.triangle_count();

@@ -62,21 +62,20 @@ int open_below(const std::string& path) {
   return opened;
 }
 
-bool is_standard_output(int descriptor) {
-  struct stat file = {}, output = {};
-  return ::fstat(descriptor, &file) == 0 && ::fstat(STDOUT_FILENO, &output) == 0 &&
-         file.st_dev == output.st_dev && file.st_ino == output.st_ino;
-}
-
 }  // namespace
 
-ModelFiles::ModelFiles(const std::string& path, std::size_t megabytes)
+ModelFiles::ModelFiles(const std::string& path, std::size_t megabytes,
+                       const std::vector<std::string>& written)
     : megabytes_(megabytes), room_(megabytes * 1'000'000) {
+  struct stat status = {};
+  if (::fstat(STDOUT_FILENO, &status) == 0) outputs_[{status.st_dev, status.st_ino}] = "standard output";
+  for (const std::string& file : written)
+    if (::stat(file.c_str(), &status) == 0)
+      outputs_.try_emplace({status.st_dev, status.st_ino}, "--writes " + pipeline::quoted(file));
   if (path == "-") {
     model_ = read_standard_input();
     return;
   }
-  struct stat status = {};
   if (::stat(path.c_str(), &status) != 0) throw IoError("open", path.empty() ? "''" : path, errno);
   if (S_ISDIR(status.st_mode)) throw IoError("read", path, EISDIR);
   if (!S_ISREG(status.st_mode))
@@ -133,8 +132,10 @@ std::optional<std::string_view> ModelFiles::read(const std::string& file) {
     const int opened = has_folder_ ? open_below(name) : kRefused;
     if (opened == kRefused && refused_.empty()) refused_ = name;
     if (opened < 0) continue;
-    if (is_standard_output(opened))
-      throw UsageError(expected_but_found("a place of its own for standard output",
+    struct stat status = {};
+    ::fstat(opened, &status);
+    if (const auto output = outputs_.find({status.st_dev, status.st_ino}); output != outputs_.end())
+      throw UsageError(expected_but_found("a place of its own for " + output->second,
                                           pipeline::quoted(name) + ", which the model names"));
     if (std::filesystem::path(refused_).filename() == last) refused_.clear();
     return map(opened, name);

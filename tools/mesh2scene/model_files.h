@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace pipeline {
 
@@ -12,12 +16,13 @@ namespace pipeline {
 class ModelFiles {
  public:
   /// Reads a model and changes to the folder of `path`, as given; or reads standard input if `path` is "-",
-  /// which has no folder and no other files. All files together may have at most these megabytes.
-  ModelFiles(const std::string& path, std::size_t megabytes);
+  /// which has no folder and no other files. All files together may have at most these megabytes, and none
+  /// may be standard output or one of `written`.
+  ModelFiles(const std::string& path, std::size_t megabytes, const std::vector<std::string>& written);
 
   [[nodiscard]] std::string_view model() const { return model_; }
   /// The bytes of another file; nothing if it is not opened. Of a path that leads nowhere, its last part is
-  /// tried in the model's folder. A UsageError if it is standard output's.
+  /// tried in the model's folder. A UsageError if it is an output.
   std::optional<std::string_view> read(const std::string& file);
   /// Names the first file that was not opened because it is not the model's; empty if there is none.
   [[nodiscard]] std::string refusal() const;
@@ -27,6 +32,7 @@ class ModelFiles {
   std::string_view read_standard_input();
   std::string_view map(int descriptor, const std::string& name);
 
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::string> outputs_;  // by device and inode
   std::string_view model_;
   std::string refused_;  // the first file that was not opened
   std::size_t megabytes_;

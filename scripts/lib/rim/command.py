@@ -122,8 +122,8 @@ def status_of(main, name, failure_status):
         return status
     except BrokenPipeError:
         raise
-    except CommandFailure as failure:
-        return told(name, failure, failure_status)
+    except CommandFailure as failure:  # an output that a tool finds among its inputs is misuse
+        return told(name, failure, 2 if "expected a place of its own for" in str(failure) else failure_status)
     except OSError as error:
         where = f"{shown(os.fsdecode(error.filename))}: " if error.filename else ""
         return told(name, where + (error.strerror or str(error)), failure_status)

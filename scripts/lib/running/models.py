@@ -13,9 +13,14 @@ ENDINGS = (".obj", ".stl", ".ply", ".gltf", ".glb", ".3mf", ".3ds", ".dae", ".fb
 KEPT = []  # folders, until the program ends
 
 
-def take_model(options, size="800x600"):
+def words_of_outputs(outputs):
+    """Options of mesh2scene, which then refuses a model that reads one of these files, or None."""
+    return [word for path in outputs if path and os.path.isfile(path) for word in ("--writes", path)]
+
+
+def take_model(options, outputs, size="800x600"):
     """If SCENE is a model file, puts the scene that mesh2scene makes of it in its place, framed for
-    CONFIG. Without one, it makes a CONFIG of this size."""
+    CONFIG. Without one, it makes a CONFIG of this size. It may read none of `outputs`."""
     path = options.scene
     if not path.lower().endswith(ENDINGS) or not os.path.isfile(path):
         return
@@ -25,7 +30,7 @@ def take_model(options, size="800x600"):
         found = re.match(rb"\s*(\d+)\s+(\d+)", read_input(options.config))
         size = "x".join(number.decode() for number in found.groups()) if found else size
     model = os.path.join(os.curdir, path) if path.startswith("-") else path
-    done = Tools().run("mesh2scene", "--size", size, model)
+    done = Tools().run("mesh2scene", *words_of_outputs(outputs), "--size", size, model)
     sys.stderr.write(done.stderr.decode())
     options.scene = os.path.join(KEPT[-1].name, os.path.basename(path))
     write_file(options.scene, done.stdout)
