@@ -134,6 +134,9 @@ void complete(Model& model) {
   for (ModelLight& light : model.lights) light.intensity = scaled(light.intensity, 1 / brightest);
   place(model, model.root, {});
   if (model.placed.empty()) model.fail("a model with triangles", "none");
+  constexpr std::uint64_t kMost = 1'000'000'000;  // nodes in nodes may double them endlessly
+  if (model.triangle_count() > kMost)
+    model.fail("at most " + counted(kMost, "triangle"), std::to_string(model.triangle_count()));
   check_positions(model);
   note_unused_points(model);
 }

@@ -801,6 +801,16 @@ class OtherFiles(ToolTest):
             self.assert_fails(
                 done, 1, f"mesh2scene: {name}: expected a regular file, or - for what comes through a pipe")
 
+    def test_may_show_a_billion_triangles(self):
+        mesh = vase(20)
+        document = json.loads(FORMATS["gltf"](mesh))
+        document["nodes"] = [{"children": [i + 1, i + 1]} for i in range(18)] + [{"mesh": 0}]
+        document["scenes"] = [{"nodes": [0]}]
+        pathlib.Path("twice.gltf").write_text(json.dumps(document))
+        found = 2**18 * len(mesh.triangles)
+        self.assert_fails(run("mesh2scene", "twice.gltf"), 1,
+                          f"mesh2scene: twice.gltf: expected at most 1000000000 triangles, found {found}")
+
     def test_are_limited_together(self):
         pathlib.Path("big.obj").write_text("mtllib big.mtl\n" + BOX + "#" * 600_000)
         pathlib.Path("big.mtl").write_text("#" * 600_000)
