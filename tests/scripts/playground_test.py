@@ -8,6 +8,7 @@ import pathlib
 import re
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -82,15 +83,23 @@ MODEL = {
     "a.mtl": b"newmtl red\nKd 1 0 0\n"}
 
 
+def models():
+    """A model of every format."""
+    for kind in ("obj", "ply", "stl", "gltf"):
+        words = [ROOT / "scripts/make-model", "room", "--detail", "2", "--format", kind]
+        data = subprocess.run(words, capture_output=True, check=True).stdout
+        yield f"room.{kind}", data
+    size = len(data)
+    yield "room.glb", struct.pack("<4s3I4s", b"glTF", 2, 20 + size, size, b"JSON") + data
+
+
 def runs_of_models():
     """Broken models, none, one with a second file, and one of every format."""
     for names in ([], ["a.obj"], ["a.obj", "a.mtl"]):
         yield run_of("mesh2scene", ["--", "a.obj"], b"", {name: MODEL[name] for name in names})
     yield run_of("mesh2scene", ["a.stl"], b"", {"a.stl": b"solid"})
-    for kind in ("obj", "ply", "stl", "gltf"):
-        model = subprocess.run([ROOT / "scripts/make-model", "room", "--detail", "2", "--format", kind],
-                               capture_output=True, check=True).stdout
-        yield run_of("mesh2scene", ["--size", "300x200", f"room.{kind}"], b"", {f"room.{kind}": model})
+    for name, model in models():
+        yield run_of("mesh2scene", ["--size", "300x200", name], b"", {name: model})
 
 
 def native(run):
@@ -318,8 +327,34 @@ class PageTest(unittest.TestCase):
         return self.browser.run(self.TOLD)
 
     DROP = """const dataTransfer = new DataTransfer();
-      for (const [name, text] of arguments[0]) dataTransfer.items.add(new File([text], name));
+      for (const [name, letters] of arguments[0]) {
+        const bytes = Uint8Array.from(atob(letters), letter => letter.charCodeAt(0));
+        dataTransfer.items.add(new File([bytes], name));
+      }
       document.dispatchEvent(new DragEvent("drop", {dataTransfer}));"""
+
+    def drop(self, **files):
+        """Drops files, {name: bytes}."""
+        self.browser.run(self.DROP, [[name, letters(data)] for name, data in files.items()])
+
+    @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without PIPELINE_MODELS")
+    def test_a_model_is_dropped_with_its_colors(self):
+        told = "return document.querySelector('#told').innerText"
+        for name, files in (("a.obj", MODEL), *((name, {name: data}) for name, data in models())):
+            self.drop(**files)
+            with tempfile.TemporaryDirectory() as folder:
+                for file, data in files.items():
+                    pathlib.Path(folder, file).write_bytes(data)
+                done = subprocess.run([BIN / "mesh2scene", "--size", "800x600", name], cwd=folder, check=True,
+                                      capture_output=True, text=True)
+            scene = "return document.body.playground.state.scene"
+            self.browser.wait_for(lambda: self.browser.run(scene) == done.stdout)
+            self.assertEqual(self.browser.run(told).split(), done.stderr.split())
+            self.browser.wait_for(lambda: self.browser.run(IS_DONE))
+            self.assertEqual(self.browser.run(IMAGE),
+                             self.picture_of(done.stdout.encode(), b"800 600\n", "--coverage", "center"))
+        self.drop(**{"a.stl": b"solid"})
+        self.browser.wait_for(lambda: "a.stl" in self.browser.run(told))
 
     def check_the_native_picture(self):
         scene, config = self.sample("shaded-torus")
@@ -464,13 +499,13 @@ class ThePage(PageTest):
     def test_what_is_neither_scene_nor_model_replaces_nothing(self):
         before = self.browser.run("return document.body.playground.state")
         told = "return document.querySelector('#told').innerText"
-        for name, text in (("a.fbx", "Kaydara FBX Binary"), ("scene.txt", "hello"), ("config.png", "\x89PNG"),
-                           ("a.json", "{}"), ("empty.txt", "")):
-            self.browser.run(self.DROP, [[name, text]])
+        for name, data in (("a.fbx", b"Kaydara FBX Binary"), ("scene.txt", b"hello"),
+                           ("config.png", b"\x89PNG"), ("a.json", b"{}"), ("empty.txt", b"")):
+            self.drop(**{name: data})
             self.browser.wait_for(lambda: f"{name} cannot be read: it is no" in self.browser.run(told))
         self.assertEqual(self.browser.run("return document.body.playground.state"), before)
+        self.drop(**dict(zip("ab", self.sample("tilted-camera"))))
         scene, config = (data.decode() for data in self.sample("tilted-camera"))
-        self.browser.run(self.DROP, [["a", scene], ["b", config]])
         self.browser.wait_for(lambda: self.browser.run(IS_DONE) and self.browser.run(
             "const {scene, config} = document.body.playground.state; return [scene, config]") == [
                 scene, config])
@@ -824,24 +859,8 @@ class TheFolder(PageTest):
 
     def test_it_shows_the_native_picture(self):
         self.check_the_native_picture()
-
-    @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without PIPELINE_MODELS")
-    def test_a_model_is_dropped_with_its_colors(self):
-        told = "return document.querySelector('#told').innerText"
+        # Who drops no model loads no reader of models.
         self.assertEqual([line for line in self.asked if "mesh2scene" in line], [])
-        self.browser.run(self.DROP, [[name, data.decode()] for name, data in MODEL.items()])
-        self.browser.wait_for(lambda: "is taken for up" in self.browser.run(told))
-        with tempfile.TemporaryDirectory() as folder:
-            for name, data in MODEL.items():
-                pathlib.Path(folder, name).write_bytes(data)
-            done = subprocess.run([BIN / "mesh2scene", "--size", "800x600", "a.obj"], cwd=folder, check=True,
-                                  capture_output=True, text=True)
-        self.assertEqual(self.browser.run("return document.body.playground.state.scene"), done.stdout)
-        self.browser.wait_for(lambda: self.browser.run(IS_DONE))
-        self.assertEqual(self.browser.run(IMAGE),
-                         self.picture_of(done.stdout.encode(), b"800 600\n", "--coverage", "center"))
-        self.browser.run(self.DROP, [["a.stl", "solid"]])
-        self.browser.wait_for(lambda: "a.stl" in self.browser.run(told))
 
     def test_code_reaches_no_file_of_the_server(self):
         scene, config = self.sample("worked-example")
