@@ -93,15 +93,6 @@ def models():
     yield "room.glb", struct.pack("<4s3I4s", b"glTF", 2, 20 + size, size, b"JSON") + data
 
 
-def runs_of_models():
-    """Broken models, none, one with a second file, and one of every format."""
-    for names in ([], ["a.obj"], ["a.obj", "a.mtl"]):
-        yield run_of("mesh2scene", ["--", "a.obj"], b"", {name: MODEL[name] for name in names})
-    yield run_of("mesh2scene", ["a.stl"], b"", {"a.stl": b"solid"})
-    for name, model in models():
-        yield run_of("mesh2scene", ["--size", "300x200", name], b"", {name: model})
-
-
 def native(run):
     """A native tool's result for a run."""
     with tempfile.TemporaryDirectory() as folder:
@@ -138,25 +129,6 @@ def check_answers(case, runs, answers):
 
 FILES = ("LICENSES.txt", "index.html", "main.js", "mesh2scene.bin", "texts.bin", "tools.bin", "worker.bin")
 NOT_BUILT = "scripts/build-playground has not run here"
-
-
-@unittest.skipUnless((BUILT / "wasm/bin/all-tools.wasm").exists(), NOT_BUILT)
-@unittest.skipUnless(shutil.which("node"), "node is missing")
-class ToolsOfThePage(unittest.TestCase):
-    def check(self, runs):
-        done = subprocess.run(["node", ROOT / "tests/scripts/playground_runs.mjs", BUILT / "wasm/bin"],
-                              input=json.dumps(in_letters(runs)), capture_output=True, text=True, check=True)
-        check_answers(self, runs, [json.loads(line) for line in done.stdout.splitlines()])
-
-    def test_the_pack_is_that_of_the_native_tools(self):
-        self.check([*runs_of_pack()])
-
-    def test_the_samples_are_those_of_the_native_tools(self):
-        self.check([*runs_of_samples()])
-
-    @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without PIPELINE_MODELS")
-    def test_models_become_the_scenes_of_the_native_tool(self):
-        self.check([*runs_of_models()])
 
 
 @unittest.skipUnless((BUILT / "wasm/bin/all-tools.wasm").exists(), NOT_BUILT)
@@ -282,8 +254,8 @@ class PageTest(unittest.TestCase):
                          "sessionStorage.clear(); localStorage.clear()")
         self.browser.open("/dev/null")
 
-    def open(self, hash_):
-        self.browser.open(f"{BUILT / 'site/playground.html'}{hash_}")
+    def open(self, hash_, site="site"):
+        self.browser.open(f"{BUILT / site / 'playground.html'}{hash_}")
         self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.runs"))
 
     def edit(self, **state):
@@ -382,13 +354,22 @@ class ThePage(PageTest):
       }
       return answers;"""
 
-    def test_the_pack_is_that_of_the_native_tools(self):
-        runs = [*runs_of_pack()]
+    def check_the_pack_and_the_samples(self):
         script = f"return (async () => {{ {self.RUNS.replace('arguments', 'given')} }})()"
-        answers = []
+        runs = [*runs_of_pack(), *runs_of_samples()]
         for at in range(0, len(runs), 50):
-            answers += self.browser.run(f"const given = arguments; {script}", in_letters(runs[at:at + 50]))
-        check_answers(self, runs, answers)
+            some = runs[at:at + 50]
+            check_answers(self, some, self.browser.run(f"const given = arguments; {script}",
+                                                       in_letters(some)))
+
+    def test_the_pack_and_the_samples_are_those_of_the_native_tools(self):
+        self.check_the_pack_and_the_samples()
+
+    @unittest.skipUnless((BUILT / "plain/playground.html").exists(), f"{NOT_BUILT} with --plain")
+    def test_they_are_the_same_without_simd(self):
+        self.tearDown()
+        self.open("", "plain")
+        self.check_the_pack_and_the_samples()
 
     def test_it_shows_the_native_picture(self):
         self.check_the_native_picture()
