@@ -14,7 +14,7 @@ MISSING = [] if shutil.which("firefox-esr") else ["firefox-esr"]
 class Firefox:
     """Like Browser, as far as the tests of a page need it."""
 
-    wait_for = staticmethod(Browser.wait_for)
+    wait_for, __enter__ = staticmethod(Browser.wait_for), Browser.__enter__
 
     def __init__(self, width=1400, height=1000):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -22,14 +22,15 @@ class Firefox:
         (folder / "user.js").write_text('user_pref("marionette.port", 0);\n')
         self.process = subprocess.Popen([
             "firefox-esr", "--headless", "--marionette", "--no-remote", "--profile", folder,
-            f"--window-size={width},{height}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            "--remote-allow-system-access", f"--window-size={width},{height}"], stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL)
         port = folder / "MarionetteActivePort"
         self.wait_for(lambda: port.exists() and port.read_text())
         self.socket = socket.create_connection(("127.0.0.1", int(port.read_text())))
         self.stream = self.socket.makefile("rb")
         self.count = 0
         self.read()  # who it is
-        self.call("WebDriver:NewSession", {"capabilities": {}})
+        self.call("WebDriver:NewSession", {"capabilities": {"alwaysMatch": {"timeouts": {"script": 120000}}}})
 
     def __exit__(self, *_):
         self.stream.close()
@@ -61,6 +62,13 @@ class Firefox:
     def run(self, script, *words):
         """The result of a JavaScript function's body."""
         return self.call("WebDriver:ExecuteScript", {"script": script, "args": list(words)})["value"]
+
+    def prefer(self, scheme):
+        """Sets the reader's color scheme, light or dark."""
+        self.call("Marionette:SetContext", {"value": "chrome"})
+        name = "layout.css.prefers-color-scheme.content-override"
+        self.run("Services.prefs.setIntPref(...arguments)", name, ["dark", "light"].index(scheme))
+        self.call("Marionette:SetContext", {"value": "content"})
 
     def press(self, selector, keys):
         """Sends keys to an element, which takes the focus."""

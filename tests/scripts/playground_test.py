@@ -357,8 +357,8 @@ class ThePage(PageTest):
     def check_the_pack_and_the_samples(self):
         script = f"return (async () => {{ {self.RUNS.replace('arguments', 'given')} }})()"
         runs = [*runs_of_pack(), *runs_of_samples()]
-        for at in range(0, len(runs), 50):
-            some = runs[at:at + 50]
+        for at in range(0, len(runs), 10):
+            some = runs[at:at + 10]
             check_answers(self, some, self.browser.run(f"const given = arguments; {script}",
                                                        in_letters(some)))
 
@@ -864,11 +864,13 @@ VIOLATIONS = """return axe.run().then(found => found.violations.map(({impact, id
 @unittest.skipIf(MISSING, f"missing: {' '.join(MISSING)}")
 class ForEverybody(unittest.TestCase):
     """No serious finding of axe-core, on the playground, also after an error, and on a page of inspect."""
+
+    BROWSER = Browser
+
     def check(self, page, *scripts):
         for scheme in ("light", "dark"):
-            with Browser(1400, 900) as browser:
-                browser.devtools("Emulation.setEmulatedMedia", features=[{
-                    "name": "prefers-color-scheme", "value": scheme}])
+            with self.BROWSER(1400, 900) as browser:
+                browser.prefer(scheme)
                 browser.open(page)
                 ready = "return document.body.dataset.runs || document.body.dataset.ready"
                 browser.wait_for(lambda: browser.run(ready))
@@ -893,6 +895,11 @@ class ForEverybody(unittest.TestCase):
             words = [ROOT / "scripts/inspect", sample / "scene.txt", sample / "config.txt", "-o", page]
             subprocess.run(words, check=True, env={**os.environ, "BIN": str(BIN)})
             self.check(page)
+
+
+@unittest.skipIf(firefox.MISSING, f"missing: {' '.join(firefox.MISSING)}")
+class ForEverybodyInFirefox(ForEverybody):
+    BROWSER = firefox.Firefox
 
 
 if __name__ == "__main__":
