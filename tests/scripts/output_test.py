@@ -149,7 +149,7 @@ class Writers:
         self.assertEqual(self.left(), ["x"])
 
     def test_names_may_hold_anything(self):
-        for name in (b"-x", b"a b", b"a\nb", b"a'\"b", b"a\xffb"):
+        for name in (b"-x", b"a b", b"a\nb", b"a'\"b", b"a\xffb", b"a." + b"x" * 253):
             self.assert_written(self.write(name))
             self.assertTrue(self.is_whole(pathlib.Path(os.fsdecode(name)).read_bytes()))
 

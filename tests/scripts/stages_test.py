@@ -92,7 +92,7 @@ class Stages(ToolTest):
     def test_a_run_that_fails_leaves_no_folder(self):
         pathlib.Path("bad").write_text("x\n")
         os.mkdir("old")
-        for folder in ("dir", "old/a/b//c/", "./dir/dir", "old/../dir", "dir/../dir"):
+        for folder in ("dir", "old/a/b//c/", "./dir/dir", "old/../dir", "new/../dir"):
             with self.subTest(folder):
                 self.assert_refused(self.stages(folder, scene="bad"),
                                     "model: bad:1:1: expected the x of the eye, found 'x'")

@@ -97,6 +97,7 @@ def prepare():
         leftovers.add(folder)
         with contextlib.suppress(OSError):  # what needs a temporary file will say so
             os.mkdir(folder, 0o700)
+            os.chmod(folder, 0o700)  # whatever the umask
             tempfile.tempdir = os.path.abspath(folder)
             break
 

@@ -85,6 +85,7 @@ class OutputFile:
     def open_beside(self, status):
         mode = stat.S_IMODE(status.st_mode) & 0o777 if status else 0o666
         folder, extension = os.path.dirname(self.target), os.path.splitext(self.target)[1]
+        extension = extension if len(extension) <= 8 else ""  # none that names a format
         name = os.path.join(folder, f".pipeline-{secrets.token_hex(8)}{extension}")
         leftovers.add(name)
         self.descriptor = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, mode)
@@ -173,8 +174,8 @@ def expect_writable(path):
 @contextlib.contextmanager
 def output_files(folder, names):
     """OutputFiles in a folder, which is made if necessary; without a commit, nothing that was made stays."""
-    made, missing = [], os.path.abspath(folder)
-    while not os.path.lexists(missing):
+    made, missing = [], os.fspath(folder)  # with its `..`, as the system reads it
+    while missing and not os.path.lexists(missing):
         made.append(missing)
         missing = os.path.dirname(missing)
     try:
@@ -182,8 +183,8 @@ def output_files(folder, names):
         with contextlib.ExitStack() as stack:
             yield [stack.enter_context(OutputFile(os.path.join(folder, name))) for name in names]
     finally:
-        with contextlib.suppress(OSError):  # until one is not empty
-            for path in made:
+        for path in made:
+            with contextlib.suppress(OSError):  # it is not empty, or `..`
                 os.rmdir(path)
 
 

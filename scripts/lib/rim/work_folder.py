@@ -30,6 +30,9 @@ class WorkFolder:
             self.expect_ours()
             self.lock = os.open(self.mark, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
             fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if not (self.mark.exists() and os.path.samestat(os.fstat(self.lock), os.lstat(self.mark))):
+                os.close(self.lock)  # another run has just removed the folder
+                self.take()
         except BlockingIOError:
             raise CommandFailure(f"another {self.command} works in {shown(self.path)}") from None
         except OSError as error:

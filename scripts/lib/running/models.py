@@ -31,7 +31,8 @@ def take_model(options, outputs, size="800x600"):
         size = "x".join(number.decode() for number in found.groups()) if found else size
     model = os.path.join(os.curdir, path) if path.startswith("-") else path
     done = Tools().run("mesh2scene", *words_of_outputs(outputs), "--size", size, model)
-    sys.stderr.write(done.stderr.decode())
+    sys.stderr.buffer.write(done.stderr)  # with names in any encoding
+    sys.stderr.flush()
     options.scene = os.path.join(KEPT[-1].name, os.path.basename(path))
     write_file(options.scene, done.stdout)
     if not options.config:

@@ -168,7 +168,9 @@ class Tools:
             runs, source = [], stdin
             for tool, *words in calls:
                 framing = FRAMING.get(tool, []) if len(calls) > 1 else []
-                is_last, errors = len(runs) == len(calls) - 1, stack.enter_context(tempfile.TemporaryFile())
+                is_last = len(runs) == len(calls) - 1
+                # In memory: the disk may be full.
+                errors = stack.enter_context(os.fdopen(os.memfd_create("stderr"), "w+b"))
                 if runs:
                     stack.callback(source.close)  # also if the next tool cannot be started
                 process = subprocess.Popen(self.command(tool, [*framing, *words]), cwd=cwd, stdin=source,
