@@ -6,7 +6,7 @@ import pathlib
 import stat
 
 from lib.rim.command import CommandFailure, shown
-from lib.rim.output_file import make_folders, write_file
+from lib.rim.output_file import OutputError, make_folders, write_file
 
 OURS = ".pipeline-"  # so begin a mark, and what a tool that was killed may leave
 
@@ -53,7 +53,11 @@ class WorkFolder:
     def write(self, name, data):
         if is_other(self / name):
             (self / name).unlink()
-        write_file(self / name, data)
+        try:
+            write_file(self / name, data)
+        except OutputError:
+            self.remove(lambda _: False)  # where it holds nothing but the mark
+            raise
 
     def remove_files(self, is_own):
         """Removes files by their paths in the folder, and folders that this leaves empty."""
@@ -80,7 +84,7 @@ class WorkFolder:
     def remove(self, is_own):
         """Removes the folder; if others have put something into it, all but that and the mark."""
         self.remove_files(lambda name: is_own(name) or os.path.basename(name).startswith(OURS))
-        if os.listdir(self.path) == [self.mark.name]:
+        if self.path.exists() and os.listdir(self.path) == [self.mark.name]:
             os.unlink(self.mark)
             os.rmdir(self.path)
 
