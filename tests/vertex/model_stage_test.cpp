@@ -13,7 +13,7 @@ namespace {
 // Lines 1 to 4 of a scene; its commands start on line 5.
 const std::string kCamera = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n";
 // A triangle whose first vertex is the point (1 2 3).
-const std::string kTriangle = "triangle\n1 2 3\n0 0 0\n0 0 0\n";
+const std::string kDegenerate = "triangle\n1 2 3\n0 0 0\n0 0 0\n";
 
 TriangleBatch triangles_from(int descriptor) {
   TextReader text(descriptor, "scene.txt");
@@ -103,7 +103,7 @@ TEST(ModelStage, LocatesItsVertices) {
 
 TEST(ModelStage, AMatrixHoldsAcrossBatches) {
   std::string many;
-  for (std::size_t i = 0; i < kBatchSize; ++i) many += kTriangle;
+  for (std::size_t i = 0; i < kBatchSize; ++i) many += kDegenerate;
   const std::vector<Vec3> vertices =
       first_vertices_of("translate 1 0 0\n" + many + many + "translate 1 0 0\n" + many);
   std::vector<Vec3> expected(2 * kBatchSize, {2, 2, 3});
@@ -128,7 +128,7 @@ TEST(ModelStage, TrianglesAreTheSameByEveryPath) {
 }
 
 TEST(ModelStage, DeliversTheTrianglesBeforeAnError) {
-  const TextFile file(kCamera + kTriangle + kTriangle + "pop\n");
+  const TextFile file(kCamera + kDegenerate + kDegenerate + "pop\n");
   TextReader text(file.descriptor(), "scene.txt");
   SceneReader scene(text);
   ModelStage stage(scene);
@@ -141,7 +141,7 @@ TEST(ModelStage, DeliversTheTrianglesBeforeAnError) {
 
 TEST(ModelStage, ReadsASceneThatArrivesByteByByte) {
   const TextInPieces slow(
-      TextInPieces::bytes_of(kCamera + "push\ntranslate 1 0 0\n" + kTriangle + "pop\nend"));
+      TextInPieces::bytes_of(kCamera + "push\ntranslate 1 0 0\n" + kDegenerate + "pop\nend"));
   EXPECT_EQ(triangles_from(slow.descriptor()).triangles.at(0)[0], (Vec3{2, 2, 3}));
 }
 
