@@ -56,4 +56,13 @@ Ball exact_sum(std::span<const ExactProduct> products) {
   return largest - least <= kUsualRange ? sum_of<UsualSum>(used, least) : sum_of<LargestSum>(used, least);
 }
 
+BallVec3 exact_face_normal(const Triangle& p) {
+  const Vec3 &a = p[0], &b = p[1], &c = p[2];
+  const auto along = [&](double Vec3::*u, double Vec3::*v) {  // multiplied out
+    return exact_sum(
+        {{b.*u, c.*v}, {b.*v, a.*u}, {a.*v, c.*u}, {-(b.*v), c.*u}, {-(b.*u), a.*v}, {-(a.*u), c.*v}});
+  };
+  return {along(&Vec3::y, &Vec3::z), along(&Vec3::z, &Vec3::x), along(&Vec3::x, &Vec3::y)};
+}
+
 }  // namespace pipeline

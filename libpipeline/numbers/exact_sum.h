@@ -37,4 +37,7 @@ inline Ball exact_sum(std::initializer_list<ExactProduct> products) {
   return exact_sum(std::span(products.begin(), products.size()));
 }
 
+/// The cross product (b - a) x (c - a) of the corners a, b and c, each coordinate rounded once.
+BallVec3 exact_face_normal(const Triangle& p);
+
 }  // namespace pipeline

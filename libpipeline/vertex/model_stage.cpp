@@ -22,16 +22,6 @@ Vec3 face_normal_in_doubles(const Triangle& p) {
                                                                                   : Vec3{};
 }
 
-/// That normal, of any length: (b - a) x (c - a), multiplied out.
-BallVec3 exact_face_normal(const Triangle& p) {
-  const Vec3 a = p[0], b = p[1], c = p[2];
-  const auto along = [&](double Vec3::*u, double Vec3::*v) {
-    return exact_sum(
-        {{b.*u, c.*v}, {b.*v, a.*u}, {a.*v, c.*u}, {-(b.*v), c.*u}, {-(b.*u), a.*v}, {-(a.*u), c.*v}});
-  };
-  return {along(&Vec3::y, &Vec3::z), along(&Vec3::z, &Vec3::x), along(&Vec3::x, &Vec3::y)};
-}
-
 }  // namespace
 
 ModelStage::ModelStage(SceneReader& scene, std::uint64_t first_number, const SphereForm& spheres)

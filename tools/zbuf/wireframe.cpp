@@ -21,14 +21,9 @@ bool is_in_clip_plane(const Vec3& p, const Vec3& q) {
 /// Exact, except for its rounding where balls lose too much.
 BallVec3 plane_normal(const Triangle& p) {
   constexpr double kCertain = 0x1p-50;
-  const Vec3 &a = p[0], &b = p[1], &c = p[2];
-  const BallVec3 start = to_balls(a), normal = cross(to_balls(b) - start, to_balls(c) - start);
+  const BallVec3 start = to_balls(p[0]), normal = cross(to_balls(p[1]) - start, to_balls(p[2]) - start);
   if (normal.z.error() <= kCertain * std::fabs(normal.z.value().hi)) return normal;
-  const auto area = [&](double Vec3::*u, double Vec3::*v) {
-    return exact_sum(
-        {{a.*u, b.*v}, {-(a.*v), b.*u}, {b.*u, c.*v}, {-(b.*v), c.*u}, {c.*u, a.*v}, {-(c.*v), a.*u}});
-  };
-  return {area(&Vec3::y, &Vec3::z), area(&Vec3::z, &Vec3::x), area(&Vec3::x, &Vec3::y)};
+  return exact_face_normal(p);
 }
 
 }  // namespace
