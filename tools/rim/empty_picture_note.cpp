@@ -149,7 +149,7 @@ std::string list_of(const std::vector<Group>& groups, const std::string& none_of
 /// "97.5 %", never rounded up to 100.
 std::string percent(std::uint64_t part, std::uint64_t all) {
   const double share = static_cast<double>(part) / static_cast<double>(all);
-  return rounded(share < 0.9995 ? std::floor(1000 * share) / 10 : std::floor(1e6 * share) / 1e4) + " %";
+  return rounded(share < 0.9995 ? std::floor(1000 * share) / 10 : std::floor(1e6 * share) / 1e4, 100) + " %";
 }
 
 /// True for so many pixels that the others hardly count.
@@ -179,8 +179,7 @@ constexpr std::array<const char*, kDarknessCount> kReasons = {
     "the material reflects highlights alone (of 'material KA KD KS N', KD is 0 or hardly more)",
     "every light has the intensity 0 (the last three numbers of 'light'; 1 is full)",
     "no light reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 would show "
-    "it "
-    "from anywhere)",
+    "it from anywhere)",
     "all that is seen is in shadow (--no-shadows lights it; ambient 0.2 0.2 0.2 would show it, too)",
     "the light on the side that is seen is too weak (its intensity is #; 1 is full)",
     "the light on the side that is seen is too weak (its intensity is #, and attenuation weakens it: '1 0 0' "

@@ -52,8 +52,7 @@ void ProjectOptions::add_clipping(CommandLine& options) {
       "--clip-inset", "F", clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
       "a number from 0 to less than 1",
       "Pull in the planes of --clip near, frustum or reject, to show the cuts: 0.1 keeps what is between "
-      "-0.9 "
-      "and 0.9 in NDC");
+      "-0.9 and 0.9 in NDC");
   options.add_choice<CullMode>("--cull", cull, {{"back", CullMode::back}, {"front", CullMode::front}},
                                "Drop triangles that show this side to the eye; counterclockwise is front");
 }

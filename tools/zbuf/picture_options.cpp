@@ -78,8 +78,7 @@ void PictureOptions::add_shading(CommandLine& options) {
        {"gouraud", ShadingModel::gouraud},
        {"phong", ShadingModel::phong}},
       "Where surfaces are lit: nowhere, once per triangle, at its vertices, or at every pixel (default: "
-      "phong "
-      "with lights and normals, flat with lights alone, else none)");
+      "phong with lights and normals, flat with lights alone, else none)");
 }
 
 void PictureOptions::add_background(CommandLine& options) {

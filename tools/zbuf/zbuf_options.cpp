@@ -71,8 +71,7 @@ void ZbufOptions::add_pixels(CommandLine& options) {
       "--depth-epsilon", "E", rules.depth_epsilon, [](double epsilon) { return epsilon >= 0; },
       "a number of at least 0",
       "Draw a triangle only where it is nearer than the visible one by more than E; the order of triangles "
-      "then "
-      "matters");
+      "then matters");
   options.add_whole("--threads", thread_count, 0, kMaxThreads,
                     "How many threads draw and shade (0: as many as pay)");
 }
