@@ -70,54 +70,40 @@ def printed_tolerance(p, digits):
     return max(BASE * max(1.0, size), digits.unit(size))
 
 
-@dataclasses.dataclass
-class Difference:
-    """How points differ from what is expected; `first` and `largest` are (index of the point, axis, theirs,
-    expected)."""
-    differing: int = 0
-    compared: int = 0
-    first: tuple = None
-    largest: tuple = None
-    points: set = dataclasses.field(default_factory=set)  # indices of those that differ
-
-
 def is_off(a, b, tolerance):
     """True if a differs from b; whatever is not finite on our side decides nothing."""
     return math.isfinite(b) and abs(a - b) > tolerance
 
 
-def differs(theirs, digits, expected, axes=range(3)):
-    """True if any point differs on some axes from the expected (point, slacks of its coordinates), which are
-    drawn one by one; also if too many of those decide nothing."""
-    undecided = 0
-    for p, (q, slacks) in zip(theirs, expected):
+def off(theirs, digits, expected, axes=range(3)):
+    """(index of the point, axis, theirs, expected) of each coordinate that is off from the expected (point,
+    slacks of its coordinates), which are drawn one by one; where our number decides nothing, it is nan."""
+    for i, (p, (q, slacks)) in enumerate(zip(theirs, expected)):
         printed = printed_tolerance(q, digits)
         for axis in axes:
-            if is_off(p[axis], q[axis], printed + slacks[axis]):
-                return True
-            undecided += not (math.isfinite(q[axis]) and math.isfinite(slacks[axis]))
+            if not math.isfinite(q[axis] + slacks[axis]):
+                yield i, axis, p[axis], math.nan
+            elif is_off(p[axis], q[axis], printed + slacks[axis]):
+                yield i, axis, p[axis], q[axis]
+
+
+def differs(theirs, digits, expected, axes=range(3)):
+    """True if any point is off on some axes; also if too many of its numbers decide nothing."""
+    undecided = 0
+    for *_, b in off(theirs, digits, expected, axes):
+        if not math.isnan(b):
+            return True
+        undecided += 1
     return undecided > MOST_UNDECIDED * len(axes) * len(theirs)
 
 
-def difference(theirs, digits, expected):
-    """The Difference from the expected (point, slacks)."""
-    result = Difference()
-    for i, (p, (q, slacks)) in enumerate(zip(theirs, expected)):
-        printed = printed_tolerance(q, digits)
-        for axis, (a, b, slack) in enumerate(zip(p, q, slacks)):
-            result.compared += 1
-            if is_off(a, b, printed + slack):
-                result.differing += 1
-                result.points.add(i)
-                pair = (i, axis, a, b)
-                result.first = result.first or pair
-                if result.largest is None or abs(a - b) > abs(result.largest[2] - result.largest[3]):
-                    result.largest = pair
-    return result
+def differences(theirs, digits, expected):
+    """All coordinates that are off for certain."""
+    return [found for found in off(theirs, digits, expected) if not math.isnan(found[-1])]
 
 
-def described(pair, lines):
-    """A difference with its location: their number, and ours."""
-    i, axis, a, b = pair
+def described(found, lines):
+    """A coordinate that is off with its location: their number, and ours."""
+    i, axis, a, b = found
     return (f"line {lines[i]}, {'xyz'[axis]} of vertex {i % 3 + 1} of triangle {i // 3}: {a:.10g} in place "
             f"of {b:.10g}, off by {abs(a - b):.3g}")

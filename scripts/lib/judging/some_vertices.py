@@ -12,10 +12,10 @@ MOST_TRIANGLES = 0.5  # of all that are wrong, to be called a few
 
 def causes(result, count, is_right_at, causes_at):
     """The causes if each triangle is wrong at one or two vertices of its three, and the others are right.
-    `result` is the Difference of `count` triangles; `is_right_at` tells of a slice of the points whether all
+    `result` is what differs in `count` triangles; `is_right_at` tells of a slice of the points whether all
     are right, `causes_at` explains slices."""
     wrong = [k for k in range(3) if not is_right_at(VERTICES[k])]
-    counts = [sum(i % 3 == k for i in result.points) for k in wrong]
+    counts = [len({i for i, *_ in result if i % 3 == k}) for k in wrong]
     if not 0 < len(wrong) < 3 or min(counts) < max(2, count / 2):
         return []
     names, others = (" and ".join(NAMES[k] for k in range(3) if (k in wrong) == is_wrong)
@@ -28,7 +28,7 @@ def causes(result, count, is_right_at, causes_at):
 
 def few_triangles(result, count):
     """A remark on which triangles are wrong, if they are few; a list of at most one."""
-    wrong = sorted({i // 3 for i in result.points})
+    wrong = sorted({i // 3 for i, *_ in result})
     if not wrong or len(wrong) > MOST_TRIANGLES * count:
         return []
     return [

@@ -7,7 +7,7 @@ from lib.judging import matching
 from lib.judging import some_vertices
 from lib.judging.digits import EXACT
 from lib.judging.model_habits import ROUGH_PIS
-from lib.judging.points import described, difference, differs
+from lib.judging.points import described, differences, differs
 from lib.judging.scene import NO_UNITS
 from lib.judging.stage_ways import ALL, PI, MatrixWays, ModelWays
 from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict)
@@ -102,9 +102,9 @@ def used_digits(theirs):
 
 
 def nearest(ways, theirs, digits):
-    """The Difference from the nearest points that some Ways give."""
-    return min((difference(theirs.points, digits, images) for way in ways for images in way.images(ALL)),
-               key=lambda result: result.differing)
+    """What differs from the nearest points that some Ways give."""
+    return min((differences(theirs.points, digits, images) for way in ways for images in way.images(ALL)),
+               key=len)
 
 
 def count_verdict(ways, name, theirs, expected, digits):
@@ -145,17 +145,18 @@ def right_verdict(stage, name, theirs, rule=""):
 
 
 def wrong(stage, name, theirs, result):
-    largest, first = (described(pair, theirs.lines) if pair else ""
-                      for pair in (result.largest, result.first))
-    return FileVerdict(stage, name, WRONG, differing=result.differing, compared=result.compared,
-                       largest=largest, first=first)
+    """The verdict on a text of which `result` differs."""
+    by_size = sorted(result, key=lambda found: -abs(found[2] - found[3]))
+    largest, first = (described(some[0], theirs.lines) if some else "" for some in (by_size, result))
+    return FileVerdict(stage, name, WRONG, differing=len(result), compared=3 * len(theirs), largest=largest,
+                       first=first)
 
 
 def outcome_of_few_digits(ways, name, theirs):
     """The Outcome of a text with too few digits to name a mistake by. It is wrong if it differs from all
     that is right by more than those digits hide."""
     result = nearest(ways.right, theirs, theirs.digits)
-    if not result.differing:
+    if not result:
         return Outcome(FileVerdict(ways.stage, name, TOO_FEW_DIGITS, remarks=[f"it shows {theirs.digits}"]))
     verdict = wrong(ways.stage, name, theirs, result)
     verdict.remarks.append(f"it shows {theirs.digits}, too few to name a cause")

@@ -90,7 +90,7 @@ class ModelWays:
 
     def place(self, result):
         """The place of the first wrong triangle in the scene."""
-        triangle = result.first[0] // 3
+        triangle = result[0][0] // 3
         line, before = self.scene.triangle_lines[triangle], self.scene.command_before(triangle)
         after = f", after {before.keyword} in line {before.line}" if before else ""
         return f"the first wrong triangle is number {triangle}, in line {line} of the scene{after}"
