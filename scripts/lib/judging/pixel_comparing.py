@@ -105,6 +105,12 @@ class Context:
         return pixel_rules.open_rules(self.window, self.readings, bool(self.shown.depths))
 
     @functools.cached_property
+    def mistakes(self):
+        """Those of pixel_rules.MISTAKES that can make a difference here."""
+        return [
+            one for one in pixel_rules.MISTAKES if pixel_rules.can_matter(one[1], self.window, self.shown)]
+
+    @functools.cached_property
     def plain(self):
         """The Mismatch of our own rule."""
         return self.compare(self.first, Rule())
@@ -121,10 +127,12 @@ class Context:
         limits = (-1.0, 1.0) if rule.is_depth_one else self.limits
         return Drawing(self.triangles[key], rule, limits, self.work)
 
-    def explains(self, reading, rule, rows):
-        """True if the rule explains all that these rows show, colors aside."""
+    def explained(self, reading, rule, rows):
+        """The Mismatch of a rule that explains everything, without a pixel; else None. `rows` are looked at
+        first."""
         attempt = Attempt(self, reading, rule)
-        return not any(True for row in rows for _ in attempt.differences(row))
+        return None if any(
+            True for row in rows for _ in attempt.differences(row)) else self.compare(reading, rule, limit=0)
 
     def compare(self, reading, rule, limit=math.inf):
         """The Mismatch of a rule; None if more than `limit` pixels are not explained."""

@@ -5,11 +5,12 @@ import itertools
 from lib.judging.raster import COLUMNS
 
 CENTER = {"left": "up", "right": "down"}
+OUR_ENDS = ({}, CENTER)
 CLOSED_ENDS = (("rounded", "rounded"), ("up", "down"))  # ours; CENTER
-OPEN_ENDS = [{}, CENTER,
-             *({"left": left, "right": right}
-               for left, right in itertools.product(("truncated", "rounded", "down", "up"), repeat=2)
-               if (left, right) not in CLOSED_ENDS)]
+OPEN_ENDS = [
+    *OUR_ENDS, *({"left": left, "right": right}
+                 for left, right in itertools.product(("truncated", "rounded", "down", "up"), repeat=2)
+                 if (left, right) not in CLOSED_ENDS)]
 OPEN_DEPTHS = [{}, {"depth": "between ends"}, {"depth": "between ends", "clamp": 1}, {
     "depth": "between ends", "clamp": 0}, {"depth": "from left"}, {"depth": "from left", "clamp": 0}]
 # mistakes that draw nothing, most of them in many scenes alone
@@ -64,9 +65,9 @@ WAYS = {
 MISTAKES = [(tuple(names.split()), changes) for names, ways in WAYS.items() for changes in ways]
 
 
-def pairs():
-    """(names, changes) for each two mistakes that change different things."""
-    for (names, one), (others, other) in itertools.combinations(MISTAKES, 2):
+def pairs(mistakes):
+    """(names, changes) for each two of some MISTAKES that change different things."""
+    for (names, one), (others, other) in itertools.combinations(mistakes, 2):
         flips = [any("flip" in key for key in changes) for changes in (one, other)]
         is_single = len(names) == len(others) == 1 and names != others
         if is_single and one.keys().isdisjoint(other) and not all(flips):

@@ -7,7 +7,7 @@ import itertools
 from lib.judging.borders import BorderRule
 from lib.judging.matching import named
 from lib.judging.pixel_comparing import Attempt, Mismatch
-from lib.judging.pixel_rules import BLANK, CENTER, MISTAKES, MOST_PAIRS, can_matter, pairs
+from lib.judging.pixel_rules import BLANK, CENTER, MISTAKES, MOST_PAIRS, OUR_ENDS, pairs
 from lib.judging.pixel_words import border_rule_in_words, end_in_words, rule_in_words
 from lib.judging.raster import Rule, TooMuch
 from lib.judging.verdict import cause_of, cause_of_all
@@ -111,38 +111,30 @@ def sample_rows(context, mismatch):
 
 
 def by_open_rule(context, rows):
-    for _, changes in context.open_rules:
-        for reading in context.readings:
-            if context.explains(reading, Rule(**changes), rows):
-                finding = exact(context.compare(reading, Rule(**changes), limit=0), context.shown)
-                if finding:
-                    return finding
-    return None
+    found = (exact(context.explained(reading, Rule(**changes), rows), context.shown)
+             for _, changes in context.open_rules for reading in context.readings)
+    return next(filter(None, found), None)
 
 
 def by_mistake(context, rows):
     """The mistakes that explain everything by the usual rules; only if there is none, by others."""
-    found, rank_of_found = {}, None
-    for rank, open_changes in context.open_rules:
-        if found and rank > rank_of_found:
-            break
-        for names, changes in MISTAKES:
-            if names in found or not can_matter(changes, context.window, context.shown):
-                continue
-            rule = Rule(**{**open_changes, **changes})
-            readings = [*context.readings][:None if rank < 2 else 1]
-            mismatches = (everything_explained(context, reading, rule, rows) for reading in readings)
-            if mismatch := next(filter(None, mismatches), None):
-                found[names], rank_of_found = mismatch, rank
-    return mistake(context, found) if found else None
+    found = {}
+    for rank, rules in itertools.groupby(context.open_rules, key=lambda rule: rule[0]):
+        readings = [*context.readings][:None if rank < 2 else 1]
+        for (_, open_changes), (names, changes) in itertools.product(rules, context.mistakes):
+            if names not in found:
+                rule = Rule(**{**open_changes, **changes})
+                mismatches = (everything_explained(context, reading, rule, rows) for reading in readings)
+                found |= {names: one for one in itertools.islice(filter(None, mismatches), 1)}
+        if found:
+            return mistake(context, found)
+    return None
 
 
 def everything_explained(context, reading, rule, rows):
     """The Mismatch, without a pixel, of a mistake that explains everything, draws something, and leaves no
     more open than it explains; else None. `rows` are looked at first."""
-    if not context.explains(reading, rule, rows):
-        return None
-    mismatch = context.compare(reading, rule, limit=0)
+    mismatch = context.explained(reading, rule, rows)
     is_one = mismatch and mismatch.drawn and mismatch.doubtful <= len(context.plain.pixels)
     return mismatch if is_one and has_enough_holes(context, reading, rule) else None
 
@@ -157,8 +149,9 @@ def by_two_mistakes(context, rows):
     """Two mistakes at once that explain everything, by our two rules; nothing if more than MOST_PAIRS would
     do. They are asked of both files together."""
     found = {}
-    for (names, changes), ends in itertools.product(() if context.is_one_of_two else pairs(), ({}, CENTER)):
-        if names not in found and can_matter(changes, context.window, context.shown):
+    some = () if context.is_one_of_two else pairs(context.mistakes)
+    for (names, changes), ends in itertools.product(some, OUR_ENDS):
+        if names not in found:
             mismatch = everything_explained(context, context.first, Rule(**{**ends, **changes}), rows)
             found |= {names: mismatch} if mismatch else {}
     return mistake(context, found) if 0 < len(found) <= MOST_PAIRS else None
@@ -171,13 +164,10 @@ def by_most_pixels(context, rows, best):
     for _, changes in context.open_rules:
         if "depth" not in changes:
             least = min(least, Attempt(context, context.first, Rule(**changes)).count(rows, least))
-    for names, changes in MISTAKES if least >= LEAST_NEARLY else ():
-        if not can_matter(changes, context.window, context.shown):
-            continue
-        for ends in ({}, CENTER):
-            attempt, most = Attempt(context, context.first, Rule(**{**ends, **changes})), least // NEARLY
-            if attempt.has_torn_rows or attempt.count(rows, most) > most:
-                continue
+    some, most = context.mistakes if least >= LEAST_NEARLY else (), least // NEARLY
+    for (names, changes), ends in itertools.product(some, OUR_ENDS):
+        attempt = Attempt(context, context.first, Rule(**{**ends, **changes}))
+        if not attempt.has_torn_rows and attempt.count(rows, most) <= most:
             mismatch = context.compare(context.first, attempt.rule)
             if mismatch.drawn and NEARLY * len(mismatch.pixels) <= len(best.pixels) and not mismatch.has_rows:
                 found.setdefault(names, mismatch)
@@ -200,7 +190,7 @@ def without_triangles(context, best, limit):
     lost = {t for t, count in counts.items() if count >= LOST * best.areas[t]}
     in_another = {t for t in counts if len(best.by_color.get(best.colors.get(t), ())) > 1}
     rules = (Rule(**ends, without=some) for some in dict.fromkeys(map(frozenset, (lost, lost | in_another)))
-             if 0 < len(some) < len(best.areas) for ends in ({}, CENTER))
+             if 0 < len(some) < len(best.areas) for ends in OUR_ENDS)
     mismatches = filter(None, (context.compare(best.reading, rule, limit) for rule in rules))
     mismatch = min(mismatches, key=lambda one: len(one.pixels), default=None)
     if mismatch is None or mismatch.has_rows:
