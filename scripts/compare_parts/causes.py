@@ -56,14 +56,14 @@ def judged(scene, theirs, ours):
 
 def stages(reference, judge):
     """For each stage what judges points as its output, given right ones as its input."""
-    yield lambda name, points: judge.model(name, points).verdict
+    yield lambda name, points: judge.outcome("model", name, points).verdict
     world = read_as_printed(reference.world)
-    yield lambda name, points: judge.view(name, points, [world]).verdict
+    yield lambda name, points: judge.outcome("view", name, points, [world]).verdict
     p_view = exact_images(reference.scene.of_view(), False, reference.world)
     view = read_as_printed(p_view)
     clipped = reference.clipped(p_view)
-    yield lambda name, points: judge.project(name, points, [view], [clipped]
-                                             if clipped is not None else []).verdict
+    others = [clipped] if clipped is not None else []
+    yield lambda name, points: judge.outcome("project", name, points, [view], others).verdict
 
 
 def read_as_printed(points):

@@ -84,14 +84,12 @@ class HandIn:
         name = self.files[kind].name
         if not theirs.points:
             return self.of_empty_text(stage, kind, readings)
-        if stage == "model":
-            return judge.model(name, theirs)
-        outcome = self.after_model(judge, stage, kind, theirs, readings)
+        outcome = judge.outcome(stage, name, theirs, readings, self.clipped(stage, readings))
         failed = [verdict for verdict in verdicts if not verdict.is_good]
         if outcome.verdict.verdict == WRONG and failed:
             # A program may write other numbers into a file than it goes on with.
-            right = self.ours.exact["model" if stage == "view" else "view"]
-            by_right = self.after_model(judge, stage, kind, theirs, [Reading.exact(right)])
+            right = [Reading.exact(self.ours.exact["model" if stage == "view" else "view"])]
+            by_right = judge.outcome(stage, name, theirs, right, self.clipped(stage, right))
             if by_right.verdict.verdict in GOOD:
                 by_right.verdict.remarks.append(
                     f"by the right numbers, which are not those of {failed[-1].file}")
@@ -107,20 +105,17 @@ class HandIn:
         clipped = self.ours.exact_clipped if stage == "project" else None
         return [self.ours.exact[stage], *([] if clipped is None else [clipped])]
 
-    def after_model(self, judge, stage, kind, theirs, readings):
-        if stage == "view":
-            return judge.view(self.files[kind].name, theirs, readings)
-        return judge.project(self.files[kind].name, theirs, readings, self.clipped(readings))
-
     def right_memory(self, stage, readings):
         """The points after a stage whose file is missing, if the stage is right."""
         if stage == "model" or not readings:
             return self.ours.world if stage == "model" else None
-        m = self.ours.scene.of_view() if stage == "view" else self.ours.scene.of_project()
+        m = self.ours.scene.matrix(stage)
         return [image(m, p, stage == "project") for p in readings[-1].points]
 
-    def clipped(self, readings):
-        """The points that may be left if project clips them, for each reading."""
+    def clipped(self, stage, readings):
+        """The points that may be left if project clips them, for each reading; none after other stages."""
+        if stage != "project":
+            return []
         exact = self.ours.exact["view"]
         parts = (self.ours.exact_clipped if reading.points == exact else self.ours.clipped(reading.points)
                  for reading in readings)
@@ -133,7 +128,7 @@ class HandIn:
             return Outcome(FileVerdict(stage, name, RIGHT, differing=0), [])
         if not readings and stage != "model":
             return undecided_outcome(stage, name)
-        if stage == "project" and not all(self.clipped(readings)):
+        if not all(self.clipped(stage, readings)):
             return undecided_outcome(stage, name, "what it was to project may be out of view")
         return Outcome(
             FileVerdict(

@@ -38,7 +38,7 @@ def ways(stage, scene, names):
     is_divided = next((DIVISIONS[name] for name in names if name in DIVISIONS), not is_view)
     for spelling in range(SPELLINGS.get(words, 1)):
         with contextlib.suppress(ZeroDivisionError, OverflowError):
-            m = (scene.of_view if is_view else scene.of_project)(words, spelling=spelling)
+            m = scene.matrix(stage, words, spelling)
             if m is not None:
                 yield m, is_divided
                 if is_view and words == "matrix-transposed":  # its w is not 1, and some programs divide by it

@@ -55,6 +55,9 @@ class Scene:
         before = itertools.takewhile(lambda command: command.line < line, self.commands)
         return next((command for command in reversed(list(before)) if command.keyword != "triangle"), None)
 
+    def matrix(self, stage, mistake="", spelling=0):
+        return (self.of_view if stage == "view" else self.of_project)(mistake, spelling=spelling)
+
     def of_view(self, mistake="", spelling=0):
         return view_matrix(self.eye, self.look, self.up, mistake, spelling)
 

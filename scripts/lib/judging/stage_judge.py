@@ -24,28 +24,21 @@ class StageJudge:
     def __init__(self, scene, exact_world):
         self.scene, self.exact_world = scene, exact_world
 
-    def model(self, name, theirs):
-        """The Outcome for Points."""
-        return outcome(name, theirs, ModelWays(self.scene, self.exact_world))
-
-    def view(self, name, theirs, readings):
-        return self.by_matrix("view", name, theirs, readings, [("", self.scene.of_view(), False)])
-
-    def project(self, name, theirs, readings, others=()):
-        """`others` are lists of points that are right, too: those that were clipped, for each reading, the
-        exact one last."""
-        right = [("", self.scene.of_project(), True)]
-        if self.scene.projection.kind == "perspective":
-            right += [(PI.format(pi), self.scene.of_project(pi=pi), True) for pi in ROUGH_PIS]
-        for points in reversed(others):  # the exact ones are what the program may have in memory
+    def outcome(self, stage, name, theirs, readings=(), clipped=()):
+        """The Outcome for Points, made of one of the readings unless they are model's. `clipped` are lists of
+        points that are right after project, too, for each reading, the exact one last."""
+        if stage == "model":
+            return outcome(name, theirs, ModelWays(self.scene, self.exact_world))
+        for points in reversed(clipped):  # the exact ones are what the program may have in memory
             if len(points) == len(theirs) and not differs(theirs.points, used_digits(theirs),
                                                           ((p, NO_UNITS) for p in points)):
-                return Outcome(right_verdict("project", name, theirs), points)
-        return self.by_matrix("project", name, theirs, readings, right)
-
-    def by_matrix(self, stage, name, theirs, readings, right):
-        return outcome(name, theirs, MatrixWays(stage, self.scene, readings,
-                                                right)) if readings else (undecided_outcome(stage, name))
+                return Outcome(right_verdict(stage, name, theirs), points)
+        if not readings:
+            return undecided_outcome(stage, name)
+        right = [("", self.scene.matrix(stage), stage == "project")]
+        if stage == "project" and self.scene.projection.kind == "perspective":
+            right += [(PI.format(pi), self.scene.of_project(pi=pi), True) for pi in ROUGH_PIS]
+        return outcome(name, theirs, MatrixWays(stage, self.scene, readings, right))
 
 
 def outcome(name, theirs, ways):
