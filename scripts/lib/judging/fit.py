@@ -44,22 +44,21 @@ class NoMatrix:
         return ["  no 4 x 4 matrix gives these numbers"]
 
 
-def cause_of_one_element(comparison):
-    """The cause if a Comparison shows that one element is another number, or that the first two of the
-    diagonal have a factor too much; a list of at most one."""
-    differing = sorted(getattr(comparison, "differing", ()))
+def cause_of_elements(comparison, rows=range(4)):
+    """The cause if a Comparison shows that one element in some rows is another number, or that the first two
+    of the diagonal have a factor too much; a list of at most one."""
+    differing = sorted(place for place in getattr(comparison, "differing", ()) if place[0] in rows)
     if len(differing) == 1:
-        return [Cause("", element_in_words(comparison, *differing[0]))]
+        (i, j), = differing
+        return [
+            Cause(
+                "", f"Row {i + 1}, column {j + 1} of the matrix (counted from 1) is "
+                f"{comparison.theirs[i][j]:.5g}, not {comparison.ours[i][j]:.5g}")]
     if differing == [(0, 0), (1, 1)]:
         factors = [comparison.theirs[i][i] / comparison.ours[i][i] for i in range(2) if comparison.ours[i][i]]
         if len(factors) == 2 and abs(factors[0] - factors[1]) <= LEAST_DIFFERENCE * abs(factors[0]):
             return [Cause("", f"The first two elements of the diagonal are {factors[0]:.4g} times too large")]
     return []
-
-
-def element_in_words(comparison, i, j):
-    return (f"Row {i + 1}, column {j + 1} of the matrix (counted from 1) is "
-            f"{comparison.theirs[i][j]:.5g}, not {comparison.ours[i][j]:.5g}")
 
 
 def known_rows(verdict, directions):

@@ -3,6 +3,7 @@ import os
 import re
 import shlex
 
+from lib.judging.matching import listed
 from lib.judging.verdict import FAILED, MISSING, OPEN, WRONG
 
 BY_THE_RIGHT = "by the right numbers, "  # begins the remark of a stage that was judged by those
@@ -30,9 +31,8 @@ def matrices(verdict):
             yield ""
 
 
-def listed(files):
-    names = [file.file for file in files]
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+def names_of(files):
+    return listed([file.file for file in files])
 
 
 def sentence_of_right(verdict):
@@ -41,7 +41,7 @@ def sentence_of_right(verdict):
         if file.rule:
             rules.setdefault(file.rule, []).append(file)
     by_rules = "; ".join(
-        f"{listed(files)} by {'' if rule.startswith('another rule') else 'another rule: '}{rule}"
+        f"{names_of(files)} by {'' if rule.startswith('another rule') else 'another rule: '}{rule}"
         for rule, files in rules.items())
     return f"{words}, {by_rules}; that {verdict.files[-1].counts}" if rules else words
 
@@ -55,21 +55,21 @@ def sentence(verdict):
     if not failed:
         return sentence_of_right(verdict)
     if all(file.verdict == MISSING for file in failed):
-        words = (f"{listed(failed)} {'is' if len(failed) == 1 else 'are'} not handed in; what is there "
+        words = (f"{names_of(failed)} {'is' if len(failed) == 1 else 'are'} not handed in; what is there "
                  f"is right")
         return words if len(failed) < len(verdict.files) else "nothing is handed in"
     first = [
         file for file in failed
         if (file.stage, file.verdict, file.causes) == (failed[0].stage, failed[0].verdict, failed[0].causes)]
     rest = [file for file in failed if file not in first]
-    words = (f"the first stage that went wrong is {first[0].stage} ({listed(first)} "
+    words = (f"the first stage that went wrong is {first[0].stage} ({names_of(first)} "
              f"{'is' if len(first) == 1 else 'are'} {first[0].verdict})")
     if first[0].cause:
         words += f": {first[0].cause}"
     open_words = "".join(f"; {file.file}: {file.verdict}" for file in undecided)
     missing = [file for file in rest if file.verdict == MISSING]
     rest = [file for file in rest if file.verdict != MISSING]
-    open_words = (f"; not handed in: {listed(missing)}" if missing else "") + open_words
+    open_words = (f"; not handed in: {names_of(missing)}" if missing else "") + open_words
     if rest:
         return f"{words}; also wrong, by themselves: {listed_with_causes(rest)}{open_words}"
     last = [file for file in verdict.files if file.verdict not in OPEN and file not in missing][-1]
@@ -95,4 +95,4 @@ def listed_with_causes(files):
     for file in files:
         by_reason.setdefault(file.cause, []).append(file)
     return ", ".join(
-        listed(group) + (f" ({reason})" if reason else "") for reason, group in by_reason.items())
+        names_of(group) + (f" ({reason})" if reason else "") for reason, group in by_reason.items())

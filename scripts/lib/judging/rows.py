@@ -2,11 +2,11 @@
 names of what explains them are joined."""
 import itertools
 
-from lib.judging.fit import element_in_words
+from lib.judging.fit import cause_of_elements
 from lib.judging.matrix_mistakes import changed_elements, listed
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.points import differs
-from lib.judging.verdict import Cause, joined
+from lib.judging.verdict import joined
 
 AXES = range(3)
 SAME = 1e-9  # of two numbers, against 1 and their size
@@ -32,7 +32,7 @@ def causes(ways, theirs, digits, comparison):
     for axes in {*found} - named:  # more than one element would do
         found[axes] = [cause for cause in found[axes] if len(found[axes]) == 1]
     for axis in wrong:
-        found.setdefault(frozenset({axis}), elements(comparison, axis))
+        found.setdefault(frozenset({axis}), cause_of_elements(comparison, [axis]))
     return choices_of(found, wrong)
 
 
@@ -43,12 +43,6 @@ def touched(way, right):
         axis
         for (p, _), (q, _) in zip(images, others) for axis in AXES
         if not abs(p[axis] - q[axis]) <= SAME * max(1.0, abs(q[axis]))}
-
-
-def elements(comparison, axis):
-    """The cause if the fitted matrix differs in one element of a row."""
-    places = [place for place in getattr(comparison, "differing", ()) if place[0] == axis]
-    return [Cause("", element_in_words(comparison, *place)) for place in places if len(places) == 1]
 
 
 def choices_of(found, wrong):

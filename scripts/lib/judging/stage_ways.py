@@ -163,6 +163,6 @@ class MatrixWays:
         """Adds the matrix that the points show, and the cause that lies in its elements, or in its rows."""
         verdict.matrices = fit.compare(self.readings[0].points, theirs.points, theirs.units, self.ours,
                                        self.divides)
-        verdict.causes = verdict.causes or fit.cause_of_one_element(verdict.matrices) or rows.causes(
+        verdict.causes = verdict.causes or fit.cause_of_elements(verdict.matrices) or rows.causes(
             self, theirs, theirs.digits, verdict.matrices)
         verdict.remarks += fit.known_rows(verdict, self.scene.directions() if self.stage == "view" else ())
