@@ -271,7 +271,7 @@ class Mistakes(ToolTest):
         for option, word, expected in (("--max-wrong", "-1", "a number of at least 0"),
                                        ("--max-cpu", "0", "a number greater than 0"),
                                        ("--max-wrong", "nan", "a number of at least 0"),
-                                       ("--rounds", "0", "a whole number of at least 1")):
+                                       ("--rounds", "0", "a whole number from 1 to 1000000")):
             self.check(f"trade: argument {option}: expected {expected}, found '{word}' (try trade --help)",
                        "scene.txt", "config.txt", f"{option}={word}")
 

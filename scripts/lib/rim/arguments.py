@@ -1,7 +1,9 @@
 """The command line of a script: how --help looks, and how errors in it are reported."""
 import argparse
+import contextlib
 import difflib
 import itertools
+import math
 import os
 import re
 import shutil
@@ -50,6 +52,31 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
             return textwrap.indent(paragraph, indent)
         return textwrap.fill(paragraph, width, initial_indent=indent, subsequent_indent=indent,
                              break_long_words=False, break_on_hyphens=False)
+
+
+def whole(least, most=math.inf):
+    """A function that reads the word of an option, a whole number."""
+    limits = f"of at least {least}" if most == math.inf else f"from {least} to {most}"
+
+    def read(word):
+        if word.isascii() and word.isdigit() and least <= int(word) <= most:
+            return int(word)
+        raise argparse.ArgumentTypeError(f"expected a whole number {limits}, found '{word}'")
+
+    return read
+
+
+def number(is_zero_fine=False, most=math.inf):
+    """The same of a number that is greater than 0, or 0, too."""
+    limits = ("of at least 0" if is_zero_fine else "greater than 0") + f", at most {most}" * (most < math.inf)
+
+    def read(word):
+        with contextlib.suppress(ValueError):
+            if 0 < (value := float(word)) <= most and value < math.inf or is_zero_fine and value == 0:
+                return value
+        raise argparse.ArgumentTypeError(f"expected a number {limits}, found '{word}'")
+
+    return read
 
 
 def config_beside(scene):
