@@ -56,7 +56,7 @@ class Writers:
         return [name for name in self.files() if name not in self.before]
 
     def test_a_new_file_has_the_permissions_of_the_umask(self):
-        for umask, mode in ((0o022, 0o644), (0o077, 0o600)):
+        for umask, mode in ((0o022, 0o644), (0o077, 0o600), (0o777, 0o600)):
             self.assert_written(self.write("x", preexec_fn=lambda: os.umask(umask)))
             self.assertTrue(self.is_whole(pathlib.Path("x").read_bytes()))
             self.assertEqual(mode_of("x"), mode)
@@ -142,9 +142,9 @@ class Writers:
 
     def test_where_there_is_no_room_the_old_file_stays(self):
         pathlib.Path("x").write_text("old")
-        for name in ("x", "new"):
+        for name, shown in (("x", "x"), ("new", "new"), (b"a\xffb", r"a\xffb")):
             self.assert_refused(self.write(name, preexec_fn=self.limit_files),
-                                f"cannot write {name}: File too large")
+                                f"cannot write {shown}: File too large")
         self.assertEqual(pathlib.Path("x").read_text(), "old")
         self.assertEqual(self.left(), ["x"])
 
@@ -203,6 +203,21 @@ class Inspect(Writers, ToolTest):
                 f'page - config.txt < scene.txt')
         self.assert_written(subprocess.run(["bash", "-c", line], capture_output=True, env=PLAIN))
         self.assertTrue(self.is_whole(pathlib.Path("page").read_bytes()))
+
+
+class Picture(Writers, ToolTest):
+    """A tool writes the file."""
+    name, good_status = "picture: zbuf", 0
+    max_size = 1000
+
+    def prepare(self):
+        pathlib.Path("config.txt").write_text("40 40\n")
+
+    def words(self, path):
+        return [SCRIPTS / "picture", "scene.txt", "config.txt", b"--output=bmp:" + os.fsencode(path)]
+
+    def is_whole(self, data):
+        return data.startswith(b"BM") and len(data) == 54 + 40 * 40 * 3
 
 
 class MakeTorus(ToolTest):

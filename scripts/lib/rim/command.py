@@ -1,6 +1,7 @@
 """How a command ends: with a status and one line on stderr, or quietly by the signal that stopped it; never
 with a traceback caused by the user's files or shell."""
 import contextlib
+import errno
 import io
 import os
 import secrets
@@ -92,12 +93,12 @@ def prepare():
     for number in SIGNALS:
         if signal.getsignal(number) == signal.SIG_DFL:  # nohup ignores SIGHUP, and sh SIGINT behind &
             signal.signal(number, end)
+    os.umask(os.umask(0o077) & 0o077)  # what it makes, it can open
     for place in filter(None, (os.environ.get("TMPDIR"), "/tmp", "/var/tmp")):
         folder = os.path.join(place, "pipeline-" + secrets.token_hex(8))
         leftovers.add(folder)
         with contextlib.suppress(OSError):  # what needs a temporary file will say so
             os.mkdir(folder, 0o700)
-            os.chmod(folder, 0o700)  # whatever the umask
             tempfile.tempdir = os.path.abspath(folder)
             break
 
@@ -126,7 +127,8 @@ def status_of(main, name, failure_status):
     except CommandFailure as failure:  # an output that a tool finds among its inputs is misuse
         return told(name, failure, 2 if "expected a place of its own for" in str(failure) else failure_status)
     except OSError as error:
-        where = f"{shown(os.fsdecode(error.filename))}: " if error.filename else ""
+        is_about_file = error.filename and error.errno not in (errno.EMFILE, errno.ENFILE)
+        where = f"{shown(os.fsdecode(error.filename))}: " if is_about_file else ""
         return told(name, where + (error.strerror or str(error)), failure_status)
     except MemoryError:
         return told(name, "not enough memory", failure_status)

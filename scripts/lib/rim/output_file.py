@@ -159,7 +159,7 @@ def replaced_at_end(*paths):
         except CommandFailure as failure:
             text = str(failure)
             for path, temporary in beside.items():
-                text = text.replace(temporary, os.fspath(path))
+                text = text.replace(shown(temporary), shown(path))
             raise CommandFailure(text) from None
         for path in beside:
             files[path].commit()

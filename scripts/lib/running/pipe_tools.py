@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 from lib.rim.child import cpu_seconds, finished
-from lib.rim.command import CommandFailure
+from lib.rim.command import CommandFailure, shown
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
@@ -91,7 +91,7 @@ class Done:
     """A tool that has ended: its name, its status and the lines of its stderr."""
     def __init__(self, name, status, stderr):
         self.name, self.status = name, status
-        lines = stderr.decode(errors="replace").strip().splitlines()
+        lines = list(map(shown, stderr.decode(errors="surrogateescape").strip().splitlines()))
         self.notes = [line for line in lines if ": note: " in line]
         self.reasons = [line for line in lines if not NO_REASON.search(line)]
 
