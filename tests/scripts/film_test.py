@@ -10,6 +10,7 @@ import pathlib
 import shutil
 import signal
 import subprocess
+import sys
 import time
 import unittest
 from unittest import mock
@@ -178,13 +179,14 @@ class Interruptions(FilmTest):
             [FILM, "scene.txt", "config.txt", "--turn", "12", "-o", "out", "--", "--jobs", "2"],
             env=ENVIRONMENT, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         end = time.monotonic() + 120
-        while len(list(pathlib.Path("out").glob("*.png"))) < 20 and time.monotonic() < end:
+        work = pathlib.Path("out/.pipeline-film-work")
+        while len(list(work.glob("*.png"))) < 20 and time.monotonic() < end:
             time.sleep(0.01)
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
         # The jobs have groups of their own; they end at their next write to parallel, or with their frames.
         time.sleep(1)
-        before = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("out").glob("*.png")}
+        before = {path.name: path.stat().st_mtime_ns for path in work.glob("*.png")}
         self.assertTrue(20 <= len(before) < 300, "the run was not in its midst")
         self.make("--turn", "12", "-o", "out")
         after = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("out").glob("*.png")}
@@ -192,6 +194,23 @@ class Interruptions(FilmTest):
         self.assertEqual({name: after[name] for name in before}, before)
         self.make("--turn", "12", "-o", "whole")
         self.assertEqual(frames("out"), frames("whole"))
+
+    def test_killed_while_frames_take_their_places_it_leaves_none_that_passes_for_an_older_one(self):
+        words = ["--turn", "1", "--fps", "4", "-o", "out"]
+        self.make(*words)
+        older = frames("out")
+        for place in ("out/00001.png", "out/world.txt", "out/frames.txt"):
+            code = ("import os, runpy, signal, sys\nreplace = os.replace\n"
+                    "def replaced(a, b):\n"
+                    f"  if str(b).endswith({place!r}) and '-work/' in str(a): os.kill(os.getpid(), 9)\n"
+                    "  replace(a, b)\nos.replace = replaced\n"
+                    f"runpy.run_path({str(FILM)!r}, run_name='__main__')")
+            done = subprocess.run([sys.executable, "-c", code, "scene.txt", "--size", "5x4", *words],
+                                  env={**ENVIRONMENT, "PYTHONPATH": FILM.parent})
+            self.assertEqual(done.returncode, -signal.SIGKILL)
+            self.assertNotEqual(frames("out"), older)
+            self.make(*words)
+            self.assertEqual(frames("out"), older)
 
     def test_frames_of_another_scene_or_way_are_drawn_anew(self):
         self.make("--turn", "1", "--fps", "4", "-o", "out")
@@ -272,6 +291,8 @@ class Outputs(FilmTest):
     def test_a_film_has_its_own_frames_alone(self):
         words = ["--turn", "1", "--fps", "2"]
         self.make(*words, "-o", "turn.mp4.frames")
+        self.assertEqual(film("scene.txt", "config.txt", *words, "-o", "turn.mp4").returncode, 1)
+        os.rename("turn.mp4.frames/.pipeline-film", "turn.mp4.frames/.pipeline-film-work")
         shutil.copy("turn.mp4.frames/00000.png", "turn.mp4.frames/00002.png")
         self.make(*words, "-o", "turn.mp4")
         self.assert_film("turn.mp4", "50,40,2/1,2")

@@ -23,6 +23,7 @@ TRACED = ("model", "view", "trace")
 COMMANDS = {
     "film": ("scene.txt config.txt --turn 1 --fps 9 -o x.gif", TOOLS),
     "film --trace": ("scene.txt config.txt --turn 1 --fps 1 -o x.gif", TRACED),
+    "film --turn 1": ("scene.txt config.txt --fps 9 -o film", TOOLS),
     "farm": ("scene.txt config.txt --parts 2 --z-buffer z.txt -o x.png", (*TOOLS, "cut-scene", "join-seen")),
     "picture": ("scene.txt config.txt -o x.png", TOOLS),
     "picture --trace": ("scene.txt config.txt -o x.png", TRACED),
@@ -39,7 +40,8 @@ COMMANDS = {
 # What is there before: all that one of them replaces.
 OLDER = ("x.gif", "x.png", "z.txt", "x.html", "x.svg",
          *(f"kept/{name}" for name in ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")))
-KEPT = ("bin", "x.gif.frames", "x.png.farm")  # folders of the test, and of what can be gone on with
+# Folders of the test, and of what can be gone on with.
+KEPT = ("bin", "x.gif.frames", "x.png.farm", "film/.pipeline-film-work")
 KILLED, FAILED = "ended by SIGKILL", "exit status 3"
 KILLS = {"at once": KILLED, "in the middle": KILLED, "after all": KILLED, "fails": FAILED}
 # A tool that is killed: at once, or with half of its text out, or in, or with all and a note; or fails then;
@@ -85,6 +87,8 @@ class KilledStages(ToolTest):
             os.mkdir(folder)
         for path in OLDER:
             pathlib.Path(path).write_text("older")
+        if "-o film" in words:  # of other frames, one more
+            run_script("film", "scene.txt", "--size=9x9", "--turn=1", "--fps=10", "-o", "film", check=True)
         before, signals = self.contents(), (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
         for stage, moment in itertools.product(stages, KILLS):
             with self.subTest(stage=stage, moment=moment):
@@ -150,7 +154,7 @@ class KilledStages(ToolTest):
     def contents(self):
         return {
             str(path): path.is_file() and path.read_bytes()
-            for path in pathlib.Path(".").rglob("*") if path.parts[0] not in KEPT}
+            for path in pathlib.Path(".").rglob("*") if not str(path).startswith(KEPT)}
 
 
 add_claims(KilledStages, [(f"{command} makes nothing of a part", command) for command in COMMANDS])

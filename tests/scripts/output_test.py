@@ -345,6 +345,7 @@ class Folders(ToolTest):
         "farm": ("scene.txt config.txt --parts 2 -o x.png", "x.png.farm", 1),
         "film": ("scene.txt config.txt --turn 0.1 -o x.gif", "x.gif.frames", 1),
         "grade": ("hand-ins tests -o out", "out", 2),}
+    MARKS = {"farm": ".pipeline-farm", "film": ".pipeline-film-work"}
     FRAMES = "scene.txt config.txt --turn 0.1 -o frames"  # of film
 
     def setUp(self):
@@ -380,8 +381,8 @@ class Folders(ToolTest):
                     command,
                     words,
                     status,
-                    "expected a new or empty folder, or one that "
-                    f"{command} has made, found {shown}, which holds 00000.png",
+                    f"expected a new or empty folder, or one that {command} has made"
+                    f"{' to work in' * ('.gif' in folder)}, found {shown}, which holds 00000.png",
                 )
                 shutil.rmtree(folder)
 
@@ -422,24 +423,22 @@ class Folders(ToolTest):
         for command in ("farm", "film"):
             words, folder, _ = self.SETTINGS[command]
             os.mkdir(folder)
-            pathlib.Path(folder, f".pipeline-{command}").touch()
+            pathlib.Path(folder, self.MARKS[command]).touch()
             pathlib.Path(folder, "20241.png").write_text("mine")
             os.symlink("../elsewhere/precious", pathlib.Path(folder, "config.txt"))
             for name in (".pipeline-x.gif", ".pipeline-x.png"):  # what one might guess
                 os.path.lexists(name) or os.symlink("elsewhere/precious", name)
             self.assertEqual(script(command, *words.split()).returncode, 0)
-            self.assertEqual(sorted(os.listdir(folder)), [f".pipeline-{command}", "20241.png"])
+            self.assertEqual(sorted(os.listdir(folder)), [self.MARKS[command], "20241.png"])
             self.assertEqual(pathlib.Path("elsewhere/precious").read_text(), "mine")
 
     def test_links_in_one_are_not_followed(self):
         """Where jobs, parallel or ffmpeg would write, without a look at what is there."""
-        planted = {
-            "farm": ("jobs.log", "seen-0-0-1.txt", "seen-0-0-1.txt.log", "parts"),
-            "film": ("00000.png.log", "film.gif")}
+        planted = {"farm": ("jobs.log", "seen-0-0-1.txt", "parts"), "film": ("frames.txt", "film.gif")}
         for command, links in planted.items():
             words, folder, _ = self.SETTINGS[command]
             os.mkdir(folder)
-            pathlib.Path(folder, f".pipeline-{command}").touch()
+            pathlib.Path(folder, self.MARKS[command]).touch()
             for link in links:
                 os.symlink("../elsewhere" if link == "parts" else "../elsewhere/precious", f"{folder}/{link}")
             done = script(command, *words.split())

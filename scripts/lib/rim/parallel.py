@@ -3,7 +3,6 @@ import contextlib
 import os
 import shutil
 import subprocess
-import tempfile
 from dataclasses import dataclass, field
 
 from lib.rim.child import adopt_orphans
@@ -35,6 +34,8 @@ def run_parallel(folder, jobs, name, common=(), options=()):
     Another machine works in a folder of its own, which is removed afterwards: files are sent there, and those
     of a job come back."""
     words = ["parallel", "--will-cite"]
+    if os.access("/dev/shm", os.W_OK):  # what jobs print is kept in memory: the disk may be full
+        words += ["--tmpdir", "/dev/shm"]
     if any(word.startswith(("--sshlogin", "-S")) for word in options):
         takes = columns(jobs, lambda job: job.takes, 2)
         gives = columns(jobs, lambda job: job.gives, takes.stop)
@@ -53,7 +54,7 @@ def run_parallel(folder, jobs, name, common=(), options=()):
         lines = [job.line for job in jobs]
         words += options
     adopt_orphans()
-    with tempfile.TemporaryFile("w+") as printed, subprocess.Popen(
+    with os.fdopen(os.memfd_create("printed"), "r+") as printed, subprocess.Popen(
             words, cwd=folder, stdin=subprocess.PIPE, stdout=printed, text=True,
             env={**os.environ, "PARALLEL_SHELL": "/bin/sh"}) as process:
         try:

@@ -12,14 +12,26 @@ OURS = ".pipeline-"  # so begin a mark, and what a tool that was killed may leav
 
 
 class WorkFolder:
-    """The mark is an empty file that names the command. It stays for a retry, and goes with the folder."""
-    def __init__(self, path, command):
-        self.path, self.command = pathlib.Path(path), command
-        self.mark = self.path / (OURS + command)
+    """The mark is an empty file that names the command, and the `use` of a folder that is no output. It stays
+    for a retry, and goes with the folder."""
+    def __init__(self, path, command, use=""):
+        self.path, self.command, self.use = pathlib.Path(path), command, use
+        self.mark = self.path / (OURS + command + use)
         self.lock = None  # a descriptor of the mark
 
     def __truediv__(self, name):
         return self.path / name
+
+    @contextlib.contextmanager
+    def taken(self, is_own=lambda _: False):
+        """Takes the folder for a block. If that fails, the folder goes if it holds nothing but the mark; and,
+        with the files that are its own, if it was new and an output cannot be written."""
+        self.take()
+        try:
+            yield
+        except BaseException as failure:
+            self.remove(is_own) if self.is_new and isinstance(failure, OutputError) else self.remove_bare()
+            raise
 
     def take(self):
         """Makes the folder, or takes one that is empty or has the mark. Any other is an error."""
@@ -28,6 +40,7 @@ class WorkFolder:
             with contextlib.suppress(FileExistsError):
                 os.mkdir(self.path)
             self.expect_ours()
+            self.is_new = not self.mark.exists()
             self.lock = os.open(self.mark, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
             fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if not (self.mark.exists() and os.path.samestat(os.fstat(self.lock), os.lstat(self.mark))):
@@ -47,17 +60,22 @@ class WorkFolder:
             raise CommandFailure(f"expected a folder of one's own, found {name} of another user")
         names = sorted(os.listdir(self.path))
         if names and self.mark.name not in names:
-            raise CommandFailure(f"expected a new or empty folder, or one that {self.command} has made, "
-                                 f"found {name}, which holds {shown(names[0])}")
+            raise CommandFailure(
+                f"expected a new or empty folder, or one that {self.command} has made"
+                f"{' to work in' * bool(self.use)}, found {name}, which holds {shown(names[0])}")
 
     def write(self, name, data):
         if is_other(self / name):
             (self / name).unlink()
-        try:
-            write_file(self / name, data)
-        except OutputError:
-            self.remove(lambda _: False)  # where it holds nothing but the mark
-            raise
+        write_file(self / name, data)
+
+    def move(self, names, other):
+        """Moves files to another folder, in place of those there."""
+        for name in names:
+            try:
+                os.replace(self / name, other / name)
+            except OSError as error:
+                raise OutputError(f"cannot replace {shown(other / name)}: {error.strerror}") from None
 
     def remove_files(self, is_own):
         """Removes files by their paths in the folder, and folders that this leaves empty."""
@@ -84,6 +102,10 @@ class WorkFolder:
     def remove(self, is_own):
         """Removes the folder; if others have put something into it, all but that and the mark."""
         self.remove_files(lambda name: is_own(name) or os.path.basename(name).startswith(OURS))
+        self.remove_bare()
+
+    def remove_bare(self):
+        """Removes the folder if it holds nothing but the mark."""
         if self.path.exists() and os.listdir(self.path) == [self.mark.name]:
             os.unlink(self.mark)
             os.rmdir(self.path)

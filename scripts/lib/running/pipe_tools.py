@@ -66,8 +66,9 @@ def with_opaque_background(text):
 PIPE = ("model", "view", "project", "zbuf", "trace")
 # The options by which a tool refuses a part of a text, if a tool before it is killed.
 FRAMING = {"model": ["--framed"], **dict.fromkeys(("join-seen", "zbuf", "trace"), ["--expect-framed"])}
-# A pipe in a job of sh, which knows the status of the last tool alone: descriptor 3 gets that of each that
-# fails, and `fail` then prints what failure_of_jobs reads. $1 is the job's output, $2 its name.
+# A pipe in a job of sh, which knows the status of the last tool alone. `run` calls a function with such a
+# pipe: `record` gets the status of each stage that fails and, indented, all that they print on stderr, in
+# memory, as the disk may be full. `fail` prints it for failure_of_jobs; $1 is the job's output, $2 its name.
 STAGES_IN_SHELL = r'''
 stage() {
   "$bin/$@" 3>&- && return
@@ -75,11 +76,16 @@ stage() {
   echo "$1: status $(($2 > 128 && $2 <= 192 ? 128 - $2 : $2))" >&3
   return 1
 }
+run() {
+  record=$({
+    log=$("$@" 3>&4 4>&- 2>&1 > /dev/null)
+    printf '%s' "$log" | sed 's/^/  /'
+  } 4>&1)
+  case $record in [!\ ]*) return 1 ;; esac
+}
 fail() {
-  printf '\f%s\n%s\n' "$2" "$statuses"
-  sed 's/^/  /' "$1.log"
-  echo
-  rm -f "$1" "$1.log"
+  printf '\f%s\n%s\n\n' "$2" "$record"
+  rm -f "$1"
 }
 '''
 STATUS = r"^(\w+): status (-?\d+)$"
