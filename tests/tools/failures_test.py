@@ -30,34 +30,27 @@ class ErrorLines(ToolTest):
             done.stdout.decode(), HEADER + "0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n"
             f"0.0000000 1.0000000 0.0000000\n\nerror {WHY}\n")
 
-    def test_it_is_written_also_when_nothing_else_was(self):
-        for tool, text in (("model", ""), ("view", "x"), ("project", "x")):
-            done = run(tool, stdin=text)
-            self.assertEqual(done.stdout.decode(), "error " + done.stderr.decode())
-            self.assertEqual(done.returncode, 1)
-
-    def test_misuse_writes_one_as_well(self):
-        for tool in ("model", "view", "project"):
-            done = run(tool, "--bogus")
-            self.assertEqual(done.stdout.decode(), "error " + done.stderr.decode())
-            self.assertEqual(done.returncode, 2)
-
-    def test_a_missing_input_writes_one_as_well(self):
-        for tool in ("model", "view", "project"):
-            self.assertEqual(
-                run(tool, "none.txt").stdout.decode(),
-                f"error {tool}: cannot open none.txt: No such file or directory\n")
+    def test_a_stage_ends_its_output_with_its_message(self):
+        none, body = "cannot open none.txt: No such file or directory", "0 0 -2\n1 0 -2\n0 1 -2\n\n0 0 x\n"
+        cases = [  # words, input, exit status, triangles written before, message
+            *(("model", *options, CAMERA + TRIANGLE, 1, 1, WHY)
+              for options in ((), ("--bare",), ("--framed",))),
+            *((tool, text, 1, 0, "1:1: ") for tool, text in (("model", ""), ("view", "x"), ("project", "x"))),
+            *((tool, HEADERS[tool] + body, 1, 1, "'x'") for tool in ("view", "project")),
+            *((tool, operand, "", status, 0, f"{tool}: {message}") for tool in ("model", "view", "project")
+              for operand, status, message in (("--bogus", 2, "expected an option"), ("none.txt", 1, none)))]
+        for *words, text, status, triangles, message in cases:
+            with self.subTest(words, text=text):
+                done = run(*words, stdin=text)
+                before, error, after = done.stdout.decode().partition("error ")
+                self.assertEqual((done.returncode, error + after), (status, "error " + done.stderr.decode()))
+                self.assertIn(message, after)
+                self.assertEqual((before.count("\n\n"), before[-2:]), (triangles, "\n\n" * triangles))
 
     def test_a_tool_that_draws_writes_none_for_its_output_is_no_stage_text(self):
         for tool in DRAWING:
             self.assertEqual(run(tool, "config.txt", stdin="x").stdout, b"")
             self.assertEqual(run(tool, "--bogus").stdout, b"")
-
-    def test_what_was_done_before_the_mistake_is_written(self):
-        for tool in ("view", "project"):
-            done = run(tool, stdin=HEADERS[tool] + "0 0 -2\n1 0 -2\n0 1 -2\n\n0 0 x\n")
-            self.assertEqual(done.stdout.decode().count("\n\n"), 1, done.stdout)
-            self.assertTrue(done.stdout.decode().endswith("\n\nerror " + done.stderr.decode()), done.stdout)
 
     def test_view_and_project_pass_it_on_unchanged_and_in_silence(self):
         for tool in ("view", "project"):
@@ -118,12 +111,6 @@ class ErrorLines(ToolTest):
             done = subprocess.run(command("zbuf", "config.txt"), stdin=theirs, capture_output=True,
                                   timeout=60)
         self.assert_fails(done, 1, "zbuf: no picture: model failed")
-
-    def test_bare_and_framed_output_ends_with_one_as_well(self):
-        for option in ("--bare", "--framed"):
-            done = run("model", option, stdin=CAMERA + TRIANGLE)
-            self.assertTrue(done.stdout.decode().endswith(f"\n\nerror {WHY}\n"), done.stdout)
-            self.assertNotIn(b"\nend\n", done.stdout)
 
     def test_nobody_misses_a_camera_where_an_error_line_says_more(self):
         for tool in ("view", "project"):
