@@ -11,7 +11,7 @@ import subprocess
 import time
 import unittest
 
-from toolbox import (ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, TRIANGLE, ToolTest, command,
+from toolbox import (ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, TRIANGLE, ToolTest, add_claims, command,
                      pseudo_terminal, run, run_with, stage_texts)
 
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
@@ -49,42 +49,36 @@ class FaultTest(ToolTest):
             ["out.bmp"])
 
 
-class FullDisk(FaultTest):
-    def test_a_full_stdout_is_a_failure_that_names_the_reason(self):
-        for tool, text in small_and_large_inputs():
-            with self.subTest(tool=tool, size=len(text)), open("/dev/full", "wb") as full:
-                done = run(tool, *OPERANDS[tool], stdin=text, stdout=full)
-                self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: No space left on device")
+class Failing(FaultTest):
+    def check(self, channels, runs, reason):
+        """Runs (words, input) under a redirection, each of which fails for the reason alone and leaves
+        nothing."""
+        for words, text in runs:
+            with self.subTest(words=words, size=len(text)):
+                done = run_with(channels, *words, input=text.encode())
+                self.assert_fails(done, 1, f"{words[0]}: {reason}")
         self.assert_nothing_happened()
 
-    def test_a_full_stdout_is_a_failure_also_where_only_a_header_is_written(self):
-        with open("/dev/full", "wb") as full:
-            done = run("model", stdin=CAMERA + "end\n", stdout=full)
-        self.assert_fails(done, 1, "model: cannot write <stdout>: No space left on device")
 
-    def test_help_and_version_are_data_too(self):
-        for tool in ALL_TOOLS:
-            for option in ("--help", "--version"):
-                with self.subTest(tool=tool, option=option), open("/dev/full", "wb") as full:
-                    done = run(tool, option, stdout=full)
-                    self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: No space left on device")
-
-    def test_a_mistake_is_still_told_when_its_error_line_finds_no_room(self):
-        with open("/dev/full", "wb") as full:
-            done = run("view", stdin="x\n", stdout=full)
-        self.assert_fails(done, 1,
-                          "view: <stdin>:1:1: expected a header line, 'triangle N' or a vertex, found 'x'")
-
-    def test_a_full_file_of_depths_leaves_the_old_image(self):
-        for tool, text in LARGE_PICTURES.items():
-            done = run(tool, "config.txt", "--z-buffer", "/dev/full", stdin=text)
-            self.assert_fails(done, 1, f"{tool}: cannot write /dev/full: No space left on device")
-            self.assert_nothing_happened()
-
-    def test_a_full_image_is_a_failure(self):
-        for tool, text in LARGE_PICTURES.items():
-            done = run(tool, "config.txt", "--image", "/dev/full", stdin=text)
-            self.assert_fails(done, 1, f"{tool}: cannot write /dev/full: No space left on device")
+EACH_INPUT = [((tool, *OPERANDS[tool]), text) for tool, text in small_and_large_inputs()]
+EACH_TOOL = [((tool, *OPERANDS[tool]), "") for tool in ALL_TOOLS]
+HELP = [((tool, option), "") for tool in ALL_TOOLS for option in ("--help", "--version")]
+DEPTHS, IMAGE = ([((tool, "config.txt", option, "/dev/full"), text) for tool, text in LARGE_PICTURES.items()]
+                 for option in ("--z-buffer", "--image"))
+FULL, NO_CHANNEL = "No space left on device", "Bad file descriptor"
+add_claims(Failing, (
+    ("a full stdout is a failure", "> /dev/full", EACH_INPUT, f"cannot write <stdout>: {FULL}"),
+    ("a full stdout is one also for a header alone", "> /dev/full", [
+        (("model",), CAMERA + "end\n")], f"cannot write <stdout>: {FULL}"),
+    ("help and version are data too", "> /dev/full", HELP, f"cannot write <stdout>: {FULL}"),
+    ("a mistake is reported although its error line finds no room", "> /dev/full", [
+        (("view",), "x\n")], "<stdin>:1:1: expected a header line, 'triangle N' or a vertex, found 'x'"),
+    ("a full file of depths leaves the old image", "", DEPTHS, f"cannot write /dev/full: {FULL}"),
+    ("a full image is a failure", "", IMAGE, f"cannot write /dev/full: {FULL}"),
+    ("a closed stdin is a failure", "<&-", EACH_TOOL, f"cannot read <stdin>: {NO_CHANNEL}"),
+    ("a folder as stdin is a failure", "< /", EACH_TOOL, "cannot read <stdin>: Is a directory"),
+    ("a closed stdout is a failure", ">&-", EACH_INPUT, f"cannot write <stdout>: {NO_CHANNEL}"),
+))
 
 
 class ClosedReader(FaultTest):
@@ -143,29 +137,11 @@ class ClosedReader(FaultTest):
 
 
 class MissingChannels(FaultTest):
-    def test_a_closed_stdin_is_a_failure(self):
-        for tool in ALL_TOOLS:
-            self.assert_fails(run_with("<&-", tool, *OPERANDS[tool]), 1,
-                              f"{tool}: cannot read <stdin>: Bad file descriptor")
-        self.assert_nothing_happened()
-
     def test_a_closed_stdin_does_no_harm_where_it_is_not_read(self):
         expected = run("model", "scene.txt").stdout
         done = run_with("<&-", "model", "scene.txt")
         self.assert_quiet_success(done)
         self.assertEqual(done.stdout, expected)
-
-    def test_a_folder_as_stdin_is_a_failure(self):
-        for tool in ALL_TOOLS:
-            self.assert_fails(run_with("< /", tool, *OPERANDS[tool]), 1,
-                              f"{tool}: cannot read <stdin>: Is a directory")
-
-    def test_a_closed_stdout_is_a_failure(self):
-        for tool, text in small_and_large_inputs():
-            with self.subTest(tool=tool, size=len(text)):
-                done = run_with(">&-", tool, *OPERANDS[tool], input=text.encode())
-                self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: Bad file descriptor")
-        self.assert_nothing_happened()
 
     def test_no_file_takes_the_place_of_a_closed_stdout(self):
         for tool, text in LARGE_PICTURES.items():
