@@ -7,7 +7,7 @@ import dataclasses
 import math
 import random
 
-from lib.judging.matrices import image, product
+from lib.judging.matrices import image, negative, product, scaling, translation
 from lib.judging.verdict import Cause
 from lib.maths.vectors import dot
 
@@ -117,14 +117,8 @@ def normalizing(points):
     inverse."""
     center = [sum(values) / len(points) for values in zip(*points)]
     size = max(max(abs(x - c) for x, c in zip(p, center)) for p in points) or 1.0
-    there = tuple(
-        tuple((1 / size if i == j else 0.0) for j in range(3)) + (-center[i] / size,) for i in range(3))
-    back = tuple(tuple((size if i == j else 0.0) for j in range(3)) + (center[i],) for i in range(3))
-    return (*there, (0.0, 0.0, 0.0, 1.0)), (*back, (0.0, 0.0, 0.0, 1.0))
-
-
-def moved(m, points):
-    return [tuple(dot(row, (*p, 1.0)) for row in m[:3]) for p in points]
+    there = product(scaling((1 / size,) * 3), translation(negative(center)))
+    return there, product(translation(center), scaling((size,) * 3))
 
 
 def fitted(before, after, is_divided):
@@ -132,8 +126,8 @@ def fitted(before, after, is_divided):
     there, _ = normalizing(before)
     images, back = normalizing(after)
     rows = []
-    for p, q in zip(moved(there, before), moved(images, after)):
-        column = (*p, 1.0)
+    for p, q in zip(before, after):
+        column, q = (*image(there, p, False), 1.0), image(images, q, False)
         for axis in range(3):
             row = [0.0] * 12
             row[4 * axis:4 * axis + 4] = column
