@@ -6,6 +6,9 @@ DIFFERENCES = {
     "missing": "a pixel that triangle {} covers is empty",
     "depth": "another depth than that of triangle {}",
     "other": "another triangle than triangle {}",}
+DEPTHS = {
+    "between ends": "depths between the rounded ends of a row",
+    "from left": "depths counted on from the left end of a row"}
 AT_BORDERS = "another rule at the borders"
 ENDS = {"rounded": "rounded", "truncated": "truncated", "down": "rounded down", "up": "rounded up"}
 
@@ -16,18 +19,13 @@ def counted(count, noun):
 
 def rule_in_words(rule):
     """The open rules in which a rule differs from ours."""
-    words = []
     if (rule.left, rule.right) == ("up", "down"):
-        words.append("the center rule")
-    elif rule.left == rule.right != "rounded":
-        words.append(f"ends of rows {ENDS[rule.left]}")
-    elif rule.left != rule.right:
-        words.append(f"left ends of rows {ENDS[rule.left]}, right ends {ENDS[rule.right]}")
-    if rule.depth == "between ends":
-        words.append("depths between the rounded ends of a row")
-    elif rule.depth == "from left":
-        words.append("depths counted on from the left end of a row")
-    return ", ".join(words)
+        ends = "the center rule"
+    elif rule.left == rule.right:
+        ends = f"ends of rows {ENDS[rule.left]}" if rule.left != "rounded" else ""
+    else:
+        ends = f"left ends of rows {ENDS[rule.left]}, right ends {ENDS[rule.right]}"
+    return ", ".join(filter(None, (ends, DEPTHS.get(rule.depth))))
 
 
 def end_in_words(rule):
