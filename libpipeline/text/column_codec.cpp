@@ -37,11 +37,11 @@ const char* read_three(const char* p, char separator, Vec3& numbers, unsigned& m
   return columns.materials.empty() ? p : read_material(p, vertex, columns.materials[triangle]);
 }
 
-/// Vertex lines that were read, of groups alone, for the triangles that share them: of those with the
-/// same hash, the last.
+/// Vertex lines already read, made of groups alone, for triangles that share them; the last line of each hash
+/// is kept.
 class LinesRead {
  public:
-  /// Reads the line at `p`, or copies the numbers of the same text.
+  /// Reads the line at `p`, or copies the numbers of a kept line with the same text.
   const char* read(const char* p, const FixedColumns& columns, std::size_t triangle, std::size_t vertex,
                    std::span<DecimalMarks> marks) {
     constexpr std::uint64_t kMixer = 0x9e3779b97f4a7c15;
@@ -90,7 +90,7 @@ FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const 
                               std::span<DecimalMarks> marks) {
   const std::size_t limit = std::min(columns.triangle_count(), marks.size());
   std::ranges::fill(marks.first(limit), DecimalMarks{0});
-  // Models have normals. A line without is read faster than it is looked up.
+  // Models have normals. A line without them is read faster than it is looked up.
   if (frame != TriangleFrame::scene || columns.group_count() == 1 || !columns.has_groups_alone())
     return read_by_lines(text, frame, limit, [&](const char* p, std::size_t triangle, std::size_t vertex) {
       return read_line(p, columns, triangle, vertex, marks[triangle]);
@@ -101,7 +101,7 @@ FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const 
   });
 }
 
-/// The counts of decimals of the groups of columns on the vertex line that `text` begins with.
+/// The counts of decimals of the groups on the first vertex line of `text`.
 GroupDecimals decimals_of_groups(std::string_view text, const FixedColumns& columns) {
   GroupDecimals decimals = {decimals_of_number(text.data())};
   for (std::size_t group = 1; group < columns.group_count(); ++group) {
@@ -163,7 +163,7 @@ void write_columns(const ConstFixedColumns& columns, const Triangle* low_part, N
       text.commit(out + part.length);
       i += part.triangle_count;
       if (i == count) return;
-      end = part.triangle_count > 0 ? i + 1 : std::min(count, i + 8);  // where two follow, others do
+      end = part.triangle_count > 0 ? i + 1 : std::min(count, i + 8);  // after two misses, more follow
     }
     char* out = text.reserve((end - i) * max_length + kFixedTextSlack);
     for (; i < end; ++i)

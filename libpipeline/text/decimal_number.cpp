@@ -20,7 +20,7 @@ struct InversePower {
   int exponent = 0;
 };
 
-/// Long division of 2^k by 10^n, bit by bit, until the quotient has 128 bits.
+/// 10^-n by long division of 2^k by 10^n, bit by bit, until the quotient has 128 bits.
 constexpr InversePower inverse_power_of_ten(int n) {
   UInt128 divisor = 1;
   for (int i = 0; i < n; ++i) divisor *= 10;
@@ -73,13 +73,13 @@ bool divide_by_power_of_ten(std::uint64_t digits, int decimals, double& value) {
   constexpr UInt128 kHalf = UInt128{1} << (kCutBits - 1);
   const UInt128 rest = product & (2 * kHalf - 1);
   if (rest <= kHalf && rest + kError >= kHalf) return false;
-  // The mantissa's leading bit adds 1 to the exponent field, and a carry out of the mantissa another 1.
+  // The mantissa's leading bit adds 1 to the exponent field, and a carry out of the mantissa adds another 1.
   const auto mantissa = static_cast<std::uint64_t>(product >> kCutBits) + (rest >= kHalf ? 1 : 0);
   value = std::bit_cast<double>((static_cast<std::uint64_t>(exponent + kCutBits + 1074) << 52) + mantissa);
   return true;
 }
 
-/// Reads up to eight digits and returns how many.
+/// Reads up to eight digits and returns their count.
 int read_digits(const char* p, std::uint64_t& number) {
   const std::uint64_t less_zeros = load_eight(p) - kEightZeros;
   const std::size_t count = leading_digit_count(less_zeros);
@@ -87,9 +87,9 @@ int read_digits(const char* p, std::uint64_t& number) {
   return static_cast<int>(count);
 }
 
-/// Continues after eight decimals; null if there are too many digits. `digit_count` counts `digits`.
+/// Continues after eight decimals; null if there are too many digits. `digit_count` is the count of `digits`.
 const char* read_more_decimals(const char* p, std::uint64_t& digits, int digit_count, int& decimals) {
-  // Nearly all have at most nine more, and at most 19 digits, which fit in 64 bits.
+  // Nearly all numbers have at most nine decimals more, and at most 19 digits in all, which fit in 64 bits.
   std::uint64_t next = 0;
   const int next_count = read_digits(p, next);
   // Branch-free: a ninth digit is unpredictable.

@@ -11,7 +11,7 @@
 
 namespace pipeline {
 
-// Nobody runs the tests with another byte order.
+// The tests have never run with another byte order.
 static_assert(std::endian::native == std::endian::little, "pipeline needs a little-endian processor");
 
 inline bool is_digit(char c) {
@@ -29,8 +29,8 @@ inline std::uint64_t load_eight(const char* p) {
 
 constexpr std::uint64_t kEightZeros = 0x3030303030303030;
 
-/// A word with bit 7 set in each byte whose character in `less_zeros` (eight characters minus kEightZeros) is
-/// not a digit; reliable up to and including the first such byte. 0 if all are digits.
+/// A word with bit 7 set in each byte of `less_zeros` (eight characters minus kEightZeros) that is not a
+/// digit; reliable up to and including the first such byte. 0 if all are digits.
 inline std::uint64_t no_digits(std::uint64_t less_zeros) {
   return (less_zeros | (less_zeros + 0x7676767676767676)) & 0x8080808080808080;
 }
@@ -45,13 +45,13 @@ inline std::uint64_t join_digits(std::uint64_t digits) {
   return (outer + inner) >> 32;
 }
 
-/// The count of digits before the first other character among eight characters minus kEightZeros.
+/// The count of leading digits among eight characters, given minus kEightZeros.
 inline std::size_t leading_digit_count(std::uint64_t less_zeros) {
   return static_cast<std::size_t>(std::countr_zero(no_digits(less_zeros))) / 8;
 }
 
-/// The number formed by the first `count` digits, 1 to 8: shifted to the end of the word, with zeros before
-/// them.
+/// The number formed by the first `count` digits, 1 to 8: they are shifted to the end of the word, after
+/// zeros.
 inline std::uint64_t join_leading_digits(std::uint64_t less_zeros, std::size_t count) {
   return join_digits(less_zeros << (64 - 8 * count));
 }

@@ -22,16 +22,16 @@ class InputError : public std::runtime_error {
 /// Text as it appears in a message: in quotes, unprintable bytes as \xNN, cut after 40 bytes.
 std::string quoted(std::string_view text);
 
-/// The text with its control characters as \xNN, so that it stays on its line.
+/// The text with control characters as \xNN, so that a message stays on one line.
 std::string on_one_line(std::string_view text);
 
-/// A count with its noun, singular only for 1: "1 triangle", "0 triangles".
+/// A count and its noun, which is singular only after 1: "1 triangle", "0 triangles".
 std::string counted(std::uint64_t count, std::string_view noun);
 
 /// "expected `expected`, found `found`": the form of every message about input.
 std::string expected_but_found(const std::string& expected, const std::string& found);
 
-/// Reading or writing failed: a full disk, a missing file. `what()` names the file and the system's reason.
+/// A failure to read or write: a full disk, a missing file. `what()` names the file and the system's reason.
 class IoError : public std::runtime_error {
  public:
   /// `error_number` is an errno value.

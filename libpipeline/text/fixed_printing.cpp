@@ -10,7 +10,7 @@
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/vertex_lines.h"
 
-// With more than four lanes, nine numbers would leave most empty.
+// With more than four lanes, nine numbers would leave many empty.
 #define PIPELINE_MAX_LANES 4
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/text/fixed_printing.cpp"
@@ -20,7 +20,7 @@ PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET == HWY_SCALAR
 
-// Without vectors, the general printer prints.
+// Without vectors, the general printer does all.
 
 FixedTextPart write_columns(const ConstFixedColumns&, std::size_t, int, char*) {
   return {};
@@ -31,7 +31,7 @@ FixedTextPart write_columns(const ConstFixedColumns&, std::size_t, int, char*) {
 // The sixteen digits of a number.
 constexpr hn::FixedTag<std::uint8_t, 16> kSixteen;
 
-/// How to print the sixteen digits of a whole number of units, the first of which is 0 and replaced by a
+/// The form of a printed number of units with sixteen digits, the first of which is 0 and gives way to the
 /// point.
 struct PrintedForm {
   /// Sixteen bytes starting at byte n form a shuffle mask that drops the first n digits and moves the point
@@ -61,7 +61,7 @@ constexpr auto kPrintedForms = [] {
 alignas(16) constexpr std::array<std::uint8_t, 16> kPointAndZeros = {'.', '0', '0', '0', '0', '0', '0', '0',
                                                                      '0', '0', '0', '0', '0', '0', '0', '0'};
 
-// Two or four numbers at a time.
+// The types for two or four numbers at a time.
 constexpr hn::RebindToUnsigned<decltype(kDoubles)> kWords;
 constexpr hn::Repartition<std::uint32_t, decltype(kDoubles)> kFours;
 constexpr hn::Repartition<std::uint16_t, decltype(kDoubles)> kPairs;
@@ -86,14 +86,14 @@ PIPELINE_INLINE auto digits_of(Words eights) {
   return hn::BitCast(kBytes, hn::Or(tens, hn::ShiftLeft<8>(ones)));
 }
 
-/// How to round to a count of decimals.
+/// The way of rounding to a count of decimals.
 enum class Rounding {
   unless_near_tie,
-  exactly,  // a product's rounding error takes one instruction
-  of_short  // only what has no more decimals, and is never shorter with an exponent
+  exactly,  // where a product's rounding error takes one instruction
+  of_short  // only numbers without more decimals, and never shorter with an exponent
 };
 
-/// Positive numbers in units of the last decimal; clears those in `good` that it cannot round.
+/// Positive numbers in units of the last decimal; clears the bits in `good` of numbers that it cannot round.
 template <Rounding rounding>
 PIPELINE_INLINE Doubles units_of(Doubles sizes, Doubles scale, Mask& good) {
   const auto rounder = all(kWholeRounder);
@@ -101,14 +101,14 @@ PIPELINE_INLINE Doubles units_of(Doubles sizes, Doubles scale, Mask& good) {
   auto units = (scaled + rounder) - rounder;
   const auto offset = scaled - units;
   if constexpr (rounding == Rounding::exactly) {
-    // If the product is a tie, it may have been rounded to one; the rounding error shows which side it came
-    // from.
+    // If the product is a tie, rounding may have made it one; the rounding error shows the side of the exact
+    // product.
     const auto lost = hn::MulSub(sizes, scale, scaled);
     const auto is_tie = hn::Eq(hn::Abs(offset), all(0.5));
     units = units +
             hn::IfThenElseZero(hn::And(is_tie, hn::Gt(lost * offset, hn::Zero(kDoubles))), offset + offset);
   } else if constexpr (rounding == Rounding::unless_near_tie) {
-    // The same test as DecimalUnits::is_certain.
+    // The test of DecimalUnits::is_certain.
     const auto reach = hn::Abs(offset) + scaled * all(kProductError);
     good = hn::And(good, hn::Lt(reach, all(kBelowHalf)));
   } else {
@@ -123,7 +123,7 @@ PIPELINE_INLINE Doubles units_of(Doubles sizes, Doubles scale, Mask& good) {
 template <std::size_t number_count>
 class Texts {
  public:
-  /// False if a number is too large, not finite or cannot be rounded so.
+  /// False if a number is too large, not finite, or cannot be rounded in this way.
   template <Rounding rounding>
   PIPELINE_INLINE bool set(const double* p, double scale) {
     auto good = hn::Eq(hn::Zero(kDoubles), hn::Zero(kDoubles));
@@ -147,7 +147,7 @@ class Texts {
     hn::StoreU(text, kSixteen, reinterpret_cast<std::uint8_t*>(out));
     return out + form.length - leading_zero_count;
   }
-  /// Without zeros at the end, and without a point there.
+  /// Writes a number without trailing zeros or a trailing point.
   PIPELINE_INLINE char* write_short(char* out, const PrintedForm& form, std::size_t number) const {
     const unsigned digits = filled_[slot_of(number)] | form.last_whole_digit;
     const int zero_count = std::countl_zero(static_cast<std::uint16_t>(digits));
@@ -170,7 +170,7 @@ class Texts {
     store(2 * step, digits_of(hn::InterleaveLower(kWords, first, last)));
     store(2 * step + 1, digits_of(hn::InterleaveUpper(kWords, first, last)));
   }
-  /// For whole numbers from 0 to 2^52.
+  /// The bits of whole numbers from 0 to 2^52.
   PIPELINE_INLINE static Words word_of(Doubles whole) {
     const auto shift = all(0x1p52);
     return hn::Xor(hn::BitCast(kWords, whole + shift), hn::BitCast(kWords, shift));
@@ -184,7 +184,7 @@ class Texts {
                       reinterpret_cast<std::uint8_t*>(filled_.data() + kBlocks * part));
   }
 
-  /// Where the text of number i is: the even lanes of a step, then the odd ones.
+  /// The slot of number i's text: the even lanes of a step come first, then the odd ones.
   static constexpr std::size_t slot_of(std::size_t i) {
     return i / kLanes * kLanes + i % 2 * kBlocks + i % kLanes / 2;
   }
@@ -199,7 +199,7 @@ template <std::size_t group_count>
 struct TriangleTexts {
   std::array<Texts<9>, group_count> groups;
   Texts<4> w;
-  bool has_short_w = false;  // whether that is set
+  bool has_short_w = false;  // true if w is set
 };
 
 /// Prints a vertex line.
@@ -230,10 +230,10 @@ PIPELINE_INLINE char* write_line(char* out, const PrintedForm& form, const Const
   return write_line_end(out, may_have_more ? columns.materials : std::span<const std::uint32_t>(), triangle);
 }
 
-/// Stops before a triangle with a number that Texts refuses.
+/// Prints triangles up to one with a number that Texts::set refuses.
 template <Rounding rounding, std::size_t group_count, bool may_have_more>
 FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
-  // A copy: characters may be printed anywhere.
+  // A copy: to the compiler, printed characters may alias the original.
   const PrintedForm form = kPrintedForms[static_cast<std::size_t>(decimals)];
   const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
   LastPrinted last;
@@ -270,7 +270,7 @@ FixedTextPart write_from(std::size_t first, const ConstFixedColumns& columns, in
   return kWriters[columns.form()](first, columns, decimals, out);
 }
 
-/// Exactly from the first tie on: where there is one, others follow.
+/// Rounds exactly from the first near tie on: others will follow.
 FixedTextPart write_columns(const ConstFixedColumns& columns, std::size_t first, int decimals, char* out) {
   const FixedTextPart part = write_from<Rounding::unless_near_tie>(first, columns, decimals, out);
   first += part.triangle_count;

@@ -19,7 +19,7 @@ PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET == HWY_SCALAR
 
-// Without vectors, the general reader reads.
+// Without vectors, the general reader does all.
 
 template <std::size_t group_count, bool may_have_more>
 FixedTextPart read_groups(std::string_view, TriangleFrame, const GroupDecimals&, const FixedColumns&) {
@@ -34,8 +34,8 @@ constexpr hn::FixedTag<std::int32_t, 4> kFours;
 constexpr hn::FixedTag<std::int32_t, 2> kEights;
 
 /// For each count of digits before the point, the source bytes of the last sixteen digits: those before the
-/// point, and `decimals` after it. The row of an impossible count selects the point, which is not a digit and
-/// fails the test; without a point (16) the count alone fails it.
+/// point, and `decimals` after it. The row of an impossible count selects the point, which fails the test for
+/// digits; without a point (16) the count alone fails it.
 struct DigitShuffles {
   alignas(16) std::array<std::array<std::uint8_t, 16>, 17> rows{};
 
@@ -60,10 +60,10 @@ constexpr auto kDigitShuffles = [] {
   return shuffles;
 }();
 
-/// How to read numbers with a count of decimals.
+/// The form of numbers with a count of decimals.
 struct ReadForm {
   const DigitShuffles& shuffles;
-  // The separator's position after the point's, whose place it takes if there are no decimals.
+  // The separator's offset from the point; without decimals, it takes the point's place.
   std::size_t end;
   double units_per_one;
 
@@ -73,7 +73,7 @@ struct ReadForm {
         units_per_one(kPowersOfTen[static_cast<std::size_t>(decimals)]) {}
 };
 
-/// Joins neighbors: the first times `factor` plus the second.
+/// Joins neighbors: `factor` times the first plus the second.
 template <typename Joined, typename Numbers>
 HWY_INLINE hn::Vec<Joined> join(Joined joined, Numbers numbers, std::int32_t factor) {
   const hn::Repartition<std::int16_t, Joined> parts;
@@ -110,8 +110,8 @@ HWY_INLINE double number_of(hn::Vec<decltype(kSixteen)> digits, double units_per
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign);
 }
 
-/// Reads w and the separator after it; null if the form differs. With at most eight digits before the point,
-/// and fifteen in all, any count of decimals takes the same time.
+/// Reads w and the separator after it; null if the form differs. Equally fast for all counts of decimals,
+/// with at most eight digits before the point and fifteen in all.
 HWY_INLINE const char* read_short_w(const char* p, char separator, double& value) {
   const bool is_negative = *p == '-';
   const char* const first = p + (is_negative ? 1 : 0);
@@ -202,13 +202,13 @@ class ColumnReader {
   const FixedColumns& columns_;
   const bool has_w_, has_material_;
   LastRead last_;
-  /// True if the numbers of each group have one digit before the point. Where the last ones had, a branch
-  /// lets the processor go ahead to the next number, whose beginning would otherwise depend on this one;
-  /// otherwise the branch is mispredicted often.
+  /// True if the last numbers of each group had one digit before the point. Then a branch lets the processor
+  /// go ahead to the next number, whose beginning would otherwise depend on this one; with other numbers, the
+  /// branch would be mispredicted often.
   std::array<bool, group_count> have_one_digit_;
   // In the triangle being read:
-  hn::Vec<decltype(kSixteen)> no_digits_;        // above 0 where a digit should be
-  bool is_in_place_;                             // every separator
+  hn::Vec<decltype(kSixteen)> no_digits_;        // above 0 where another character is in place of a digit
+  bool is_in_place_;                             // true if every separator is
   std::array<std::size_t, group_count> counts_;  // of digits before the point: the bits of all
 };
 

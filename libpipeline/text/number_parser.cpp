@@ -14,11 +14,11 @@ namespace {
 
 #if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
 
-/// std::from_chars of a double, which libc++ has from its version 20 on: here by strtod, of a word that
-/// begins with a digit, a point or a minus; a number too small for a double becomes 0. It rounds to nearest,
-/// and nobody sets another locale than "C".
+/// std::from_chars for a double, by strtod, as libc++ has it only from version 20 on; for a word that begins
+/// with a digit, a point or a minus. A number too small for a double becomes 0. strtod rounds to nearest, and
+/// no code here sets a locale other than "C".
 std::from_chars_result double_from_chars(const char* first, const char* last, double& value) {
-  // Less than strtod takes: no "0x10" and no "-inf".
+  // Restricts what strtod accepts: no "0x10" and no "-inf".
   const std::string word(first, std::find_if(first, last, [](char c) {
                            return !is_digit(c) && std::string_view("+-.eE").find(c) == std::string_view::npos;
                          }));
@@ -45,7 +45,7 @@ long long leading_exponent(std::string_view word) {
   if (e != std::string_view::npos) {
     std::string_view digits = word.substr(e + 1);
     if (digits.front() == '+') digits.remove_prefix(1);
-    // Far beyond any double's exponent, and far from overflow when the digits of a line are added to it.
+    // Far beyond any double's exponent, and no overflow when the count of digits on a line is added.
     constexpr long long kMaxExponent = 1'000'000'000'000;
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
     if (result.ec != std::errc()) exponent = digits.front() == '-' ? -kMaxExponent : kMaxExponent;

@@ -14,7 +14,7 @@ struct ParsedNumber {
   NumberError error = NumberError::none;
 };
 
-/// True if a word begins like a number; whether it is one shows when it is parsed.
+/// True if a word begins like a number; only parsing it shows whether it is one.
 inline bool begins_like_number(std::string_view word) {
   return word.find_first_of("+-.0123456789") == 0;
 }
@@ -46,13 +46,13 @@ struct DecimalNumber {
   int decimals = 0;  // the count of digits after the point
 };
 
-/// At least this many readable characters must follow the text, whatever they are.
+/// At least this many readable characters must follow the text; their values do not matter.
 constexpr int kDecimalNumberSlack = 64;
 
 /// Reads the number at `p` and returns its end. Null if there is none, or one that only the general reader
-/// can read: with a '+', with more than 8 digits before the point, with more digits than 64 bits hold, or so
-/// close to the midpoint of two doubles that rounding it needs multiprecision arithmetic. The character after
-/// the number is not checked.
+/// can read: with a '+', with more than 8 digits before the point, with more digits than fit in 64 bits, or
+/// so close to the midpoint of two doubles that rounding it needs multiprecision arithmetic. The character
+/// after the number is not checked.
 const char* read_decimal_number(const char* p, DecimalNumber& number);
 
 }  // namespace pipeline

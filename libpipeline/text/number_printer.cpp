@@ -22,7 +22,7 @@ char* print_eight(char* out, std::uint64_t number) {
   return out + 8;
 }
 
-/// The count of zeros at the end; 16 if all are.
+/// The count of trailing zeros; 16 if all digits are 0.
 int trailing_zero_count(SixteenDigits digits) {
   const int count = std::countl_zero(digits.last) / 8;
   return count < 8 ? count : 8 + std::countl_zero(digits.first) / 8;
@@ -34,12 +34,12 @@ char* print_decimals(char* out, double value, const Decimal& decimal) {
   const std::uint64_t scale = decimals < kWholePowersOfTen.size() ? kWholePowersOfTen[decimals] : 0;
   out = print_sign(out, value < 0);
   // The decimal has the same whole part: beyond the next whole number it would not read back to this double.
-  // It is below 10^17, and signed conversions are shorter.
+  // It is below 10^17, so a signed conversion, which is shorter, will do.
   const auto whole = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::fabs(value)));
   out = print_before_point(out, whole);
   *out++ = '.';
   const std::uint64_t behind = decimal.digits - whole * scale;
-  // Digits beyond sixteen (zeros and at most one other) first, then the sixteen. Branch-free: whether there
+  // The digits before the last sixteen come first: zeros and at most one other. Branch-free: whether there
   // are 16 or 17 is unpredictable.
   constexpr std::uint64_t kSixteenDigits = 10'000'000'000'000'000;
   const std::uint64_t high = behind / kSixteenDigits;
@@ -66,8 +66,8 @@ char* print_few_decimals(char* out, double value) {
   return out + (count > 0 ? 1 + count : 0);
 }
 
-/// As print_scaled, of hi + lo, of units with at most 62 bits; null where there are more, or hi + lo may lie
-/// within 2^-20 of a tie. Inlined, it made every number take longer.
+/// print_scaled for hi + lo, in units with at most 62 bits; null where there are more, or hi + lo may lie
+/// within 2^-20 of a tie. Not inlined: that made every number take longer.
 [[gnu::noinline]] char* print_scaled_sum(char* out, double hi, double lo, int decimals) {
   const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
   const double product = hi * scale;
@@ -101,7 +101,7 @@ char* print_shortest(char* out, double value) {
   const double size = std::fabs(value);
   if (size >= 0.001 && size < 1e5)
     if (char* const end = print_few_decimals(out, value)) return end;
-  // Of these numbers, only whole ones may be shorter with an exponent.
+  // Among these numbers, only whole ones may be shorter with an exponent.
   if (size >= 0.001 && (size < 1e5 || size != std::floor(size)) && shortest_decimal(size, decimal))
     return print_decimals(out, value, decimal);
   return std::to_chars(out, out + kMaxNumberLength, value == 0 ? 0.0 : value).ptr;
@@ -112,9 +112,9 @@ char* print_shortest_float(char* out, float value) {
   if (size >= 0x1p-9 && size < 0x1p12) {
     const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52;
     const double half_gap = std::bit_cast<double>(exponent << 52) * 0x1p-24;
-    // Decimals with that many digits after the point are farther apart than floats: at most one is near
-    // enough, and no shorter one. With two digits more they are closer. The products are exact, and no
-    // decimal lies on the border.
+    // Decimals with `fewest` digits after the point are farther apart than floats: at most one is near
+    // enough, and no shorter one is. With two digits more they are closer together. The products are exact,
+    // and no decimal lies on the border.
     const std::size_t fewest = 9 - (exponent - 1023 + 9) / 3;
     for (std::size_t decimals = fewest; decimals <= fewest + 2; ++decimals) {
       const double scale = kPowersOfTen[decimals], units = nearest_whole(size * scale);
@@ -177,7 +177,7 @@ void add(ExactDigits& a, const ExactDigits& b, int sign) {
   }
 }
 
-/// Rounds the digits before `cut` to nearest, ties to even, by those from `cut` to `end`.
+/// Rounds the digits before `cut` to nearest, ties to even, by the digits from `cut` to `end`.
 void round_at(char* cut, char* end) {
   const bool is_above_tie = std::any_of(cut + 1, end, [](char c) { return c != '0'; });
   const bool is_odd = (cut[-1] - '0') % 2 != 0;
@@ -190,7 +190,7 @@ void round_at(char* cut, char* end) {
 }  // namespace
 
 char* print_exact_sum(char* out, double hi, double lo, int decimals) {
-  // At least one decimal more than requested, to round by.
+  // At least one decimal more than requested, for rounding.
   const int exact = std::max({exact_decimals(hi), exact_decimals(lo), decimals + 1});
   ExactDigits sum(hi, exact);
   if (lo != 0) add(sum, ExactDigits(lo, exact), std::signbit(hi) == std::signbit(lo) ? 1 : -1);

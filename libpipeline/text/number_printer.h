@@ -7,8 +7,8 @@
 
 namespace pipeline {
 
-/// How coordinates are printed: with a fixed count of decimals, or in the shortest form that reads back to
-/// the same double.
+/// The form of printed coordinates: a fixed count of decimals, or the shortest text that reads back to the
+/// same double.
 struct NumberFormat {
   int decimals = 7;
   bool shortest = false;
@@ -26,14 +26,14 @@ constexpr std::size_t kMaxNumberLength = 1 + 309 + 1 + kMaxDecimals;
 /// the shortest form uses hi alone. `out` must have room for kMaxNumberLength characters.
 char* print_number(char* out, double hi, double lo, NumberFormat format);
 
-/// The same in the shortest form.
+/// Prints `value` in the shortest form.
 char* print_shortest(char* out, double value);
 /// Prints the shortest text that reads back to the same float; 0 has no sign. `out` must have room for
 /// kMaxFloatLength characters.
 constexpr std::size_t kMaxFloatLength = 24;
 char* print_shortest_float(char* out, float value);
 
-/// Prints three numbers with a blank after each; `low_part` is the part that their doubles do not hold.
+/// Prints three numbers with a blank after each; `low_part` is to be added to their doubles.
 inline char* print_three(char* out, const Vec3& numbers, const Vec3& low_part, NumberFormat format) {
   const auto print = [&](double hi, double lo) {
     out = format.shortest ? print_shortest(out, hi) : print_number(out, hi, lo, format);

@@ -12,7 +12,7 @@ namespace {
 // A ball that contains a tie counts as the tie if its radius is below this fraction of a unit in the last
 // printed place.
 constexpr double kTieTolerance = 0x1p-20;
-// A ball that contains 0 is certainly 0, in the shortest form, within this part of the size of what was read.
+// In the shortest form, a ball around 0 is certainly 0 if it lies within this part of the input's size.
 constexpr double kZeroTolerance = 0x1p-60;
 
 /// A number as the sum of a whole number and the exact remainder, whose high part lies in [-1/2, 1/2].
@@ -42,7 +42,7 @@ PrintableNumber round_to_decimals(DoubleDouble value, double error, int decimals
   const double scaled_error = (error * scale + std::fabs(scaled.hi) * 0x1p-104) * (1 + 0x1p-40);
   auto [whole, rest] = split_at_whole(scaled);
   const double direction = std::copysign(1.0, rest.hi);
-  // From the tie toward the whole number; exact where it is small.
+  // The distance from the tie, positive toward the whole number; exact where it is small.
   const double distance = (0.5 - std::fabs(rest.hi)) - direction * rest.lo;
   const bool may_be_tie = std::fabs(distance) <= scaled_error;
   const bool is_tie = may_be_tie && scaled_error <= kTieTolerance;

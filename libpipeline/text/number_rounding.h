@@ -16,20 +16,20 @@ struct PrintableNumber {
   bool is_certain = true;
 };
 
-/// The number whose text is the correctly rounded text of every number in the ball. A ball that contains a
-/// tie and is narrower than 2^-20 of the last unit counts as the tie (rounded to even); it is certain if all
-/// of it lies within 2^-20 of a unit of the tie. In the shortest form, a ball that contains 0 is 0; it is
-/// certain if all of it lies within 2^-60 of `input_size`, the size of the numbers that were read: so where
-/// numbers cancel on the way, no more of them is taken for 0. Overflow gives an infinite hi.
+/// The number with the correctly rounded text of all numbers in the ball. A ball that contains a tie and is
+/// narrower than 2^-20 of the last unit counts as the tie (rounded to even); it is certain if all of it lies
+/// within 2^-20 of a unit of the tie. In the shortest form, a ball that contains 0 is 0; it is certain if all
+/// of it lies within 2^-60 of `input_size`, the size of the numbers that were read: where numbers cancel on
+/// the way, the width that counts as 0 does not grow. Overflow gives an infinite hi.
 PrintableNumber round_to_text(const Ball& ball, NumberFormat format, double input_size = 1);
 
-/// The same for a ball that one double may not be enough for (round_to_shortest).
+/// round_to_shortest for a ball whose ends may round to different doubles.
 PrintableNumber round_wide_to_shortest(const Ball& ball, double input_size);
 
-/// The same in the shortest form.
+/// round_to_text in the shortest form.
 inline PrintableNumber round_to_shortest(const Ball& ball, double input_size = 1) {
-  // Both ends of most balls round to the midpoint's double, which no search for its neighbors need show. The
-  // bound is enlarged by more than the sums lose.
+  // Both ends of most balls round to the midpoint's double; this shows without its neighbors. The bound is
+  // enlarged by more than the sums lose.
   const auto [hi, lo] = ball.value();
   const double error = ball.error() + (ball.error() + std::fabs(lo)) * 0x1p-50;
   if (ball.exponent() == 0 && hi + (lo + error) == hi && hi + (lo - error) == hi) return {hi, 0};

@@ -54,7 +54,7 @@ std::string target_of(const std::string& path) {
   throw IoError("open", path, ELOOP);
 }
 
-/// While it exists, the signals of `remove_unfinished` wait.
+/// Holds back, while it exists, the signals whose handler may call `remove_unfinished`.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -71,7 +71,7 @@ class SignalsWait {
   sigset_t before_;
 };
 
-// Only changed while signals wait, so that a handler finds it whole.
+// Changed only while signals wait, so that a handler never sees it half changed.
 std::forward_list<std::string> unfinished;
 
 void drop_unfinished(const std::string& path) {
@@ -150,8 +150,8 @@ std::string OutputFile::temporary_name(int attempt) const {
   return std::filesystem::path(target_).parent_path() / name;
 }
 
-/// Opens a file that has no name yet; false where the system does not support it. It is linked later through
-/// /proc.
+/// Opens a file that has no name yet; false where the system does not support it. Its name is linked later,
+/// through /proc.
 bool OutputFile::open_unnamed(const std::string& folder, unsigned mode) {
 #ifdef O_TMPFILE
   if (::access("/proc/self/fd", X_OK) != 0) return false;
@@ -164,7 +164,7 @@ bool OutputFile::open_unnamed(const std::string& folder, unsigned mode) {
   return false;
 }
 
-/// Tries temporary names until `make` makes a file of one. Leaves its errno.
+/// Tries temporary names until `make` makes a file under one. If all fail, errno is that of `make`.
 void OutputFile::make_temporary(const std::function<bool(const std::string&)>& make) {
   for (int i = 0; i < kMaxAttempts; ++i) {
     std::string name = temporary_name(i);

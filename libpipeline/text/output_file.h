@@ -8,8 +8,8 @@
 
 namespace pipeline {
 
-/// Where an output ends up, or an input comes from: a regular file or a pipe, or a name in a folder that has
-/// no such file yet.
+/// The place that an output goes to or an input comes from: a regular file, a pipe, or a name in a folder
+/// that has no such file yet.
 struct FilePlace {
   dev_t device = 0;
   ino_t inode = 0;   // of the file; of the folder if the file does not exist
@@ -18,9 +18,9 @@ struct FilePlace {
   bool operator==(const FilePlace&) const = default;
 };
 
-/// The place of the file `path`: links are followed, so all names of a file give the same one. Nothing for a
-/// device or a socket, which any number of files may share, and where opening will fail. An IoError if
-/// symbolic links form a cycle, and for a descriptor that is not open: it might be another file's later.
+/// The place of the file `path`: links are followed, so all names of a file give one place. Nothing for a
+/// device or a socket, which several outputs may share, and where opening will fail. An IoError if symbolic
+/// links form a cycle, and for a descriptor that is not open: another file might get it later.
 std::optional<FilePlace> place_of(const std::string& path);
 
 /// True if an OutputFile `path` is a new file or replaces a regular one, complete or not at all.
@@ -29,23 +29,21 @@ bool is_replaced(const std::string& path);
 /// Notes a path that this process is about to make and that must not be left if it fails or is ended by a
 /// signal: a file, or a folder of such files.
 void add_unfinished(const std::string& path);
-/// All are what they should be.
+/// Keeps all noted paths: each is complete.
 void keep_unfinished();
-/// Removes what was noted and the temporary files of all OutputFiles, the last one first; whether there was
-/// one. A handler of SIGINT, SIGTERM and SIGHUP may call it.
+/// Removes the noted paths and the temporary files of all OutputFiles, the last one first; true if there were
+/// any. A handler of SIGINT, SIGTERM and SIGHUP may call it.
 bool remove_unfinished() noexcept;
 
 /// A file that appears complete or not at all: it is written without a name, or under a temporary one in the
-/// same folder, and `commit` gives it its name. Without `commit` (an exception, say) the written data are
-/// removed and an existing file stays as it was. Every failure is an IoError that names the path as given.
-///
-/// Where the file system supports it (O_TMPFILE), the file has no name until `commit`: nothing is left of it
-/// even if the process is killed. A link cannot replace an existing file, so in that case it gets a temporary
-/// name and is renamed at once; a process killed between these two calls leaves the complete file under the
-/// temporary name. Elsewhere it has the temporary name from the beginning, and a killed process leaves the
+/// same folder, and `commit` gives it its name. Without `commit` (an exception, say) the data are removed and
+/// an existing file stays as it was. Every failure is an IoError that names the path as given. Where the file
+/// system supports it (O_TMPFILE), the file has no name until `commit`: nothing is left of it even if the
+/// process is killed. A link cannot replace an existing file, so then the new file gets a temporary name and
+/// is renamed at once; a process killed between these two calls leaves the complete file under the temporary
+/// name. On other file systems it has the temporary name from the beginning, and a killed process leaves the
 /// data written so far.
-///
-/// A new file gets the permissions that creat would set, a replaced one keeps its own; a read-only file is
+/// A new file gets the permissions that creat would set, a replaced file keeps its own; a read-only file is
 /// not replaced. A symbolic link stays, and the file it points at is replaced. An existing file that is not
 /// regular (a device, a pipe), /dev/stdout and the like are written directly.
 class OutputFile {

@@ -13,10 +13,10 @@ namespace pipeline {
 
 // Whole numbers and scaled numbers as text.
 
-/// Prints a number; 8 characters after its first digits may be written.
+/// Prints a number; up to 8 characters past its end may be overwritten.
 char* print_whole(char* out, std::uint64_t number);
 
-/// Prints a number below 10^16 with exactly `count` digits, at most 16 and at least as many as it has; 16
+/// Prints a number below 10^16 with exactly `count` digits, at most 16 and no fewer than it has; 16
 /// characters may be written.
 inline char* print_digits(char* out, SixteenDigits digits, int count) {
   UInt128 text = (static_cast<UInt128>(digits.last + kEightZeros) << 64) | (digits.first + kEightZeros);
@@ -26,14 +26,14 @@ inline char* print_digits(char* out, SixteenDigits digits, int count) {
   return out + count;
 }
 
-/// Prints the digits before the point; most numbers have one.
+/// Prints the digits before the point, mostly one.
 inline char* print_before_point(char* out, std::uint64_t whole) {
   if (whole >= 10) return print_whole(out, whole);
   *out = static_cast<char>('0' + whole);
   return out + 1;
 }
 
-/// Branch-free: the sign is unpredictable.
+/// Prints '-' if the number is negative; branch-free, since the sign is unpredictable.
 inline char* print_sign(char* out, bool is_negative) {
   *out = '-';
   return out + (is_negative ? 1 : 0);
@@ -76,7 +76,7 @@ constexpr int kMaxScaledDecimals = 15;
 [[gnu::always_inline]] inline char* print_scaled(char* out, double value, int decimals) {
   const DecimalUnits rounded(value, kPowersOfTen[static_cast<std::size_t>(decimals)]);
   if (!rounded.is_certain()) return nullptr;
-  // Through a signed number, which processors convert.
+  // Through a signed number, which processors convert in one instruction.
   const auto units = static_cast<std::uint64_t>(static_cast<std::int64_t>(rounded.whole));
   return print_units(out, value < 0, units, decimals);
 }

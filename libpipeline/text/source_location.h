@@ -21,10 +21,10 @@ struct SourceLocation {
 /// "file:line:column", without the unknown parts.
 std::string to_string(const SourceLocation& location);
 
-/// A 1-based line and column, packed into 64 bits because every vertex has one.
+/// A line and a column, counted from 1; packed into 64 bits because every vertex has them.
 class LineAndColumn {
  public:
-  /// Unknown.
+  /// The unknown position.
   constexpr LineAndColumn() = default;
   constexpr LineAndColumn(std::size_t line, std::size_t column = 1)
       : bits_(line | std::uint64_t{column - 1} << kLineBits) {}
@@ -39,7 +39,7 @@ class LineAndColumn {
   friend bool operator==(const LineAndColumn&, const LineAndColumn&) = default;
 
  private:
-  static constexpr int kLineBits = 43;  // the others hold kMaxLineLength
+  static constexpr int kLineBits = 43;  // the other bits hold columns up to kMaxLineLength
 
   std::uint64_t bits_ = 0;
 };

@@ -26,7 +26,7 @@ std::string_view without_trailing_blanks(std::string_view line) {
   return line;
 }
 
-/// The end of a message about a word that other programs would write so; else empty.
+/// A hint for a message about a word as other programs write it; else empty.
 std::string foreign_format_hint(std::string_view word) {
   const bool has_mark = word.starts_with("\xFF\xFE") || word.starts_with("\xFE\xFF");
   if (has_mark || word.find('\0') != std::string_view::npos) return " (is this UTF-16? save it as UTF-8)";
@@ -40,7 +40,7 @@ std::string foreign_format_hint(std::string_view word) {
   return follows_digit ? " (decimals have a point, and blanks stand between numbers)" : "";
 }
 
-/// True if a word stands before the comment.
+/// True if the line has a word before its comment.
 bool is_filled(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t\r");
   return first != std::string_view::npos && line[first] != '#';
@@ -240,7 +240,7 @@ bool TextReader::fill() {
 
 void TextReader::read_block() {
   const auto has_room = [this] { return buffer_size_ - end_ >= kBlockSize + kSlack; };
-  if (!has_room() && begin_ >= end_ - begin_) {  // so that each character is moved once on average
+  if (!has_room() && begin_ >= end_ - begin_) {  // then each character is moved at most once on average
     std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
     end_ -= begin_;
     scanned_ -= begin_;

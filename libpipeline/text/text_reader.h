@@ -12,7 +12,7 @@
 
 namespace pipeline {
 
-/// In characters. A longer line is an error, so that memory stays bounded.
+/// The limit in characters. A longer line is an error, so that memory stays bounded.
 constexpr std::size_t kMaxLineLength = std::size_t{1} << 20;
 
 /// Splits a line, word by word. Words are separated by blanks and tabs. The scanner points into the reader's
@@ -20,40 +20,40 @@ constexpr std::size_t kMaxLineLength = std::size_t{1} << 20;
 class LineScanner {
  public:
   LineScanner() = default;
-  /// `line` comes without its newline, and kDecimalNumberSlack readable characters follow it; the scanner
+  /// `line` does not include its newline; kDecimalNumberSlack readable characters must follow it. The scanner
   /// skips a comment.
   LineScanner(std::string_view line, const std::string& file, std::size_t line_number);
 
-  /// True if only blanks are left.
+  /// True if no word is left.
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
-  /// Takes the next word; an empty one at the end of the line.
+  /// Takes the next word, which is empty at the end of the line.
   std::string_view word();
-  /// Takes the next word as a decimal number; an error names `expected` followed by `of` as the missing thing
-  /// ("the x of " "the eye").
+  /// Takes the next word as a decimal number; an error says that `expected` followed by `of` ("the x of "
+  /// "the eye") is missing.
   double number(std::string_view expected, std::string_view of = {});
   /// Takes three numbers; `of` names the point or direction in errors.
   Vec3 point(std::string_view of);
-  /// The same; they must end the line.
+  /// Takes three numbers, which must end the line.
   Vec3 vec3(std::string_view of);
   /// Takes the next word as a whole number without a sign.
   std::uint64_t count(std::string_view expected);
-  /// An error unless the line is used up; `after` and `of` together name the last thing that belongs on it.
+  /// Throws an InputError unless the line is used up; `after` and `of` together name its last item.
   void expect_end(std::string_view after, std::string_view of = {}) const;
 
   /// The next word, without taking it.
   [[nodiscard]] std::string_view peek() const;
-  /// The column of the word that `peek` shows, or of the end of the line.
+  /// The column of the next word, or of the end of the line.
   [[nodiscard]] std::size_t column() const {
     return static_cast<std::size_t>(rest_.data() - line_.data()) + 1;
   }
-  /// The location of the word that `peek` shows, or of the end of the line.
+  /// The location of the next word, or of the end of the line.
   [[nodiscard]] SourceLocation location() const;
   /// The location of a word taken from this line.
   [[nodiscard]] SourceLocation location_of(std::string_view word) const;
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
   /// The rest of the line, without the blanks around it.
   [[nodiscard]] std::string_view rest() const { return rest_; }
-  /// The same, including the comment, for text that is a message.
+  /// The rest of the line with its comment, for lines that hold a message.
   [[nodiscard]] std::string_view rest_with_comment() const;
   /// True if the line holds nothing but a comment.
   [[nodiscard]] bool is_comment() const { return line_.empty() && has_comment_; }
@@ -69,7 +69,7 @@ class LineScanner {
 
   std::string_view line_;
   std::string_view rest_;
-  const char* line_end_ = nullptr;  // with the comment
+  const char* line_end_ = nullptr;  // the end of the line, comment included
   const std::string* file_ = nullptr;
   std::size_t line_number_ = 0;
   bool has_comment_ = false;
@@ -85,21 +85,21 @@ class TextReader {
 
   /// The next line, blank ones included; false at the end of the text.
   bool next_line(LineScanner& line);
-  /// The next line that holds a word; false at the end of the text.
+  /// Finds the next line that holds a word; false at the end of the text.
   bool next_filled_line(LineScanner& line);
-  /// The same; at the end of the text, an InputError that names `expected`, followed by `word` in quotes.
+  /// Finds that line; at the end of the text, an InputError names `expected`, followed by `word` in quotes.
   void expect_filled_line(LineScanner& line, std::string_view expected, std::string_view word = {});
   /// True if the next `count` lines that hold a word are buffered, so that reading them will not block.
   [[nodiscard]] bool has_buffered_lines(std::size_t count) const;
   /// True if the line read last ended with a newline, not with the text.
   [[nodiscard]] bool last_line_was_ended() const { return last_line_was_ended_; }
 
-  /// The whole lines of the first block, of which none is consumed; for use before any other function. Waits
-  /// for the first line only, so a slow neighbor in a pipe may give no more than that one.
+  /// The whole lines of the first block, none of them consumed; for use before any other function. Waits for
+  /// the first line only, so a slow program before it in a pipe may give no more.
   std::string_view beginning();
 
-  /// The text in memory that has not been read yet, from the beginning of a line. It is followed by kSlack
-  /// readable characters without meaning. For callers that parse several lines at a time, then `skip` them.
+  /// The text in memory that has not been read yet, from the beginning of a line; kSlack readable characters
+  /// without meaning follow. For callers that parse several lines at a time, then `skip` them.
   [[nodiscard]] std::string_view buffered() const { return {buffer_.get() + begin_, end_ - begin_}; }
   static constexpr std::size_t kSlack = 512;
   /// Consumes `length` buffered characters, `line_count` whole lines.
@@ -121,7 +121,7 @@ class TextReader {
 
   int descriptor_ = -1;
   std::string file_;
-  std::unique_ptr<char[]> buffer_;  // without values: where no text comes, no memory is touched
+  std::unique_ptr<char[]> buffer_;  // uninitialized: memory is touched only where text is read
   std::size_t buffer_size_;
   std::size_t begin_ = 0;  // the unread part of the buffer is [begin_, end_)
   std::size_t end_ = 0;

@@ -11,7 +11,7 @@ namespace pipeline {
 namespace {
 
 constexpr std::size_t kFlushedSize = std::size_t{1} << 16;
-// Texts from this length on are written without being copied.
+// A text of at least this length is written without being copied.
 constexpr std::size_t kLongText = kFlushedSize / 2;
 
 }  // namespace

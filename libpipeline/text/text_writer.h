@@ -8,11 +8,11 @@
 
 namespace pipeline {
 
-/// Writes all bytes to a file descriptor, however many calls that takes. Returns 0, or the errno value of the
+/// Writes all bytes to a file descriptor, in as many calls as needed. Returns 0, or the errno value of the
 /// call that failed.
 int try_write_all(int descriptor, std::string_view bytes);
 
-/// The same; a failure is an IoError that names `path`.
+/// try_write_all, but a failure is an IoError that names `path`.
 void write_all(int descriptor, std::string_view bytes, const std::string& path);
 
 /// Buffers text and writes it in blocks of at most 64 KiB, the capacity of a pipe: larger blocks would make
@@ -21,11 +21,11 @@ class TextWriter {
  public:
   /// Writes to a file descriptor, which the caller keeps and closes; `file` names it in messages.
   TextWriter(int descriptor, std::string file);
-  /// Buffers all text and never writes it.
+  /// A writer that buffers all text and never writes it.
   TextWriter() = default;
 
   void append(std::string_view text);
-  /// Room for at least `size` characters; `commit` marks the end of those that were filled.
+  /// Room for at least `size` characters; `commit` marks the end of the filled ones.
   char* reserve(std::size_t size);
   void commit(const char* end);
   /// Writes the buffered text, unless this writer has no descriptor.
@@ -37,7 +37,7 @@ class TextWriter {
  private:
   void write(std::string_view text);
 
-  /// Leaves the elements of a vector that grows as they are: they are written before they are read.
+  /// Leaves a growing vector's new elements uninitialized: they are written before they are read.
   struct UninitializedAllocator : std::allocator<char> {
     template <typename U>
     struct rebind {

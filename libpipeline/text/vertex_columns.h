@@ -13,12 +13,12 @@
 
 namespace pipeline {
 
-// The columns of vertex lines after x y z, called attributes. One more needs a member of AttributeSet, of
-// VertexLine and of AttributeArrays, and a place in kAttributes, which has their order: all that reads,
-// prints, keeps, transforms or cuts vertices goes by these rows. The material, the triangle's, comes after
-// them.
+// The columns of vertex lines after x y z, called attributes. A new one needs a member of AttributeSet, of
+// VertexLine and of AttributeArrays, and a row in kAttributes, in the order of the columns: all code that
+// reads, prints, keeps, transforms or cuts vertices goes by these rows. The material, a triangle's only
+// attribute, comes after them.
 
-/// Which attributes a text has.
+/// The attributes of a text.
 struct AttributeSet {
   bool w = false;
   bool color = false;
@@ -29,7 +29,7 @@ struct AttributeSet {
   friend bool operator==(const AttributeSet&, const AttributeSet&) = default;
 };
 
-/// The values of a vertex line; those its text has no columns for are 0.
+/// The values of a vertex line; 0 where the text has no such column.
 struct VertexLine {
   Vec3 position;
   double w = 0;  // of clip space; see RangeOfW
@@ -40,31 +40,31 @@ struct VertexLine {
 /// A triangle in clip space, before the divide: w may be any number.
 using ClipTriangle = std::array<VertexLine, 3>;
 
-/// The vertex lines of a triangle. The material stands on each, but is the triangle's.
+/// The vertex lines of a triangle. Each line has the material, but it belongs to the triangle.
 struct TriangleLines {
   std::array<VertexLine, 3> vertices;
   std::uint32_t material = 0;
 };
 
-/// The attributes of a batch's triangles: each array is empty where the text has no such columns, otherwise
-/// as long as the batch.
+/// The attributes of a batch's triangles: an array is empty if the text has no such columns, else as long as
+/// the batch.
 struct AttributeArrays {
   std::vector<std::array<double, 3>> w;      // by vertex
   std::vector<std::array<Vec3, 3>> colors;   // by vertex: red, green, blue from 0 to 255
   std::vector<std::array<Vec3, 3>> normals;  // by vertex, in the space of the positions
   std::vector<std::uint32_t> materials;      // by triangle, as numbers from 0
 
-  /// Those whose arrays are not empty.
+  /// The attributes whose arrays are not empty.
   [[nodiscard]] AttributeSet names() const;
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count);
-  /// Makes the arrays that `attributes` names `count` triangles long.
+  /// Sets the length of the arrays for `attributes` to `count` triangles.
   void resize(std::size_t count, const AttributeSet& attributes);
-  /// Adds those values of a triangle's vertex lines that `attributes` names.
+  /// Adds the values of a triangle's vertex lines for the attributes in `attributes`.
   void add(const TriangleLines& lines, const AttributeSet& attributes);
-  /// Adds what `others` have of their triangle `index`.
+  /// Adds all attributes of triangle `index` of `others`.
   void add(const AttributeArrays& others, std::size_t index);
-  /// Copies what there is of triangle `index`.
+  /// Copies the existing attributes of triangle `index`.
   void copy(std::size_t index, ClipTriangle& vertices) const;
 };
 
@@ -76,9 +76,9 @@ struct VertexAttribute {
   Value VertexLine::*value;
   std::vector<std::array<Value, 3>> AttributeArrays::*array;
   std::string_view columns;                                                // as messages name them
-  std::array<std::string_view, std::is_same_v<Value, Vec3> ? 3 : 1> each;  // likewise
-  bool turns_as_normal = false;  // under transforms, which change no other
-  std::string_view range = {};   // likewise; empty if it is all numbers
+  std::array<std::string_view, std::is_same_v<Value, Vec3> ? 3 : 1> each;  // each column, as messages name it
+  bool turns_as_normal = false;  // under transforms, which change no other attribute
+  std::string_view range = {};   // as messages name it; empty if all numbers are allowed
   double least = -std::numeric_limits<double>::infinity();
   double greatest = std::numeric_limits<double>::infinity();
 
@@ -104,10 +104,10 @@ constexpr void for_each_attribute(Visit visit) {
   std::apply([&](const auto&... attributes) { (visit(attributes), ...); }, kAttributes);
 }
 
-/// Which of a triangle's coordinates have at most kExactDecimals (number_parser.h): bit 3 * vertex + axis.
+/// Bit 3 * vertex + axis is set for a coordinate with at most kExactDecimals (number_parser.h).
 using DecimalMarks = std::uint16_t;
 
-/// How many attributes have such values.
+/// The count of attributes whose values are of this type.
 template <typename Value, typename... All>
 constexpr std::size_t attribute_count(const std::tuple<VertexAttribute<All>...>&) {
   return (std::size_t{std::is_same_v<All, Value>} + ...);

@@ -28,16 +28,16 @@ inline const char* triangle_end(const char* p, TriangleFrame frame) {
   return *p == '\n' ? p + 1 : nullptr;
 }
 
-// Colors mostly repeat from vertex to vertex: three numbers with the text or the values of the last vertex
-// are copied. This is tried for the first group after the position, where colors stand, until it has failed
-// twice in a row in a block.
+// Colors mostly repeat from vertex to vertex: three numbers with the same text or values as at the last
+// vertex are copied. This is tried for the first group after the position, where colors are, until it has
+// failed twice in a row in a block.
 constexpr std::size_t kRepeatedGroup = 1;
 constexpr int kMaxMissesInARow = 2;
 
 /// Three numbers that were read, and their text up to the separator after them.
 class LastRead {
  public:
-  /// True if the same text stands at `p`; false where colors do not repeat.
+  /// True if the same text is at `p`; always false once colors have stopped repeating.
   [[nodiscard]] bool is_at(const char* p) {
     if (miss_count_ == kMaxMissesInARow) return false;
     // Texts that differ mostly do so in their first eight characters.
@@ -65,16 +65,16 @@ class LastRead {
 /// Three numbers that were printed, and their text with a blank after each.
 class LastPrinted {
  public:
-  /// True if these are the same numbers; false where colors do not repeat.
+  /// True if these are the same numbers; always false once colors have stopped repeating.
   [[nodiscard]] bool is_of(const Vec3& three) {
     return miss_count_ < kMaxMissesInARow && counted(length_ > 0 && three == numbers_);
   }
-  /// True if all vertices of the triangle have them.
+  /// True if all vertices of the triangle have these numbers.
   [[nodiscard]] bool is_of(const Triangle& triangle) {
     const auto& [a, b, c] = triangle;
     return miss_count_ < kMaxMissesInARow && counted(length_ > 0 && a == numbers_ && b == a && c == a);
   }
-  /// `out` is the end of the text; kMaxLength characters from its beginning are copied, whatever they are.
+  /// `out` is the end of the text; kMaxLength characters from `begin` on are copied, whatever they are.
   void set(const Vec3& printed, const char* begin, const char* out) {
     if (miss_count_ == kMaxMissesInARow) return;
     std::memcpy(text_.data(), begin, kMaxLength);
@@ -92,7 +92,7 @@ class LastPrinted {
     return repeats;
   }
 
-  static constexpr std::size_t kMaxLength = 64;  // more than three numbers of a sign, 16 digits and a point
+  static constexpr std::size_t kMaxLength = 64;  // more than three numbers with a sign, 16 digits and a point
 
   std::array<char, kMaxLength> text_{};
   std::size_t length_ = 0;  // 0: none yet
@@ -108,7 +108,7 @@ inline const char* read_w(const char* p, char separator, double& value) {
   return p == nullptr || *p != separator ? nullptr : p + 1;
 }
 
-/// Reads the material and the end of a line; null if the form differs, or from the triangle's first vertex.
+/// Reads the material and the end of a line; null if the form or the triangle's material differs.
 inline const char* read_material(const char* p, std::size_t vertex, std::uint32_t& material) {
   const std::uint64_t less_zeros = load_eight(p) - kEightZeros;
   const std::size_t count = leading_digit_count(less_zeros);
@@ -118,15 +118,14 @@ inline const char* read_material(const char* p, std::size_t vertex, std::uint32_
   return number == material ? p + count + 1 : nullptr;
 }
 
-/// Ends a line of which a blank was printed last: with its triangle's material, if there is such a column.
+/// Ends a line whose last character is a blank, with its triangle's material if there is such a column.
 inline char* write_line_end(char* out, std::span<const std::uint32_t> materials, std::size_t triangle) {
   if (!materials.empty()) out = std::to_chars(out, out + 10, materials[triangle]).ptr + 1;
   out[-1] = '\n';
   return out;
 }
 
-/// Numbers are read and printed as whole numbers of units of their last decimal; those printed are below
-/// this.
+/// The limit for printing: numbers are read and printed as whole numbers of units of their last decimal.
 constexpr double kUnitsLimit = 1e15;
 
 }  // namespace pipeline
