@@ -60,7 +60,7 @@ Ball with_relative_error(DoubleDouble value) {
   return Ball::with_error(value, std::fabs(value.hi) * kSeriesError);
 }
 
-/// For an angle in [-45, 45] degrees.
+/// sine_cosine_of_degrees for an angle in [-45, 45] degrees.
 SineCosine sine_cosine_of_reduced(DoubleDouble degrees) {
   if (degrees.hi == 0) return {0, 1, 0};
   if (std::fabs(degrees.hi) < kTinyDegrees) {

@@ -17,7 +17,7 @@ constexpr double kTinyDegrees = 0x1p-200;
 
 Ball to_radians(const Ball& degrees);
 
-/// Treats `degrees` as exact. The angle is reduced in degrees, which is exact, before it is converted to
+/// Takes `degrees` as exact. The angle is reduced in degrees, which is exact, before it is converted to
 /// radians, so 1e22 degrees are as accurate as 1; multiples of 30 and 90 degrees come out exact where the
 /// value is rational (I. Niven, "Irrational Numbers", 1956: 0, 1/2, 1 are the only rational sines of rational
 /// degrees). No libm function is used, so every system gives the same bits.

@@ -28,7 +28,7 @@ Ball Ball::with_error(DoubleDouble value, double error, std::int64_t exponent) {
   return normalized(value, error, exponent);
 }
 
-/// The larger of the midpoint and the error sets the exponent.
+/// The general case; the larger of the midpoint and the error sets the exponent.
 Ball Ball::normalized_anew(DoubleDouble value, double error, std::int64_t exponent) {
   const double leading = std::max(std::fabs(value.hi), error);
   if (leading == 0) return {};
@@ -62,7 +62,7 @@ Ball Ball::add_across_ranges(const Ball& a, const Ball& b) {
   const Ball& small = a_is_larger ? b : a;
   const int large_shift = -std::ilogb(std::fabs(large.value_.hi) + large.error_);
   const DoubleDouble large_value = scaled(large.value_, large_shift);
-  // Far below the last bit of the midpoint, and above anything that scaling cuts off.
+  // Far below the last bit of the midpoint, and more than scaling can cut off.
   constexpr double kCut = 0x1p-500;
   double large_error = std::ldexp(large.error_, large_shift);
   if (may_be_cut(large.value_.lo, large_value.lo)) large_error += kCut;
@@ -110,7 +110,7 @@ Ball sqrt(const Ball& a) {
 Ball Ball::with_error_at_most(double bound) const {
   if (error_ == 0) return *this;
   const auto shift = static_cast<int>(std::clamp<std::int64_t>(-exponent_, -3000, 3000));
-  // Never 0, even where the bound underflows: the ball is not exact.
+  // `least` keeps the error above 0 even if the bound underflows: the ball is not exact.
   const double least = std::max(std::fabs(value_.hi), error_) * 0x1p-150;
   const double limit = (exponent_ == 0 ? bound : std::ldexp(bound, shift)) + least;
   return limit < error_ ? normalized(value_, limit, exponent_) : *this;

@@ -30,16 +30,16 @@ class Ball {
     return add_parts(a.value_, a.error_, b.value_, b.error_, 0);
   }
   friend Ball operator*(const Ball& a, const Ball& b);
-  /// `b` must not contain 0.
+  /// The quotient; `b` must not contain 0.
   friend Ball operator/(const Ball& a, const Ball& b);
-  /// `a` must not be certainly negative; the root of a ball that contains 0 is [0, root of its upper end].
+  /// `a` must not be certainly negative; if it contains 0, the root is [0, root of its upper end].
   friend Ball sqrt(const Ball& a);
   friend Ball operator-(const Ball& a);
   friend Ball operator-(const Ball& a, const Ball& b) { return a + -b; }
-  /// The same representation: equal midpoints and equal errors.
+  /// True if midpoints and errors are equal.
   friend bool operator==(const Ball& a, const Ball& b) = default;
 
-  /// The same midpoint with an error of at most `bound`, which the caller has proved.
+  /// The ball with its error reduced to at most `bound`, which the caller has proved.
   [[nodiscard]] Ball with_error_at_most(double bound) const;
   /// An upper bound on |x| for every x in the ball; infinite beyond a double's range.
   [[nodiscard]] double magnitude() const { return scaled_up(std::fabs(value_.hi) + error_); }
@@ -74,7 +74,7 @@ class Ball {
   Ball(DoubleDouble value, double error, std::int64_t exponent)
       : value_(value), error_(error), exponent_(exponent) {}
 
-  /// Chooses the exponent that the class guarantees.
+  /// The ball with an exponent as the class guarantees it.
   static Ball normalized(DoubleDouble value, double error, std::int64_t exponent) {
     const double size = std::fabs(value.hi);
     if (exponent == 0 && size <= kSafeMax && size >= kSafeMin && error <= size) return {value, error, 0};

@@ -14,15 +14,15 @@ constexpr std::array<Number, kCount> powers_of_ten() {
   for (std::size_t n = 1; n < kCount; ++n) powers[n] = 10 * powers[n - 1];
   return powers;
 }
-/// 10^n for every n for which a double holds it exactly, and for which it fits in 64 bits.
+/// 10^n for every n such that 10^n is exact in a double, and such that it fits in 64 bits.
 constexpr auto kPowersOfTen = powers_of_ten<double, 23>();
 constexpr auto kWholePowersOfTen = powers_of_ten<std::uint64_t, 20>();
 
 // Rounding to n decimals. Such a decimal is a whole number of units of 10^-n, so a number is scaled by 10^n
 // and rounded to a whole number. The scaled number is rounded to a double; the result is accepted only if
 // that rounding cannot change it, otherwise the caller computes it exactly (A. Ziv, "Fast evaluation of
-// elementary mathematical functions with correctly rounded last bit", ACM TOMS 17(3), 1991). Kernels written
-// on vectors repeat these formulas lane by lane, with these constants.
+// elementary mathematical functions with correctly rounded last bit", ACM TOMS 17(3), 1991). Vector kernels
+// repeat these formulas lane by lane, with these constants.
 
 /// Doubles from 2^52 to 2^53 are whole numbers: adding this number and subtracting it again rounds to a whole
 /// number.
@@ -33,15 +33,15 @@ constexpr double kWholeRounder = 0x1.8p52;
   return (value + kWholeRounder) - kWholeRounder;
 }
 
-/// Half the distance of the doubles from 1 to 2.
+/// Half the distance between neighboring doubles from 1 to 2.
 constexpr double kUnitRoundoff = 0x1p-53;
 
-/// More than a product of two doubles can be off by, in parts of itself. (For this and the next constant:
+/// An upper bound on the relative error of a product of two doubles. (Proved, like the next constant, in
 /// tests/proofs/rounding_test.g.)
 constexpr double kProductError = 0x1p-52;
 
-/// A number whose distance from a whole number stays below this rounds to it, whatever the few sums that make
-/// up such a distance lose.
+/// A number at a smaller distance from a whole number rounds to it, despite the rounding errors of the few
+/// sums that make up such a distance.
 constexpr double kBelowHalf = 0.5 - 0x1p-40;
 
 /// The absolute value of a number in units of its last decimal. Always inlined, so that each kernel's loops

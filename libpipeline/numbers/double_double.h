@@ -17,8 +17,8 @@ struct DoubleDouble {
   friend bool operator==(const DoubleDouble&, const DoubleDouble&) = default;
 };
 
-/// a + b exactly (Knuth's 2Sum). Forced inline: left to GCC 12, the scalar vertex loops spill registers and
-/// take 1.5 % more instructions in all.
+/// a + b exactly (Knuth's 2Sum). Forced inline: if GCC 12 decides, the scalar vertex loops spill registers
+/// and take 1.5 % more instructions.
 inline __attribute__((always_inline)) DoubleDouble two_sum(double a, double b) {
   const double sum = a + b;
   const double b_part = sum - a;
@@ -38,7 +38,7 @@ inline DoubleDouble two_product(double a, double b) {
   return {product, std::fma(a, b, -product)};
 }
 
-/// Within 3 u^2 (algorithm AccurateDWPlusDW).
+/// The sum within 3 u^2 (algorithm AccurateDWPlusDW).
 inline DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
   const DoubleDouble high = two_sum(a.hi, b.hi);
   const DoubleDouble low = two_sum(a.lo, b.lo);
@@ -53,20 +53,20 @@ inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) {
   return a + -b;
 }
 
-/// Within 5 u^2 (algorithm DWTimesDW2).
+/// The product within 5 u^2 (algorithm DWTimesDW2).
 inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
   const DoubleDouble high = two_product(a.hi, b.hi);
   const double cross = std::fma(a.lo, b.hi, a.hi * b.lo);
   return fast_two_sum(high.hi, high.lo + cross);
 }
 
-/// Within 2 u^2 (algorithm DWTimesFP3).
+/// The product within 2 u^2 (algorithm DWTimesFP3).
 inline DoubleDouble operator*(DoubleDouble a, double b) {
   const DoubleDouble high = two_product(a.hi, b);
   return fast_two_sum(high.hi, std::fma(a.lo, b, high.lo));
 }
 
-/// Within 16 u^2: one correction of a double quotient (15 u^2, algorithm DWDivDW2).
+/// The quotient within 16 u^2: one correction of a double quotient (15 u^2, algorithm DWDivDW2).
 inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   const double quotient = a.hi / b.hi;
   const DoubleDouble back = b * quotient;
@@ -74,9 +74,9 @@ inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   return fast_two_sum(quotient, rest / b.hi);
 }
 
-/// Within 4 u^2: one Newton step on the double root (algorithm SQRTDWtoDW: V. Lefevre, N. Louvet,
-/// J.-M. Muller, J. Picot, L. Rideau, "Accurate calculation of Euclidean norms", ACM TOMS 49(1), 2023).
-/// `a` must not be negative.
+/// The root within 4 u^2: one Newton step on the double root (algorithm SQRTDWtoDW: V. Lefevre, N. Louvet,
+/// J.-M. Muller, J. Picot, L. Rideau, "Accurate calculation of Euclidean norms", ACM TOMS 49(1), 2023). `a`
+/// must not be negative.
 inline DoubleDouble sqrt(DoubleDouble a) {
   if (a.hi == 0) return {0, 0};
   const double root = std::sqrt(a.hi);

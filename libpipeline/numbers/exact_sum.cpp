@@ -8,14 +8,14 @@ namespace {
 
 constexpr std::size_t kMaxProducts = 18;
 
-/// A product of four doubles is significand * 2^exponent; an exponent is from 4 (-1073 - 53), where the
-/// least double is 1/2 * 2^-1073, to 4 (1024 - 53).
+/// A product of four doubles as significand * 2^exponent; the exponent is from 4 (-1073 - 53), as the least
+/// double is 1/2 * 2^-1073, to 4 (1024 - 53).
 struct WholeProduct {
   FixedInt<4> significand;
   int exponent;
 };
 constexpr int kLeastExponent = -4504, kLargestExponent = 3884;
-// With room for the 212 bits of a significand, and for 18 of them.
+// Both have room for a sum of 18 significands of 212 bits.
 using UsualSum = FixedInt<8>;
 using LargestSum = FixedInt<136>;
 constexpr int kUsualRange = 280;

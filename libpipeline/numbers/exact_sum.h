@@ -17,11 +17,11 @@ struct ExactProduct {
   double a, b, c = 1, d = 1;
 };
 
-/// value * 2^exponent, rounded once: the error is at most 2^-102 of it, and 0 stays exactly 0.
+/// value * 2^exponent, rounded once: the relative error is at most 2^-102, and 0 stays exactly 0.
 template <std::size_t Limbs>
 Ball to_ball(const FixedInt<Limbs>& value, int exponent) {
   const int length = bit_length(value);
-  // Twice 52 bits of it, each of which a double holds.
+  // Two parts of 52 bits, each exact in a double.
   const int high_shift = std::max(length - 52, 0), low_shift = std::max(length - 104, 0);
   const std::int64_t high = cut(value, high_shift);
   const FixedInt<Limbs> rest = value - (FixedInt<Limbs>(high) << high_shift);
@@ -30,8 +30,8 @@ Ball to_ball(const FixedInt<Limbs>& value, int exponent) {
                           exponent + high_shift);
 }
 
-/// The sum of products, rounded once: the error is at most 2^-100 of the sum, and a sum of 0 is exactly 0. At
-/// most 18 products. Slow: for signs and digits that balls cannot tell.
+/// The sum of products, rounded once: the error is at most 2^-100 of the sum, and a sum of 0 is exactly 0.
+/// Takes at most 18 products. Slow: for signs and digits that balls cannot decide.
 Ball exact_sum(std::span<const ExactProduct> products);
 inline Ball exact_sum(std::initializer_list<ExactProduct> products) {
   return exact_sum(std::span(products.begin(), products.size()));

@@ -48,14 +48,14 @@ class FixedInt {
     // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the type has 128 bits
     limbs_[1] = static_cast<std::uint64_t>(value >> 64);
   }
-  /// The same number in fewer limbs, if it fits.
+  /// The number of `other` in fewer limbs, if it fits.
   template <std::size_t OtherLimbs>
   explicit FixedInt(const FixedInt<OtherLimbs>& other) {
     for (std::size_t i = 0; i < Limbs; ++i) limbs_[i] = other.limb(i);
   }
 
   [[nodiscard]] bool is_negative() const { return (limbs_[Limbs - 1] >> 63) != 0; }
-  /// 64 of its bits; beyond the last limb, copies of the sign bit.
+  /// The 64 bits of a limb; beyond the last one, copies of the sign bit.
   [[nodiscard]] std::uint64_t limb(std::size_t index) const {
     return index < Limbs ? limbs_[index] : is_negative() ? ~std::uint64_t{0} : 0;
   }
@@ -154,8 +154,8 @@ double to_double(const FixedInt<Limbs>& value, int exponent) {
   return shift > -1000 && shift < 1000 ? kept * power_of_two(shift) : std::ldexp(kept, shift);
 }
 
-// The operations that exact geometry needs of an integer type besides + - * and comparisons: bit_length,
-// to_double and cut, under the same names for 64 bits, 128 bits and a FixedInt.
+// Besides + - * and comparisons, exact geometry needs bit_length, to_double and cut of an integer type; they
+// have the same names for 64 bits, 128 bits and a FixedInt.
 
 inline int bit_length(Int128 value) {
   return bit_length(static_cast<UInt128>(value < 0 ? ~value : value));
@@ -202,7 +202,7 @@ class Divisor {
  private:
   static constexpr bool kMayBeHuge = !std::is_same_v<Int, std::int64_t> && !std::is_same_v<Int, Int128>;
 
-  /// number / 2^exponent_ as a double; infinity where that is too large, which does no harm.
+  /// number / 2^exponent_ as a double; infinite if that is too large, which does no harm.
   [[nodiscard]] double in_range(const Int& number) const {
     if constexpr (kMayBeHuge) return to_double(number, exponent_);
     if constexpr (std::is_same_v<Int, Int128>) return to_double(number);

@@ -15,11 +15,11 @@ PIPELINE_BEGIN_KERNELS();
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The vocabulary of all kernels: as many doubles at a time as a vector of the processor has, and the vectors
-// of numbers/vec_math.h and the pairs of numbers/double_double.h made of them. Every kernel does the same
-// operations in the same order in each lane.
+// The types of all kernels: the doubles in a vector register, and made of them the vectors of
+// numbers/vec_math.h and the pairs of numbers/double_double.h. Every kernel does the same operations in the
+// same order in each lane.
 
-// A source may limit them.
+// A source may limit the count of lanes.
 #ifndef PIPELINE_MAX_LANES
 #define PIPELINE_MAX_LANES 8
 #endif
@@ -35,7 +35,7 @@ HWY_INLINE Doubles choose(Mask mask, Doubles yes, Doubles no) {
   return hn::IfThenElse(mask, yes, no);
 }
 
-/// A bit for each lane, of at most sixteen.
+/// One bit per lane; at most sixteen lanes.
 template <typename Lanes>
 HWY_INLINE unsigned bits_of(Lanes lanes, hn::Mask<Lanes> mask) {
   std::array<std::uint8_t, 8> bytes;
@@ -59,7 +59,7 @@ HWY_INLINE double number_in(Doubles value, std::size_t lane) {
   return numbers_of(value)[lane];
 }
 
-/// A vector in each lane.
+/// A Vec3 in each lane.
 struct Vectors {
   Doubles x;
   Doubles y;
@@ -93,20 +93,20 @@ HWY_INLINE Doubles dot(const Vectors& a, const Vectors& b) {
 
 /// The largest magnitude in each lane.
 HWY_INLINE Doubles largest_in(const Vectors& v) {
-#if HWY_TARGET == HWY_SCALAR  // without what Highway does about NaN
+#if HWY_TARGET == HWY_SCALAR  // without Highway's treatment of NaN
   return all(std::max(std::max(std::fabs(v.x.raw), std::fabs(v.y.raw)), std::fabs(v.z.raw)));
 #else
   return hn::Max(hn::Max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 #endif
 }
 
-/// As in numbers/vec_math.h, but NaN for 0: no comparison accepts that.
+/// The unit vector as in numbers/vec_math.h, but NaN for 0: no comparison accepts NaN.
 HWY_INLINE Vectors unit(const Vectors& v) {
   const Vectors near_1 = v / largest_in(v);
   return near_1 / hn::Sqrt(dot(near_1, near_1));
 }
 
-/// A DoubleDouble in each lane. Every kernel calculates the same: the error of a product is exact, with or
+/// A DoubleDouble in each lane. Every kernel gets the same bits: the error of a product is exact, with or
 /// without fused operations.
 struct Pairs {
   Doubles hi;
@@ -142,7 +142,7 @@ HWY_INLINE Pairs two_product(Doubles a, Doubles b) {
 #endif
 }
 
-// Within 2^-103 of |a| + |b|, and of a product or quotient within 2^-101.
+// Errors: a sum is within 2^-103 (|a| + |b|), a product or quotient within 2^-101 of itself.
 HWY_INLINE Pairs operator+(const Pairs& a, const Pairs& b) {
   const Pairs high = two_sum(a.hi, b.hi);
   return fast_two_sum(high.hi, high.lo + (a.lo + b.lo));

@@ -12,10 +12,10 @@ namespace {
 constexpr int kMinExponent = -40 - 52;
 constexpr int kMaxExponent = 0;
 
-// They need the powers from 10^0 to 10^28.
+// These exponents need the powers from 10^0 to 10^28.
 constexpr int kMaxPower = 28;
 
-/// 10^n = factor * 2^(log2 - 127) except the last bit: the factor has 128 bits and is rounded up even where
+/// 10^n = factor * 2^(log2 - 127) but for the last bit: the factor has 128 bits and is rounded up even where
 /// it is exact, as the algorithm requires.
 struct PowerOfTen {
   std::uint64_t high = 0;
@@ -66,8 +66,8 @@ struct ScaledDouble {
         shift(exponent + power.log2 + 1) {}
 };
 
-/// Decides by one product whose fraction has 64 bits, instead of three. False where that is too close to one
-/// of the borders.
+/// Decides by one product, with a fraction of 64 bits, instead of three. False if it is too close to a
+/// border.
 bool decide_by_fraction(const ScaledDouble& value, Decimal& decimal) {
   const std::uint64_t factor = value.significand << value.shift;
   const UInt128 low = static_cast<UInt128>(value.power.low) * factor;

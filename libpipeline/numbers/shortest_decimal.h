@@ -10,9 +10,9 @@ struct Decimal {
   int exponent = 0;
 };
 
-/// The shortest decimal that reads back to `value`, and the nearest of those, as to_chars prints it; zeros
-/// may stand at its end. By Schubfach (R. Giulietti, "The Schubfach way to render doubles", 2020), for the
-/// magnitudes of coordinates: false unless 2^-40 <= value < 2^53.
+/// Finds the shortest decimal that reads back to `value`, the nearest if there are several, as to_chars
+/// prints it; it may have trailing zeros. By Schubfach (R. Giulietti, "The Schubfach way to render doubles",
+/// 2020), for values of usual coordinates: false unless 2^-40 <= value < 2^53.
 bool shortest_decimal(double value, Decimal& decimal);
 
 }  // namespace pipeline

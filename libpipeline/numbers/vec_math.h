@@ -23,7 +23,7 @@ inline Vec3 difference(const Vec3& a, const Vec3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-/// By coordinate.
+/// The product of each coordinate.
 inline Vec3 product(const Vec3& a, const Vec3& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
@@ -45,13 +45,13 @@ inline double largest_in(const Vec3& v) {
 inline Vec3 unit_vector(const Vec3& v) {
   const double largest = largest_in(v);
   if (largest == 0) return {};
-  // Scaled first, so that no square over- or underflows.
+  // Scaled first, so that no square overflows and the largest does not underflow.
   const Vec3 near_1 = {v.x / largest, v.y / largest, v.z / largest};
   const double length = std::sqrt(dot(near_1, near_1));
   return {near_1.x / length, near_1.y / length, near_1.z / length};
 }
 
-/// The normal of a triangle's plane, of any length, on the side from where it is counterclockwise.
+/// The normal of a triangle's plane, of any length, on the side from which the triangle is counterclockwise.
 inline Vec3 face_normal(const Triangle& p) {
   return cross(difference(p[1], p[0]), difference(p[2], p[0]));
 }

@@ -6,8 +6,8 @@
 
 #ifndef PIPELINE_VECTOR_TARGETS
 #define PIPELINE_VECTOR_TARGETS
-// Targets of kernel_choice.h: all of them in packages, and where the tests compare them. A source may define
-// fewer.
+// The targets of kernel_choice.h: all of them in packages and where the tests compare them. A source may
+// define fewer.
 #ifdef PIPELINE_ALL_KERNELS
 #define PIPELINE_MORE_TARGETS (HWY_SSE4 | HWY_AVX3)
 #else
@@ -18,18 +18,18 @@
 #endif
 #define HWY_DISABLED_TARGETS (~PIPELINE_TARGETS)
 #define HWY_COMPILE_ALL_ATTAINABLE
-// Scalar code, not vectors of 128 bits emulated, with every compiler.
+// Scalar code with every compiler, not emulated vectors of 128 bits.
 #define HWY_BROKEN_EMU128 1
 // No kernel uses these, so no processor needs them.
 #define HWY_DISABLE_PCLMUL_AES
 #define HWY_DISABLE_F16C
 // On Arm, nothing is chosen at run time: every processor of 64 bits has NEON.
 #define TOOLCHAIN_MISS_SYS_AUXV_H
-// Its assertions, in builds without optimization or with sanitizers, would call a library that is not linked.
+// Highway's assertions, in unoptimized or sanitizer builds, would call a library that is not linked.
 #define HWY_IS_DEBUG_BUILD 0
 
-// For a function that is copied to many callers. With sanitizers, whose checks make each copy many times as
-// long, builds leave the choice to the compiler.
+// For a function that is copied to many callers. Builds with sanitizers, whose checks make each copy many
+// times as long, leave the choice to the compiler.
 #ifndef PIPELINE_INLINE
 #define PIPELINE_INLINE HWY_INLINE
 #endif
