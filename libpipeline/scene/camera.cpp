@@ -26,12 +26,12 @@ double number_other_than(double other, std::string_view other_name, LineScanner&
   return number_where(line, {name}, condition, [&](double value) { return value != other; });
 }
 
-/// The last number of every projection.
+/// Takes `far`, the last number of every projection.
 double far_beyond(double near, LineScanner& line) {
   return number_where(line, {"far"}, "beyond near", [&](double value) { return value > near; });
 }
 
-/// Takes the optional word after a perspective's numbers, to the end of the line.
+/// Takes the optional aspect rule after a perspective's numbers, to the end of the line.
 AspectRule read_aspect_rule(LineScanner& line) {
   if (line.at_end()) return AspectRule::angle;
   constexpr std::array<std::string_view, 2> kRules = {"ratio", "angle"};

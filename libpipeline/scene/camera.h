@@ -10,8 +10,8 @@
 
 namespace pipeline {
 
-/// How the aspect determines the horizontal field of view: by `angle`, the course's fovX = fovY * aspect, or
-/// by `ratio`, gluPerspective's tan(fovX / 2) = tan(fovY / 2) * aspect.
+/// The rule for the horizontal field of view: `angle`, the course's fovX = fovY * aspect, or `ratio`,
+/// gluPerspective's tan(fovX / 2) = tan(fovY / 2) * aspect.
 enum class AspectRule { angle, ratio };
 
 /// gluPerspective's parameters. `near` and `far` are distances from the eye along the view direction,
@@ -47,9 +47,9 @@ struct CameraParameters {
   std::optional<Located<Projection>> projection;
 };
 
-/// Reads the numbers after the keyword `perspective`, `frustum` or `ortho`, to the end of the line. Those of
-/// a perspective may be followed by the name of its aspect rule. An InputError at the number that is missing
-/// or breaks a condition of its struct above.
+/// Reads the numbers after the keyword `perspective`, `frustum` or `ortho`, to the end of the line. A
+/// perspective's numbers may be followed by the name of its aspect rule. An InputError at a number that is
+/// missing or breaks a condition of its struct above.
 Projection read_projection(std::string_view keyword, LineScanner& line);
 
 /// Reads the numbers after the keyword `eye`, `look`, `up`, `perspective`, `frustum` or `ortho`, to the end
@@ -64,11 +64,11 @@ CameraParameters without_position(const CameraParameters& camera);
 /// True if up x (look - eye) is 0 as far as 31 digits can tell.
 bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up);
 
-/// Checks the parts that are given: an InputError at `look` if it equals the eye, and at `up` if that is 0 or
+/// Checks the parts that are given: an InputError at `look` if it equals the eye, and at `up` if it is 0 or
 /// parallel to the view direction.
 void check_camera(const CameraParameters& camera);
 
-/// `preferred`, with the parts it lacks taken from `otherwise`.
+/// `preferred`, with its missing parts taken from `otherwise`.
 CameraParameters merged(const CameraParameters& preferred, const CameraParameters& otherwise);
 
 }  // namespace pipeline

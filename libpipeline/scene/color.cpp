@@ -9,9 +9,9 @@ constexpr std::uint32_t kFirstState = 1;
 constexpr std::uint32_t kMultiplier = 214013;
 constexpr std::uint32_t kIncrement = 2531011;
 
-/// The state after `steps` steps. A step is an affine map, and so is the composition of two, so the loop
-/// doubles the stride at each bit of `steps` (F. Brown, "Random number generation with arbitrary strides",
-/// 1994). The states repeat after 2^32 steps.
+/// The state after `steps` steps. A step is an affine map, as is the composition of two, so the loop doubles
+/// the stride at each bit of `steps` (F. Brown, "Random number generation with arbitrary strides", 1994). The
+/// states repeat after 2^32 steps.
 std::uint32_t state_after(std::uint64_t steps) {
   std::uint32_t state = kFirstState;
   std::uint32_t multiplier = kMultiplier;

@@ -9,7 +9,7 @@
 namespace pipeline {
 
 /// A color with 8 bits per channel, packed as 0x00RRGGBB. For a transparent background, the upper byte holds
-/// 255 less its alpha.
+/// 255 - alpha.
 class Color {
  public:
   constexpr Color() = default;  // black
@@ -22,12 +22,12 @@ class Color {
     return color;
   }
 
-  /// The same color with this alpha: 255 is opaque, 0 invisible.
+  /// The color with another alpha: 255 is opaque, 0 invisible.
   [[nodiscard]] constexpr Color with_alpha(std::uint8_t alpha) const {
     return from_rgb((rgb_ & 0xffffff) | std::uint32_t{255u - alpha} << 24);
   }
 
-  /// All bytes; of an opaque color only its channels.
+  /// All four bytes; the upper one is 0 if the color is opaque.
   [[nodiscard]] constexpr std::uint32_t rgb() const { return rgb_; }
   [[nodiscard]] constexpr std::uint8_t red() const { return static_cast<std::uint8_t>(rgb_ >> 16); }
   [[nodiscard]] constexpr std::uint8_t green() const { return static_cast<std::uint8_t>(rgb_ >> 8); }
@@ -47,8 +47,8 @@ inline Vec3 to_vec3(Color color) {
           static_cast<double>(color.blue())};
 }
 
-/// The color of six hexadecimal digits, RRGGBB, or of eight, RRGGBBAA with an alpha, in upper or lower case,
-/// perhaps after 0x; nullopt for any other word.
+/// The color written as six hexadecimal digits, RRGGBB, or with an alpha as eight, RRGGBBAA, in upper or
+/// lower case, perhaps after 0x; nullopt for any other word.
 std::optional<Color> parse_color(std::string_view word);
 
 /// The colors of triangles that have none of their own, from the random numbers of the course's handouts

@@ -20,8 +20,8 @@ bool is_size(std::uint64_t size) {
   return size >= 1 && size <= kMaxViewportSize;
 }
 
-// The readers below take a word from a copy of the line, so that the line itself can report the word when it
-// is out of range.
+// The readers below take a word from a copy of the line, so that the line itself can report a word that is
+// out of range.
 
 int read_size(LineScanner& line, const std::string& name) {
   const std::string expected = "the " + name + " in pixels, a whole number from 1 to 65535";

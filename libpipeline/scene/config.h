@@ -8,13 +8,13 @@
 
 namespace pipeline {
 
-/// Reads config.txt: a line `columns rows`, alone (then the limits are -1, -1 and z in [-1, 1]) or followed
-/// by a line `left`, a line `bottom` and a line `front rear`. Sizes are whole numbers from 1 to
-/// kMaxViewportSize, left and bottom lie in [-kMaxLimit, -kMinLimit], front < rear. An InputError at the
-/// location of anything that is wrong, missing or left over.
+/// Reads config.txt: a line `columns rows`, alone (left and bottom are then -1, and z lies in [-1, 1]) or
+/// followed by a line `left`, a line `bottom` and a line `front rear`. Sizes are whole numbers from 1 to
+/// kMaxViewportSize, left and bottom lie in [-kMaxLimit, -kMinLimit], front < rear. An InputError at anything
+/// that is wrong, missing or left over.
 Viewport read_config(TextReader& text);
 
-/// The viewport of a config that is `WIDTHxHEIGHT` in one word, without limits; nullopt for any other word.
+/// The viewport of a config given as one word, `WIDTHxHEIGHT`; nullopt for any other word.
 std::optional<Viewport> parse_size(std::string_view word);
 
 }  // namespace pipeline

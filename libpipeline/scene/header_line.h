@@ -10,7 +10,7 @@ namespace pipeline {
 
 // The parts that the readers of scenes, headers and vertex lines share.
 
-/// A value read from the input, and where it stood.
+/// A value read from the input, and its location there.
 template <typename T>
 struct Located {
   T value;

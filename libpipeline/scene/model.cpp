@@ -12,10 +12,9 @@
 namespace pipeline {
 namespace {
 
-/// Far from the origin, the steps of floats, which a scene's coordinates are, show in a model's surface.
+/// Notes a model so far from the origin that the steps between floats, its scene's coordinates, show.
 void note_coarse_coordinates(Model& model) {
-  constexpr double kFineEnough =
-      1e-4;  // of the model's extent: a tenth of a pixel in a picture of a thousand
+  constexpr double kFineEnough = 1e-4;  // of the model's extent: a tenth of a pixel if it has 1000
   BoundingBox box;
   for (const Vec3& p : model.points) box.add(Triangle{p, p, p});
   const double extent = largest_in(difference(box.high, box.low));
@@ -120,21 +119,21 @@ void scale_colors(Model& model, std::span<Floats> colors, double full, bool is_l
 
 double scene_channel(double channel, bool is_linear) {
   double value = fraction(channel);
-  // The sRGB value of a linear one (IEC 61966-2-1).
+  // Converts linear to sRGB (IEC 61966-2-1).
   if (is_linear) value = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-  // A thousandth of a level is finer than any file, and hides that 77 / 255 is no float.
+  // A thousandth of a level is finer than any file's steps, and hides that 77 / 255 is not a float.
   return std::round(1000 * 255 * value) / 1000;
 }
 
 void complete(Model& model) {
   note_coarse_coordinates(model);
-  // A scene's intensity is 1 at most where it is full; a file may count in candela.
+  // In a scene, full intensity is 1; a file may count in candela.
   double brightest = 1;
   for (const ModelLight& light : model.lights) brightest = std::max(brightest, largest_in(light.intensity));
   for (ModelLight& light : model.lights) light.intensity = scaled(light.intensity, 1 / brightest);
   place(model, model.root, {});
   if (model.placed.empty()) model.fail("a model with triangles", "none");
-  constexpr std::uint64_t kMost = 1'000'000'000;  // nodes in nodes may double them endlessly
+  constexpr std::uint64_t kMost = 1'000'000'000;  // nested nodes may double it endlessly
   if (model.triangle_count() > kMost)
     model.fail("at most " + counted(kMost, "triangle"), std::to_string(model.triangle_count()));
   check_positions(model);

@@ -25,7 +25,7 @@ struct NodeMatrix {
   [[nodiscard]] Vec3 direction(const Vec3& v) const {
     return sum(sum(scaled(x, v.x), scaled(y, v.y)), scaled(z, v.z));
   }
-  /// The image of a normal, of any length, as a plane's: by the matrix of cofactors.
+  /// The image of a plane's normal, of any length, by the matrix of cofactors.
   [[nodiscard]] Vec3 normal(const Vec3& n) const;
   [[nodiscard]] bool mirrors() const { return dot(x, cross(y, z)) < 0; }
 };
@@ -38,7 +38,7 @@ using Floats = std::array<float, 3>;
 inline Floats floats(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
-/// The color of a point without one.
+/// Stands for a missing color.
 constexpr Floats kNoColor = {NAN, NAN, NAN};
 
 /// A color from 0 to 255, and the factors of a line `material`.
@@ -54,7 +54,7 @@ struct ModelMesh {
   std::vector<Floats> normals{};         // for each corner; empty where the file gives none
   std::optional<std::size_t> material{};
   bool has_colors = false;  // in the model's colors
-  std::size_t surface = 1;  // normals that are made smooth those of one number together; 0 stays flat
+  std::size_t surface = 1;  // meshes of one number are smoothed together; 0 stays flat
 };
 
 /// A node's scaling, then rotation by a unit quaternion, then translation.
@@ -68,7 +68,7 @@ struct NodeSteps {
 /// A node's meshes, by their indices, and the nodes below it.
 struct ModelNode {
   NodeMatrix parent_from_node;
-  std::optional<NodeSteps> steps;  // where the file gives them, and none flattens
+  std::optional<NodeSteps> steps;  // if the file gives them, and none flattens
   std::vector<std::size_t> meshes;
   std::vector<ModelNode> children;
 };
@@ -81,14 +81,14 @@ struct ModelCamera {
   double distance = 0;       // from the eye to `look`, the middle of the model in depth
 };
 
-/// The intensity is 1 for full.
+/// A point light, or one from afar.
 struct ModelLight {
-  Vec3 position;  // of a light from afar: the direction in which it shines
+  Vec3 position;  // if is_far, the direction in which it shines
   Vec3 intensity;
   bool is_far = false;
 };
 
-/// A mesh where it stands in the model.
+/// A mesh, and its place in the model.
 struct PlacedMesh {
   const ModelMesh* mesh;
   const Vec3* points;
@@ -98,7 +98,7 @@ struct PlacedMesh {
   /// A point in the model's space.
   [[nodiscard]] Vec3 position(std::uint32_t index) const {
     const Vec3& v = points[index];
-    // In place, a zero without a sign, as the product's.
+    // Adding 0 removes a zero's sign, as the product does.
     return is_in_place ? Vec3{v.x + 0.0, v.y + 0.0, v.z + 0.0} : model_from_mesh.point(v);
   }
 };
@@ -108,7 +108,7 @@ struct Model {
   std::string name;    // of the file, for messages
   std::string format;  // "OBJ"
   std::vector<Vec3> points;
-  std::vector<Floats> colors;  // of points, from 0 to 255; may end before them
+  std::vector<Floats> colors;  // of points, from 0 to 255; may be fewer than these
   std::vector<ModelMaterial> materials;
   std::vector<ModelMesh> meshes;
   ModelNode root;
@@ -116,12 +116,12 @@ struct Model {
   std::vector<ModelLight> lights;
   std::set<std::string> unheld;  // parts of the file that no scene can hold: "textures", "bones"
   std::vector<std::string> notes;
-  std::vector<PlacedMesh> placed;  // meshes with triangles, as often as nodes show them
+  std::vector<PlacedMesh> placed;  // meshes with triangles, once for each node with them
 
-  /// A std::runtime_error "expected ..., found ...".
+  /// Throws a std::runtime_error "expected ..., found ...".
   [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
   void note(const std::string& message) { notes.push_back(name + ": " + message); }
-  /// A mesh that is shown where it is.
+  /// Adds an empty mesh to the root node.
   ModelMesh& add_mesh(const std::string& mesh_name);
 
   [[nodiscard]] std::uint64_t triangle_count() const;
@@ -129,7 +129,7 @@ struct Model {
     return point < colors.size() ? colors[point] : kNoColor;
   }
   [[nodiscard]] bool has_vertex_colors() const;
-  /// True if all that is shown has the color black.
+  /// True if all shown meshes are black.
   [[nodiscard]] bool is_black() const;
   [[nodiscard]] ModelMaterial material(const ModelMesh& mesh) const {
     return mesh.material ? materials[*mesh.material] : ModelMaterial();
@@ -142,25 +142,25 @@ struct Model {
   }
 };
 
-/// A color as a file gives it, with -1 for a channel that is no number.
+/// A color as a file gives it, with -1 for a channel that is not a number.
 Floats file_color(const Vec3& color);
-/// Converts a file's colors to a scene's; `full` is its value of white: 1, 255 or 65535. If some reach beyond
-/// twice that, and are not linear, they are parts of 255. One with a negative channel becomes kNoColor. Notes
-/// report both.
+/// Converts a file's colors to a scene's; `full` is the file's value for white: 1, 255 or 65535. If some
+/// exceed twice that, and they are not linear, 255 is white. A color with a negative channel becomes
+/// kNoColor. Notes report both.
 void scale_colors(Model& model, std::span<Floats> colors, double full, bool is_linear = false);
 
-/// From 0 to 1; a number that is none is 0.
+/// The value clamped to [0, 1]; 0 for NaN.
 inline double fraction(double value) {
   return value > 0 ? std::min(value, 1.0) : 0;
 }
-/// True if the coordinates are finite as floats, which a scene's coordinates are.
+/// True if the coordinates are finite as floats: a written scene's coordinates are floats.
 bool are_floats(const Vec3& v);
 
-/// A channel from 0 to 1 as a scene's; a linear one by way of sRGB.
+/// A channel from 0 to 1 as a scene's, from 0 to 255; a linear one is converted to sRGB.
 double scene_channel(double channel, bool is_linear);
 
-/// Places the meshes, makes the brightest light full, and adds notes. A std::runtime_error if there is no
-/// triangle, or a coordinate that is not finite.
+/// Places the meshes, scales the lights to at most full intensity, and adds notes. A std::runtime_error if
+/// there is no triangle, or a coordinate that is not finite.
 void complete(Model& model);
 
 }  // namespace pipeline

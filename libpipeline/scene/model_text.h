@@ -7,7 +7,7 @@
 
 namespace pipeline {
 
-/// The little-endian number in the first bytes.
+/// The little-endian number at `bytes`.
 template <typename Number>
 Number number_in(const char* bytes) {
   static_assert(std::endian::native == std::endian::little);
@@ -16,7 +16,7 @@ Number number_in(const char* bytes) {
   return number;
 }
 
-/// A type of numbers in bytes: its size, their value, and the value of white, or of what is normalized.
+/// A binary type of numbers: its size, its decoder, and the value that stands for white or a normalized 1.
 struct NumberType {
   std::size_t size = 0;
   double (*value)(const char*) = nullptr;
@@ -27,7 +27,7 @@ constexpr NumberType number_type(double full = 1) {
   return {sizeof(Number), [](const char* p) { return static_cast<double>(number_in<Number>(p)); }, full};
 }
 
-/// The rest of a model file's text, which is read word by word.
+/// The unread rest of a model file's text, read word by word.
 class ModelText {
  public:
   /// `name` is the file's, for messages; both must outlive this object.
@@ -42,16 +42,16 @@ class ModelText {
   std::string_view word_of_any_line();
   /// The rest of this line, without blanks around it.
   std::string_view rest_of_line();
-  /// The value of a word, also with a comma for the point. A finite float, or an InputError that names
-  /// `what`.
+  /// The value of a word, which may have a comma for the point. An InputError that names `what` unless it is
+  /// a finite float.
   double number(std::string_view word, const char* what) const;
-  /// The same, but NaN for a word like `nan` or `inf`: of a number that is not needed.
+  /// The value of a word, but NaN for one like `nan` or `inf`; for numbers that the model can do without.
   double number_or_nan(std::string_view word) const;
   [[nodiscard]] std::string_view rest() const { return {p_, end_}; }
-  /// How many bytes were read.
+  /// The count of bytes read.
   [[nodiscard]] std::size_t offset() const { return static_cast<std::size_t>(p_ - begin_); }
   void skip(std::size_t bytes) { p_ += bytes; }
-  /// An InputError at a word of the text; empty: where it ends.
+  /// Throws an InputError at a word of the text; an empty word must point at an end.
   [[noreturn]] void fail(std::string_view word, const std::string& expected) const;
 
  private:
@@ -59,12 +59,12 @@ class ModelText {
 
   const std::string* name_;
   const char *begin_, *p_, *end_;
-  char line_end_ = '\n';  // or '\r' if the first line ends so
+  char line_end_ = '\n';  // or '\r' if the first line ends with it
 };
 
-/// The bytes that a text in base64 stands for; other characters are skipped.
+/// The bytes encoded by a text in base64; other characters are skipped.
 std::string from_base64(std::string_view text);
-/// A URI with the characters of its percent codes.
+/// A URI with its percent codes decoded.
 std::string without_percent_codes(std::string_view uri);
 
 }  // namespace pipeline

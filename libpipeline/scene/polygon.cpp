@@ -14,7 +14,7 @@ double area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// A polygon in the x and y of the coordinate plane where it is largest, counterclockwise.
+/// The polygon projected into the coordinate plane where it is largest, as counterclockwise x and y.
 std::vector<Vec3> flattened(std::span<const Vec3> polygon) {
   Vec3 n;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
@@ -30,7 +30,7 @@ std::vector<Vec3> flattened(std::span<const Vec3> polygon) {
   return flat;
 }
 
-/// True if the triangle of a polygon's vertices i, j, k is no larger than 0, or holds none of `others`.
+/// True if the triangle of these corners has no area, or is counterclockwise and holds none of `others`.
 bool is_ear(const std::vector<Vec3>& points, const std::array<std::uint32_t, 3>& corners,
             const std::vector<std::uint32_t>& others) {
   const Vec3 &a = points[corners[0]], &b = points[corners[1]], &c = points[corners[2]];
@@ -58,7 +58,7 @@ void append_triangles(std::span<const Vec3> polygon, std::vector<std::uint32_t>&
   for (const std::uint32_t i : left)
     if (const auto [a, b, c] = ear_at(i); !(area(points[a], points[b], points[c]) > 0))
       not_convex.push_back(i);
-  // Only one vertex of four can be concave: both triangles begin there.
+  // At most one vertex of four can be concave: both triangles begin at it.
   const bool is_ready = left.size() == 4;
   std::size_t i = is_ready && not_convex.size() == 1 ? not_convex[0] : 0, steps = 0;
   for (std::size_t misses = 0; !is_ready && left.size() > 3 && misses <= left.size();) {

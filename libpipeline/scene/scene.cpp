@@ -44,7 +44,7 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
                                        AttributeArrays& attributes, std::size_t& first_line) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
   if (!line_.at_end()) return 0;
-  // A blank line between triangles.
+  // Skips a blank line between triangles.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const std::string_view text = text_.buffered();
   if (!text.starts_with("triangle\n")) return 0;
@@ -71,7 +71,7 @@ Command SceneReader::next() {
   line_.word();
   if (argument_lines == 0)
     line_.expect_end(quoted(word));
-  else if (argument_lines == 1)  // a triangle's lines have names of their own
+  else if (argument_lines == 1)  // messages name a triangle's lines otherwise
     arguments.empty() ? next_argument_line("the arguments of ", word) : next_argument_line(arguments);
   switch (kind) {
     case CommandKind::object:
@@ -101,7 +101,7 @@ bool SceneReader::is_allowed(const SceneCommand& command) const {
   return command.kind == CommandKind::color && appearance_.columns().color;
 }
 
-/// Refuses the word that comes next: a command that may not stand here, or, if null, none.
+/// Throws the error of the next word: a command that is not allowed here, or, if null, no command.
 void SceneReader::refuse(const SceneCommand* command) const {
   const std::string_view word = line_.peek();
   if (command == nullptr) {
@@ -168,7 +168,7 @@ AppearanceCommand SceneReader::read_current_color() {
   return {};
 }
 
-/// Reads `use K`; material 0 is there without a line, too.
+/// Reads `use K`; material 0 always exists, even without a line `material`.
 // S23
 AppearanceCommand SceneReader::read_use() {
   const std::size_t count = std::max<std::size_t>(appearance_.materials.size(), 1);
@@ -182,7 +182,7 @@ AppearanceCommand SceneReader::read_use() {
   return {};
 }
 
-/// Takes a vertex line of a scene with attributes; a color without columns is the current one.
+/// Takes a vertex line of a scene with attributes; without color columns, the color is the current one.
 void SceneReader::read_vertex(std::size_t index) {
   LineScanner at_normal = line_;
   vertex_line_.read(line_, index, lines_);
@@ -214,8 +214,8 @@ TriangleCommand SceneReader::read_triangle() {
   return command;
 }
 
-/// Reads a sphere's center and radius. The points of its surface that stage texts carry have to be
-/// numbers, and not the center.
+/// Reads a sphere's center and radius. The points on its surface in stage texts must be finite and differ
+/// from the center.
 // S24
 SphereCommand SceneReader::read_sphere() {
   has_triangle_ = true;

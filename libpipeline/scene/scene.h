@@ -19,7 +19,7 @@ struct TriangleCommand {
   Triangle p_model;
   VertexLocations locations;
 };
-/// Its color and material are those in force (SceneReader::vertices).
+/// A sphere; SceneReader::lines has its color and material.
 struct SphereCommand {
   Vec3 center;  // in model space
   double radius = 0;
@@ -38,7 +38,7 @@ struct RotateCommand {
 struct PushCommand {};
 struct PopCommand {};
 struct EndCommand {};
-/// The appearance, the current color or the current material has changed; the reader keeps them.
+/// A change of the appearance, the current color or the current material; the reader holds their values.
 struct AppearanceCommand {};
 struct LightCommand {
   Located<Light> light;  // in model space
@@ -74,22 +74,22 @@ class SceneReader {
 
   /// The camera, complete and checked.
   [[nodiscard]] const CameraParameters& camera() const { return camera_; }
-  /// The color and light read so far, without the lights, which are commands. Complete at the first triangle;
-  /// its columns are the attributes of the triangles.
+  /// The appearance read so far, without the lights, which are commands. Complete at the first triangle; its
+  /// columns are the attributes of all triangles.
   [[nodiscard]] const Appearance& appearance() const { return appearance_; }
   /// The vertex lines of the triangle that `next` returned last, with the attributes in `appearance()` and
   /// the current material; after a sphere, its color three times. Undefined if there are none.
   [[nodiscard]] const TriangleLines& lines() const { return lines_; }
-  /// Reads the next command. After EndCommand nothing may be read.
+  /// Reads the next command; not to be called after EndCommand.
   Command next();
-  /// The fast path: adds the triangles that come next, are completely buffered and have the fixed form
-  /// (fixed_text.h) to the arrays, at most `limit`, and returns their count; each has four lines, the first
-  /// begins at `first_line`. 0 if another command comes next, or a triangle in another form.
+  /// The fast path: adds the next triangles to the arrays, at most `limit`, as long as they are completely
+  /// buffered and read_columns (fixed_text.h) reads them. Returns their count; each has four lines, from
+  /// `first_line` on. 0 if another command comes next, or a triangle in another form.
   std::size_t read_buffered(std::size_t limit, std::vector<Triangle>& p_model, AttributeArrays& attributes,
                             std::size_t& first_line);
   /// The location of the command that `next` returned last, unless that is a triangle.
   [[nodiscard]] const SourceLocation& location() const { return location_; }
-  /// True if the next command is buffered, whatever it is: none has more than four lines.
+  /// True if the next command is buffered: no command has more than four lines.
   [[nodiscard]] bool has_buffered_command() const { return text_.has_buffered_lines(4); }
 
  private:
@@ -113,7 +113,7 @@ class SceneReader {
   VertexLineReader vertex_line_;
   Vec3 current_color_;
   bool has_current_color_ = false;
-  TriangleLines lines_;  // the material is the current one
+  TriangleLines lines_;  // its material is the current one
   bool has_triangle_ = false;
   LineScanner line_;
   SourceLocation location_;

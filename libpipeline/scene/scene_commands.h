@@ -9,31 +9,31 @@
 
 namespace pipeline {
 
-/// A command's part in a scene, and so where it may stand.
+/// A command's part in a scene, which decides where it is allowed.
 enum class CommandKind {
   object,       // anywhere
   transform,    // anywhere: M = M * T
   stack,        // anywhere
   end,          // last
-  color,        // before the first object; anywhere if it or `attributes color` stood there
+  color,        // before the first object; if it or `attributes color` is there, anywhere
   setting,      // before the first object; in the header of a stage text
-  of_material,  // a setting, too, of the material above it
-  use           // anywhere; of use where there are two materials
+  of_material,  // a setting of the material above it
+  use           // anywhere; useful only with two or more materials
 };
 
 struct SceneCommand {
   std::string_view word;
   CommandKind kind;
   int argument_lines;          // only the first may stand on the command's own line
-  std::string_view arguments;  // as messages name them, where "the arguments of 'WORD'" would say less
+  std::string_view arguments;  // as messages name them; empty: "the arguments of 'WORD'"
 
   [[nodiscard]] bool is_setting() const {
     return kind == CommandKind::setting || kind == CommandKind::of_material;
   }
 };
 
-/// The commands of a scene, in the order in which messages list them. Whatever reads, cuts or names commands
-/// goes by these rows.
+/// The commands of a scene, in the order in which messages list them. All code that reads, cuts or names
+/// commands goes by these rows.
 inline constexpr std::array<SceneCommand, 18> kSceneCommands = {{
     {"triangle", CommandKind::object, 3, ""},
     {"sphere", CommandKind::object, 1, "a center and a radius (four numbers)"},
@@ -55,7 +55,7 @@ inline constexpr std::array<SceneCommand, 18> kSceneCommands = {{
     {"use", CommandKind::use, 1, ""},
 }};
 
-/// The row of a word, or null. Unrolled, so that words are compared without calls.
+/// The row of a word, or null. Unrolled, so that words are compared without function calls.
 template <std::size_t... kRows>
 const SceneCommand* find_scene_command(std::string_view word, std::index_sequence<kRows...>) {
   const SceneCommand* found = nullptr;
@@ -67,7 +67,7 @@ inline const SceneCommand* find_scene_command(std::string_view word) {
   return find_scene_command(word, std::make_index_sequence<kSceneCommands.size()>());
 }
 
-/// True for a word of color and light that stands in scenes and in headers of stage texts.
+/// True for a setting of color or light, which scenes and headers of stage texts have.
 inline bool is_setting(std::string_view word) {
   const SceneCommand* command = find_scene_command(word);
   return command != nullptr && command->is_setting();

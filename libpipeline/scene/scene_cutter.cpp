@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::string_view kTriangle = "triangle\n", kPush = "push\n", kPop = "pop\n";
 
-/// The length of a triangle at the beginning of `text` whose keyword and vertices stand on lines of their
-/// own; 0 if there is none.
+/// The length of a triangle at the beginning of `text` whose keyword and vertices are on separate lines; 0 if
+/// there is none.
 std::size_t length_of_triangle(std::string_view text) {
   if (!text.starts_with(kTriangle)) return 0;
   std::size_t end = kTriangle.size();
@@ -103,7 +103,7 @@ void SceneCutter::find_triangle(TextWriter* part) {
   }
 }
 
-/// Copies the command that begins on this line, which is no triangle, to `part`, or, if null, the preamble.
+/// Copies the command on this line, other than a triangle, to `part` or, if that is null, to the preamble.
 void SceneCutter::carry_out(TextWriter* part) {
   const LineScanner at_keyword = line_;
   const CommandKind kind = expect_allowed(at_keyword).kind;
@@ -145,7 +145,7 @@ void SceneCutter::pop(const LineScanner& at_pop) {
   depth_kept_ = std::min(depth_kept_, --depth_);
 }
 
-/// Settings must precede the first triangle; otherwise they would apply to some parts only.
+/// Returns the command, or throws: a setting after the first triangle would apply to some parts only.
 const SceneCommand& SceneCutter::expect_allowed(const LineScanner& at_keyword) const {
   const SceneCommand* command = find_scene_command(at_keyword.peek());
   if (command == nullptr) at_keyword.fail("a command of a scene");
@@ -170,7 +170,7 @@ void SceneCutter::copy_triangle(TextWriter& part) {
   ++next_number_;
 }
 
-/// Copies triangles that are buffered and come next, at least one.
+/// Copies at least one of the next triangles, which are buffered.
 void SceneCutter::copy_buffered(TextWriter& part, std::size_t end) {
   const std::string_view text = text_.buffered();
   const std::size_t room = end > position() ? end - position() : 1;

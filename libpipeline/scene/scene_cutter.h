@@ -13,12 +13,10 @@ namespace pipeline {
 struct SceneCommand;
 
 /// Cuts a scene into parts that are scenes themselves and hold its triangles one after the other. ("Triangle"
-/// includes spheres here.) A part begins with camera and settings, goes on with the transforms, the color and
-/// the material in force, and then has commands of the scene as they stand there, without comments. The parts
-/// apply the same transforms in the same order, so `model` of all parts is `model` of the scene to the last
-/// bit.
-///
-/// Reads keywords and lines but no numbers, which model does. Errors are InputErrors.
+/// includes spheres here.) A part consists of the camera and the settings; the transforms, the color and the
+/// material in force; and then the scene's own commands without comments. The parts apply the same transforms
+/// in the same order, so `model` of all parts is `model` of the scene to the last bit. Reads keywords and
+/// lines, but no numbers: `model` checks numbers. Errors are InputErrors.
 class SceneCutter {
  public:
   /// Reads as far as the first triangle.
@@ -39,7 +37,7 @@ class SceneCutter {
   struct Commands {
     std::uint64_t push_count = 0;
     std::string text{};
-    std::size_t in_preamble = 0;  // how much of `text` belongs to the preamble
+    std::size_t in_preamble = 0;  // the length of the preamble's share of `text`
   };
   static void add_push(std::vector<Commands>& commands);
 
@@ -62,7 +60,7 @@ class SceneCutter {
   std::vector<Commands> levels_ = std::vector<Commands>(1);    // the pushes and transforms in force
   std::uint64_t depth_ = 0;                                    // the sum of the pushes
   std::uint64_t depth_of_preamble_ = 0;                        // at its end
-  std::uint64_t depth_kept_ = 0;                               // the least since
+  std::uint64_t depth_kept_ = 0;                               // the least since then
   std::string color_;                                          // the last one after the preamble
   std::string material_;                                       // the last `use` there
 };

@@ -10,8 +10,8 @@ char to_lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// The least number of insertions, deletions, replacements and swaps of neighbors that make `b` of `a`, no
-/// letter changed twice.
+/// The least number of insertions, deletions, replacements and swaps of neighbors that turn `a` into `b`,
+/// without changing a letter twice.
 std::size_t distance(std::string_view a, std::string_view b) {
   // rows[i][j]: from the first i letters of a to the first j of b.
   std::vector<std::vector<std::size_t>> rows(a.size() + 1, std::vector<std::size_t>(b.size() + 1));

@@ -17,7 +17,7 @@ std::uint64_t facet_count(std::string_view bytes) {
   return bytes.size() < kHeader ? 0 : number_in<std::uint32_t>(bytes.data() + kHeader - 4);
 }
 
-/// A binary header may begin with "solid", too, but it has the size that its count tells, or a byte 0.
+/// A binary file may begin with "solid", too, but it has the size that follows from its count, or a byte 0.
 bool is_text(std::string_view bytes) {
   const std::size_t begin = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   return begin != std::string_view::npos && in_lower_case(bytes.substr(begin, 5)) == "solid" &&
@@ -46,7 +46,7 @@ void read_text(std::string_view bytes, Model& model) {
       if (vertex_count != (keyword == "facet" ? 0 : 3)) text.fail(word, "vertices of a triangle");
       vertex_count = 0;
       if (keyword == "endfacet") continue;
-      const std::string_view normal = text.word();  // nobody needs it
+      const std::string_view normal = text.word();  // unused
       if (!normal.empty() && in_lower_case(normal) != "normal") text.fail(normal, "normal");
       for (int i = 0; i < 3; ++i) text.word();
     } else if (keyword != "outer" && keyword != "loop" && keyword != "endloop") {
@@ -56,8 +56,8 @@ void read_text(std::string_view bytes, Model& model) {
   if (vertex_count != 0 || !is_complete) text.fail(text.word_of_any_line(), "endsolid");
 }
 
-/// The color in the two bytes after a facet. VisCAM's has the highest bit if there is one; in files of
-/// Magics, whose header gives the object's color, it lacks that bit, and has red in the lowest ones.
+/// The color in the two bytes after a facet. VisCAM sets the highest bit if there is a color; Magics, whose
+/// header gives the object's color, clears it then, and has red in the lowest bits.
 Floats color_in(std::uint16_t bits, bool is_of_magics, const Floats& of_object) {
   if (is_of_magics ? bits == 0 || bits >= 0x8000 : bits < 0x8000) return of_object;
   const auto channel = [&](int shift) {
@@ -114,7 +114,7 @@ bool is_whole_binary_stl(std::string_view bytes) {
 bool is_stl(std::string_view bytes) {
   if (is_text(bytes)) return true;
   const std::uint64_t size = kHeader + kFacet * facet_count(bytes);
-  // Bytes may follow the triangles, or the count may be missing.
+  // Bytes may follow the triangles, or the count may be 0.
   return bytes.size() >= kHeader && (size > kHeader ? size <= bytes.size() && bytes.size() < 2 * size
                                                     : (bytes.size() - kHeader) % kFacet == 0);
 }

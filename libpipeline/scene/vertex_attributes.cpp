@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-/// Takes the numbers of an attribute, any if `has_range` is false.
+/// Takes the numbers of an attribute; their range is checked only if `has_range`.
 template <typename Value>
 void read_value(LineScanner& line, const VertexAttribute<Value>& attribute, bool has_range,
                 std::string_view of, Value& value) {
@@ -79,7 +79,7 @@ void VertexLineReader::read_material(LineScanner& line, std::size_t vertex, cons
     at_material.fail("the material of the triangle's first vertex, " + std::to_string(triangle.material));
 }
 
-/// True if the values of the triangles from `begin` on are in range. In a scene, a normal may not be 0.
+/// True if the values of the triangles from `begin` on are in range. In a scene, no normal may be 0.
 bool VertexLineReader::are_in_range(const AttributeArrays& attributes, std::size_t begin,
                                     TriangleFrame frame) const {
   bool all_are = true;  // without a jump per number

@@ -18,31 +18,31 @@ enum class TriangleFrame;
 /// The line of a header that names attributes: "attributes w color".
 std::string attributes_line(const AttributeSet& attributes);
 
-/// The names of all columns: "x y z", then the attributes'.
+/// The names of all columns: "x y z", then the names of the attributes' columns.
 std::string column_names(const AttributeSet& attributes);
 
-/// True if the column w must be above 0, as after the divide, or may be any number, as in clip space.
+/// The range of the column w: above 0 after the divide, any number in clip space.
 enum class RangeOfW { above_zero, any };
 
 /// Reads vertex lines with certain attributes. Errors name the expected columns.
 class VertexLineReader {
  public:
-  /// Numbers of materials have to be less than `material_count`.
+  /// Materials have numbers below `material_count`.
   explicit VertexLineReader(const AttributeSet& attributes = {}, RangeOfW range_of_w = RangeOfW::above_zero,
                             std::size_t material_count = 1);
 
   [[nodiscard]] const AttributeSet& attributes() const { return attributes_; }
-  /// Reads the line of vertex `vertex` (0 to 2) to its end; vertex 0 comes first. An InputError if a
-  /// column is missing or left over, w is out of its range, a color channel is not from 0 to 255, or the
-  /// material is not the number of one, or not that of vertex 0.
+  /// Reads the line of vertex `vertex` (0 to 2) to its end; vertex 0 comes first. An InputError if a column
+  /// is missing or left over, w is out of its range, a color channel is not from 0 to 255, or the material
+  /// does not exist or differs from vertex 0's.
   void read(LineScanner& line, std::size_t vertex, TriangleLines& triangle) const {
     read(line, vertex, names_[vertex], triangle);
   }
-  /// The same, with another name in messages.
+  /// Reads a vertex line with another name in messages.
   void read(LineScanner& line, std::size_t vertex, const std::string& name, TriangleLines& triangle) const;
   /// The fast path: adds at most `limit` triangles from the beginning of `text` to the arrays, as
-  /// read_columns (fixed_text.h) reads them. None if a value is out of range, which the general path then
-  /// reports.
+  /// read_columns (fixed_text.h) reads them. Adds none if a value is out of range; the general path then
+  /// reports it.
   FixedTextPart read_triangles(std::string_view text, TriangleFrame frame, std::size_t limit,
                                std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
                                AttributeArrays& attributes) const;
@@ -59,7 +59,7 @@ class VertexLineReader {
   std::array<std::string, 3> names_;
 };
 
-/// Takes three numbers, each from 0 to 255 (else an InputError); `of` names the colored thing in messages.
+/// Takes three numbers from 0 to 255 (else an InputError); `of` names the colored item in messages.
 Vec3 read_color(LineScanner& line, std::string_view of);
 
 }  // namespace pipeline

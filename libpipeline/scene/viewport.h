@@ -31,13 +31,13 @@ struct Viewport {
   double front = -1;
   double rear = 1;
   /// For exact calculations: true where the limit was written as a decimal number with at most 7 decimals.
-  /// Then it stands for that decimal, limit + low part rounded to 7 decimals, and not for its nearest double.
+  /// Then it stands for that decimal (limit + low part, rounded to 7 decimals), not for its nearest double.
   bool left_is_decimal = false;
   bool bottom_is_decimal = false;
   double left_low_part = 0;
   double bottom_low_part = 0;
-  /// The rows that are drawn, as far as they are on the screen: all, or a band of the picture. What the other
-  /// members say is about the whole picture.
+  /// The rows to draw, all or a band; rows beyond the screen are ignored. The other members describe the
+  /// whole picture.
   RowRange drawn = {};
 
   [[nodiscard]] RowRange drawn_rows() const { return {drawn.first, std::min(drawn.end, rows)}; }
@@ -52,8 +52,8 @@ struct Viewport {
   friend bool operator==(const Viewport&, const Viewport&) = default;
 };
 
-/// The positions of a viewport's pixel centers in NDC, rounded: row 0 at the top, column 0 on the left. Their
-/// error: tests/proofs/pixel_center.g.
+/// The positions of a viewport's pixel centers in NDC, rounded: row 0 at the top, column 0 on the left. A
+/// bound on their error: tests/proofs/pixel_center.g.
 struct PixelGrid {
   explicit PixelGrid(const Viewport& viewport)
       : columns(viewport.columns),
