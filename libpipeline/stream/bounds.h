@@ -11,31 +11,31 @@
 
 namespace pipeline {
 
-/// How far a vertex's coordinates may be from the truth: |coordinate - truth| <= absolute + relative * m,
-/// where m is the vertex's largest |coordinate|. The truth is what the stages give if none of them rounds.
+/// A bound on the error of a vertex's coordinates: |coordinate - truth| <= absolute + relative * m, where m
+/// is the vertex's largest |coordinate|. The truth is the stages' result without any rounding.
 struct ErrorBound {
   double absolute = 0, relative = 0;
 
   [[nodiscard]] double at(double largest) const { return (absolute + relative * largest) * kRoundUp; }
 
-  /// More than a few sums and products of doubles can lose.
+  /// A factor above the rounding errors of a few sums and products of doubles.
   static constexpr double kRoundUp = 1 + 0x1p-40;
 };
 
-/// The header line `bounds` of a stage text. It names the text's space, so that no stage takes one that a
-/// program before it passed on unchanged.
+/// The header line `bounds` of a stage text. It names the text's space, so that no stage accepts a line that
+/// an earlier program passed on unchanged.
 struct Bounds {
   static constexpr std::array<std::string_view, 3> kSpaces = {"world", "view", "ndc"};
 
-  ErrorBound error;                   // of the vertices; of a projected text, as they were in view space
+  ErrorBound error;                   // of the vertices; in a projected text, of those in view space
   std::optional<ErrorBound> rounded;  // in NDC: of its vertices against exact projection
   std::string_view space = kSpaces[0];
 };
 
-/// Rounding to the nearest double and, in the shortest form, what 0 may stand for.
+/// The relative error of rounding to the nearest double, and of a 0 in the shortest form.
 constexpr double kRelativeRounding = 0x1p-53 * (1 + 0x1p-6);
-/// Below this, numbers in the shortest form have an absolute bound: where numbers cancel, 0 may stand for
-/// 2^-60 of it (number_rounding.h).
+/// Smaller numbers in the shortest form have an absolute bound: where numbers cancel, a number below 2^-60
+/// times this may become 0 (number_rounding.h).
 constexpr double kLeastSize = 0x1p-30;
 
 /// The distance between an exact coordinate and the double that a stage reads from its text.
@@ -45,9 +45,9 @@ inline ErrorBound rounding_error(NumberFormat format) {
   return {0.500001 / kPowersOfTen[static_cast<std::size_t>(format.decimals)], kRelativeRounding};
 }
 
-/// The bound of a rotated text that rounding has changed by `own` (tests/proofs/bounds.g). `row_sum` bounds
-/// the sums of the rotation's |entries| by row. A vertex p and its image v = R (p - eye) have |p| <= |eye| +
-/// sqrt(3) |v| in their largest coordinates.
+/// The bound of a rotated text whose own rounding errors are within `own` (tests/proofs/bounds.g). `row_sum`
+/// bounds the sums of the rotation's |entries| by row. A vertex p and its image v = R (p - eye) have |p| <=
+/// |eye| + sqrt(3) |v| in their largest coordinates.
 inline ErrorBound error_in_view(const ErrorBound& world, const Vec3& eye, double row_sum,
                                 const ErrorBound& own) {
   constexpr double kRoot3 = 1.7320509;

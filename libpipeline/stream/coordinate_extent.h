@@ -12,10 +12,10 @@
 namespace pipeline {
 
 /// The smallest and the largest x, y and z of the vertices that a stage writes, with all the digits that
-/// decide how they are printed; for a sphere, of its surface, to a few roundings.
+/// decide how they are printed; of a sphere's surface, to a few roundings.
 class CoordinateExtent {
  public:
-  /// A double, and the part that it does not hold.
+  /// A double and its low part.
   using Coordinate = std::pair<double, double>;
   struct Range {
     Coordinate low;

@@ -10,15 +10,15 @@
 
 namespace pipeline {
 
-/// Which triangles of a store go on being kept. A store gives its triangles the ids 0, 1, 2 ...; those kept
-/// get new ones, again from 0 and in the same order.
+/// The choice of the triangles that a store keeps. A store gives its triangles the ids 0, 1, 2 ...; the kept
+/// triangles get new ids, again from 0 and in the same order.
 class KeptIds {
  public:
   using Id = std::uint32_t;
-  /// The id of a pixel without a triangle, before and after.
+  /// The id of a pixel without a triangle, before and after renumbering.
   static constexpr Id kNoTriangle = std::numeric_limits<Id>::max();
 
-  /// None of the ids 0 to `count` - 1 is kept.
+  /// Begins with the ids 0 to `count` - 1, none of them kept.
   explicit KeptIds(std::size_t count) : new_ids_(count, kNoTriangle) {}
 
   /// The count of ids, kept or not.
@@ -28,14 +28,14 @@ class KeptIds {
   }
   [[nodiscard]] bool is_kept(Id id) const { return new_ids_[id] != kNoTriangle; }
 
-  /// Gives those kept their new ids; returns how many they are.
+  /// Gives the kept triangles their new ids; returns their count.
   std::size_t renumber() {
     Id next = 0;
     for (Id& id : new_ids_)
       if (id != kNoTriangle) id = next++;
     return next;
   }
-  /// The new id of one that is kept.
+  /// The new id of a kept triangle.
   [[nodiscard]] Id new_id(Id id) const {
     assert(id == kNoTriangle || is_kept(id));
     return id == kNoTriangle ? id : new_ids_[id];
@@ -45,8 +45,8 @@ class KeptIds {
   std::vector<Id> new_ids_;
 };
 
-/// An array, with one entry per triangle of a store, that grows without being copied: it never takes more
-/// memory than for its entries and one chunk.
+/// An array with one entry per triangle of a store. It grows without being copied, and takes no more memory
+/// than its entries and one chunk.
 template <typename T>
 class ChunkedArray {
  public:
@@ -62,12 +62,12 @@ class ChunkedArray {
     chunks_[size_ / kChunk].push_back(entry);
     ++size_;
   }
-  /// Keeps the entries of the triangles that are kept. The memory of the others is used for the next ones.
+  /// Keeps the entries of the kept triangles; the memory of the others is reused.
   void keep(const KeptIds& kept) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       if (!kept.is_kept(static_cast<KeptIds::Id>(i))) continue;
-      if (count != i) (*this)[count] = std::move((*this)[i]);  // to itself, a string would be empty
+      if (count != i) (*this)[count] = std::move((*this)[i]);  // moved to itself, a string would be empty
       ++count;
     }
     for (std::size_t i = count / kChunk; i < chunks_.size(); ++i) {

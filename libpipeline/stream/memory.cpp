@@ -38,7 +38,7 @@ std::optional<std::uint64_t> available_memory(std::string_view meminfo) {
 void expect_available_memory(std::size_t size) {
   const int file = ::open("/proc/meminfo", O_RDONLY | O_CLOEXEC);
   if (file < 0) return;
-  std::array<char, 4096> text{};  // twice its length
+  std::array<char, 4096> text{};  // twice the file's length
   const ssize_t length = ::read(file, text.data(), text.size());
   ::close(file);
   if (length <= 0) return;

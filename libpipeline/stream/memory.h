@@ -12,13 +12,13 @@ namespace pipeline {
 /// The alignment of large arrays: the size of a large page.
 constexpr std::size_t kLargePage = std::size_t{1} << 21;
 
-/// Asks the system to back `size` bytes from `begin`, a multiple of kLargePage, with large pages, where it
-/// has them and lets programs choose. Filling them causes fewer page faults, and random accesses cause fewer
-/// TLB misses. No result depends on whether the system complies.
+/// Asks the system to back `size` bytes from `begin`, a multiple of kLargePage, with large pages, if it has
+/// them and lets programs choose. Filling them causes fewer page faults, and random accesses cause fewer TLB
+/// misses. No result depends on whether the system complies.
 void prefer_large_pages(void* begin, std::size_t size);
 
-/// The allocator of arrays that may be large: from two large pages on, they are on large pages. Entries that
-/// are given no value have none.
+/// The allocator of arrays that may be large: from a size of two large pages on, they are on large pages.
+/// Entries without a given value are uninitialized.
 template <typename T>
 struct LargePageAllocator {
   using value_type = T;
@@ -49,13 +49,13 @@ struct LargePageAllocator {
   static bool is_large(std::size_t size) { return size >= 2 * kLargePage; }
 };
 
-/// How many bytes the system can still provide, by the text of Linux's /proc/meminfo: available memory and
-/// free swap space. None if the text does not have them.
+/// The bytes that the system can still provide, according to the text of Linux's /proc/meminfo: available
+/// memory and free swap space. None if the text does not have them.
 std::optional<std::uint64_t> available_memory(std::string_view meminfo);
 
-/// Throws std::bad_alloc if the system cannot provide `size` bytes more. Linux allocates more memory than it
-/// has, and kills a process that fills it. Does nothing where there is no /proc/meminfo. A container's own
-/// limit is not seen.
+/// Throws std::bad_alloc if the system cannot provide `size` bytes more. Linux grants more memory than it
+/// has, and kills a process that uses it. Does nothing where there is no /proc/meminfo. Ignores a container's
+/// own limit.
 void expect_available_memory(std::size_t size);
 
 }  // namespace pipeline

@@ -13,7 +13,7 @@
 namespace pipeline {
 namespace {
 
-// Header keywords besides the appearance's.
+// Header keywords other than the settings of the appearance.
 constexpr std::array<std::string_view, 9> kKeywords = {
     "framed", "eye", "look", "up", "perspective", "frustum", "ortho", "projected", "bounds"};
 
@@ -62,7 +62,7 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
   AttributeSet columns_in_clip_space = header_.appearance.columns();
   columns_in_clip_space.w = true;
   clip_vertex_line_ = VertexLineReader(columns_in_clip_space, RangeOfW::any, material_count);
-  // An error here may hide a header line, so it is reported before any caller misses that line.
+  // An error here may hide a header line, so it is reported before a caller reports that line as missing.
   header_end_ = line_is_pending_ ? line_.location() : text_.end_location();
   if (!line_is_pending_) expect_unframed_end();
   const bool is_body = begins_like_number(line_.peek()) || line_.peek() == "triangle" ||
@@ -96,7 +96,7 @@ bool StageReader::read_header_line(LineScanner& line) {
   return true;
 }
 
-/// Takes a line about the camera, of which `keyword` has been taken; false for another line.
+/// Takes the rest of a line about the camera, after `keyword`; false for another line.
 bool StageReader::read_camera_line(std::string_view keyword, const SourceLocation& location,
                                    LineScanner& line) {
   if (keyword != "projected") return read_camera_part(keyword, location, line, header_.camera);
@@ -144,7 +144,7 @@ void StageReader::fill(TriangleBatch& batch) {
     }
     const bool is_triangle = begins_like_number(line_.peek());
     const bool is_sphere = !is_triangle && accepts_spheres_ && line_.peek() == "sphere";
-    // A triangle after a sphere is of the next batch; only an empty batch waits for a sphere's lines.
+    // A triangle after a sphere belongs to the next batch; only an empty batch waits for a sphere's lines.
     line_is_pending_ = (is_triangle && !batch.spheres.empty()) ||
                        (is_sphere && !batch.empty() && !text_.has_buffered_lines(4));
     if (line_is_pending_) break;
@@ -175,8 +175,8 @@ void StageReader::read_triangle(LineScanner& line, TriangleBatch& batch) {
   if (unclipped_) batch.set_last_unclipped(unclipped_);
 }
 
-/// An InputError, at the vertex line given, if the triangle read last has not the material of the one it is a
-/// piece of. The batch then ends before it.
+/// Throws an InputError, at the given vertex line, if the last triangle has another material than the
+/// triangle it is a piece of. The batch then ends before it.
 void StageReader::expect_unclipped_material(const LineScanner& line, TriangleBatch& batch) const {
   const std::uint32_t material = batch.attributes.materials.back();
   if (material == unclipped_material_) return;
@@ -186,7 +186,7 @@ void StageReader::expect_unclipped_material(const LineScanner& line, TriangleBat
   at_material.fail("the material of the triangle that was clipped, " + std::to_string(unclipped_material_));
 }
 
-/// Reads the line `clipped` and the three of a triangle in clip space.
+/// Reads the line `clipped` and the three vertex lines of a triangle in clip space.
 // T11
 void StageReader::read_clipped(LineScanner& line) {
   line.word();
@@ -230,8 +230,8 @@ void StageReader::expect_unframed_end() const {
                      expected_but_found("'end', which closes a framed text", "the end of the input"));
 }
 
-/// Throws the error of a line that does not belong in a body. `also_expected` names other lines that may
-/// stand there.
+/// Throws the error of a line that does not belong in a body. `also_expected` names lines allowed there
+/// besides.
 void StageReader::reject(LineScanner& line, const std::string& also_expected) {
   const SourceLocation location = line.location();
   const LineScanner at_keyword = line;

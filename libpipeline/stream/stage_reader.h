@@ -16,7 +16,7 @@ namespace pipeline {
 /// Reads a stage text: the header on construction, then batch after batch. Errors are InputErrors.
 class StageReader {
  public:
-  /// With `marks_decimals`, batches mark the coordinates that are exact decimals, for exact coverage.
+  /// With `marks_decimals`, batches mark coordinates that are exact decimals, for exact coverage.
   explicit StageReader(TextReader& text, bool marks_decimals = false);
 
   [[nodiscard]] const StageHeader& header() const { return header_; }
@@ -24,11 +24,11 @@ class StageReader {
   [[nodiscard]] const SourceLocation& header_end() const { return header_end_; }
   /// False if the text ends with its header.
   [[nodiscard]] bool has_body() const { return has_body_; }
-  /// The count of decimals of the first number of the body; none if that begins with a word.
+  /// The count of decimals of the first number of the body; none if the body begins with a word.
   [[nodiscard]] std::optional<int> first_decimals() const { return first_decimals_; }
-  /// The header's lines as they stand in the text, without comments and the blanks around them.
+  /// The header's lines as written, without comments and surrounding blanks.
   [[nodiscard]] const std::string& header_text() const { return header_text_; }
-  /// From now on, batches get the text of their triangles, too.
+  /// Makes later batches include the text of their triangles.
   void keep_text();
   /// Accepts `clipped` triangles from now on, which only projected texts have; without this they are errors.
   void accept_clipped() { accepts_clipped_ = true; }
@@ -38,7 +38,7 @@ class StageReader {
   void expect_framed() const;
   /// Fills the batch with the next triangles: at least one, and as many as are buffered, up to kBatchSize.
   /// False, with an empty batch, at the proper end of the text. An error is thrown only after the triangles
-  /// before it are delivered, whatever the block size.
+  /// before it are delivered, for any block size.
   bool read(TriangleBatch& batch);
 
  private:
@@ -67,11 +67,11 @@ class StageReader {
   bool accepts_clipped_ = false;
   bool accepts_spheres_ = false;
   VertexLineReader clip_vertex_line_;
-  std::shared_ptr<const ClipTriangle> unclipped_;  // the next triangles with its number are its pieces
+  std::shared_ptr<const ClipTriangle> unclipped_;  // the next triangles of its number are its pieces
   std::uint64_t unclipped_number_ = 0;
   std::uint32_t unclipped_material_ = 0;
   bool keeps_text_ = false;
-  std::string clipped_text_;  // of unclipped_, until its first piece has come
+  std::string clipped_text_;  // of unclipped_, until its first piece is read
   DeferredError deferred_error_;
 };
 

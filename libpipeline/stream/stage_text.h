@@ -15,8 +15,8 @@ namespace pipeline {
 
 // Stage text flows in the pipes between the tools:
 //
-//   header lines   a keyword and its numbers, each at most once but material, absorption, paint and light,
-//   before the first triangle:
+//   header lines   before the first triangle: a keyword and its numbers, each at most once except material,
+//                  absorption, paint and light:
 //                    framed | eye X Y Z | look X Y Z | up X Y Z |
 //                    perspective FOVY ASPECT NEAR FAR | frustum L R B T N F | ortho L R B T N F |
 //                    projected frustum L R B T N F | projected ortho L R B T N F |
@@ -29,14 +29,12 @@ namespace pipeline {
 //   triangle N     optional: the next triangle is triangle N of the scene; counting goes on from there
 //   clipped        optional, in projected texts with lights: three vertex lines in clip space (X Y Z W and
 //                  the other columns) follow; the next triangles of its number are pieces of this one
-//   sphere         optional: four vertex lines of the columns but the normal and a blank line follow: the
-//   center
-//                  and the ends of three half axes of a sphere, which counts as a triangle
-//   X Y Z          three vertex lines, then a blank line; after the position the columns that `attributes`
-//                  names, in this order: W, R G B (0 to 255), NX NY NZ, the
-//                  number of the material, equal on the three lines
-//   error ...      an earlier stage failed, with its message, which it has also printed on stderr; nothing
-//                  follows
+//   sphere         optional: a sphere, which counts as a triangle, follows: four vertex lines without normals
+//                  (the center and the ends of three half axes), then a blank line
+//   X Y Z          three vertex lines, then a blank line; after the position, the columns that `attributes`
+//                  names, in this order: W, R G B (0 to 255), NX NY NZ, the number of the material, which is
+//                  equal on the three lines
+//   error ...      the message of an earlier stage that failed, as it printed it on stderr; nothing follows
 //   end            the last line of a framed text
 //
 // Comments (from # to the end of the line) and blank lines may stand anywhere, but no blank line inside a
@@ -47,15 +45,15 @@ struct StageHeader {
   bool framed = false;
   CameraParameters camera;  // for stages that have not been run yet
   Appearance appearance = {};
-  std::optional<Located<Projection>> projected = {};  // what `project` has done, a Frustum or an Orthographic
+  std::optional<Located<Projection>> projected = {};  // by `project`: a Frustum or an Orthographic
   std::optional<Located<Bounds>> bounds = {};
-  std::vector<Located<std::string>> camera_lines = {};  // the keywords of what was read of these two
+  std::vector<Located<std::string>> camera_lines = {};  // the keywords that set these two
 };
 
 /// The last line of a failed stage's output: "error tool: message".
 std::string error_line(const std::string& reason);
 
-/// The text ends with an `error` line. `reason()` is its content: "tool: message" of the stage that failed.
+/// The text ends with a line `error`. `reason()` is its content: "tool: message" of the failed stage.
 class EarlierFailure : public InputError {
  public:
   EarlierFailure(const SourceLocation& location, std::string reason);

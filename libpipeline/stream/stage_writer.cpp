@@ -110,8 +110,8 @@ void StageWriter::write(const TriangleBatch& batch) {
   for (const Sphere& sphere : batch.spheres) write_sphere(sphere);
 }
 
-/// Writes what stands before the lines of triangle `begin`. Returns the end of the triangles that need no
-/// such lines after it, or of a part of them.
+/// Writes the lines before those of triangle `begin`. Returns the end of a run in which no triangle after it
+/// needs any; it may end early.
 std::size_t StageWriter::begin_run(const TriangleBatch& batch, std::size_t begin) {
   constexpr std::size_t kMaxAtOnce = 256;
   write_number(batch.numbers[begin]);
@@ -143,7 +143,7 @@ void StageWriter::write_sphere(const Sphere& sphere) {
   text_.commit(out);
 }
 
-/// Prints an unclipped triangle before its first piece, which has its material. Its corners are lit, so they
+/// Prints an unclipped triangle before its first piece, whose material it has. Its corners are lit, so they
 /// are not rounded.
 void StageWriter::write_clipped(const ClipTriangle& unclipped, const AttributeArrays& attributes,
                                 std::size_t index) {
@@ -157,7 +157,7 @@ void StageWriter::write_clipped(const ClipTriangle& unclipped, const AttributeAr
   write_columns(fixed_columns(positions, std::as_const(clipped_), names, 0, 1), nullptr, kShortest, text_);
 }
 
-/// Prints the number of the next triangle if it is not the one that counting on would give.
+/// Prints the number of the next triangle unless it follows the last number.
 void StageWriter::write_number(std::uint64_t number) {
   if (number != next_number_ && !bare_) text_.append("triangle " + std::to_string(number) + "\n");
   next_number_ = number + 1;

@@ -10,7 +10,7 @@
 
 namespace pipeline {
 
-/// Writes a stage text. `bare` text is triangles alone: the course's form.
+/// Writes a stage text. A `bare` text, the course's form, has triangles alone.
 class StageWriter {
  public:
   StageWriter(TextWriter& text, NumberFormat format, bool bare);
@@ -33,7 +33,7 @@ class StageWriter {
   AttributeSet columns_;
   std::uint64_t next_number_ = 0;
   std::shared_ptr<const ClipTriangle> last_unclipped_;
-  AttributeArrays clipped_;  // of the one being written
+  AttributeArrays clipped_;  // of the clipped triangle being written
 };
 
 }  // namespace pipeline

@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// A scene's camera takes four lines, and a header shows its kind within as many.
+// A scene's camera takes four lines, and a header shows its kind within four.
 constexpr std::size_t kLinesLookedAt = 4;
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
@@ -66,13 +66,13 @@ bool is_config(const std::vector<Words>& lines) {
          (lines.size() == 1 || lines[1].size() == 1);
 }
 
-/// True for a first word of model files: OBJ's keywords (its comments are ours, too), PLY, STL and glTF.
+/// True for a first word of a model file: OBJ's keywords (its comments look like ours), PLY, STL and glTF.
 bool begins_model_file(std::string_view word) {
   return word.front() == '{' || word.substr(0, 4) == "glTF" ||
          is_one_of(word, {"v", "vt", "vn", "f", "o", "g", "s", "mtllib", "usemtl", "ply", "solid"});
 }
 
-/// The kind of a text that begins with a header, else unknown. Lines about color and light tell nothing: a
+/// The kind of a text that begins with a header, else unknown. Lines about color and light do not decide: a
 /// scene has them, too.
 TextKind kind_by_header(const std::vector<Words>& lines) {
   TextKind kind = TextKind::unknown;
@@ -134,7 +134,7 @@ bool excludes(TextKind found, TextKind expected) {
   return !is_of_any_stage && !has_header;
 }
 
-/// How a project stage uses the projection in the header that it reads.
+/// What a project stage must do with the header line of the projection.
 std::string duty_of_project(const StageHeader& header) {
   return header.appearance.lights.empty() ? "drop this line"
                                           : "write 'projected frustum L R B T N F' (or ortho) in its place";

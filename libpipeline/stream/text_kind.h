@@ -7,35 +7,35 @@
 
 namespace pipeline {
 
-// A text in the wrong place is refused by its name: a scene given to view, or the output of model given to
-// project. Texts without a header, which any stage may have written, are accepted as is.
+// An error names a text in the wrong place: a scene given to view, or the output of model given to project.
+// Texts without a header, which any stage may have written, are accepted.
 
-/// The texts that tools read, in the order of the pipe, and texts that none of them reads.
+/// The texts that tools read, in the order of the pipe, and some that they do not.
 enum class TextKind {
   scene,
   world,  // the output of model
   view,   // the output of view
   ndc,    // the output of project
   config,
-  triangles,      // without a header, so of any stage
-  editor_screen,  // what Vim's `view` writes into a pipe
+  triangles,      // without a header, so from any stage
+  editor_screen,  // the output of Vim's `view` into a pipe
   model_file,     // OBJ, PLY, STL or glTF, which mesh2scene reads
   unknown
 };
 
-/// The kind of `text` by its first lines, of which nothing is consumed.
+/// The kind of `text` by its first lines, which are not consumed.
 TextKind kind_of(TextReader& text);
 
-/// An InputError if the first lines of `text`, of which nothing is consumed, are plainly of another
-/// kind than `expected`. Waits for the first line only.
+/// Throws an InputError if the first lines of `text` plainly belong to another kind than `expected`. Consumes
+/// nothing, and waits for the first line only.
 void expect_kind(TextReader& text, TextKind expected);
 
-/// An InputError if the header of a stage text shows that the stages up to `expected` have not all been run,
-/// or that a later one has been.
+/// Throws an InputError if the header of a stage text shows that a stage up to `expected` has not been run,
+/// or that a later one has.
 void expect_header(const StageReader& reader, TextKind expected);
 
-/// The end of the message on a header that lacks the camera or the projection that `view` or `project` needs:
-/// why it may be missing.
+/// The end of the message about a header without the camera or projection that `view` or `project` needs: why
+/// it may be missing.
 std::string reason_without_camera(const StageReader& reader);
 
 }  // namespace pipeline

@@ -9,13 +9,13 @@
 
 namespace pipeline {
 
-/// A thread pool in which the owner works too, on one job at a time. A job is a number of tasks; tasks start
+/// A thread pool whose owner works, too. It does one job at a time. A job is a number of tasks; tasks start
 /// in order and may finish in any order. A worker runs one task at a time. Workers are numbered from 0, the
 /// owner, to size() - 1.
 class ThreadPool {
  public:
-  /// `thread_count`, at least 1, includes the owner: a pool of 1 runs all tasks in finish().
-  /// Where the system refuses threads, the pool is smaller.
+  /// `thread_count`, at least 1, includes the owner: a pool of 1 runs all tasks in finish(). If the system
+  /// refuses threads, the pool is smaller.
   explicit ThreadPool(int thread_count);
   /// Cancels, see cancel().
   ~ThreadPool();
@@ -27,10 +27,10 @@ class ThreadPool {
 
   using Task = std::function<void(int number, int worker)>;
 
-  /// Has the others run `task(number, worker)` for numbers from 0 to task_count - 1. The job before has to be
-  /// finished.
+  /// Has the other workers run `task(number, worker)` for numbers from 0 to task_count - 1. The job before
+  /// must be finished.
   void start(int task_count, Task task);
-  /// Runs tasks until all are done. An exception of a task is rethrown here, and drops all queued tasks.
+  /// Runs tasks until all are done. A task's exception drops all queued tasks, and is rethrown here.
   void finish();
   /// Drops all queued tasks and waits for the running ones, whose exceptions are lost. For destructors of
   /// objects that tasks use.

@@ -17,9 +17,8 @@
 
 namespace pipeline {
 
-/// The lines of a batch's triangles as they stand in the text: three vertex lines and a blank one each, and
-/// `clipped` with its lines before the first piece of a triangle. Without comments, and without the blanks
-/// at both ends of a line.
+/// The lines of a batch's triangles as written, without comments and surrounding blanks: three vertex lines
+/// and a blank line for each triangle, and `clipped` with its lines before the first piece of a clipped one.
 class TriangleTexts {
  public:
   /// The count of complete triangles.
@@ -35,9 +34,9 @@ class TriangleTexts {
     lines_.resize(end_of(size()));
   }
 
-  /// Adds lines, all of them ended, to the next triangle.
+  /// Adds lines, with their newlines, to the next triangle.
   void add(std::string_view lines) { lines_ += lines; }
-  /// Adds a line, which comes without its end, to the next triangle.
+  /// Adds a line, given without its newline, to the next triangle.
   void add_line(std::string_view line) { (lines_ += line) += '\n'; }
   /// Completes the next triangle.
   void end_triangle() {
@@ -51,7 +50,7 @@ class TriangleTexts {
     const std::size_t offset = lines_.size();
     lines_ += triangles;
     for (std::size_t end = 0; end < triangles.size();) {
-      // A blank line ends a triangle. Few numbers are longer than the shortest: faster than a search.
+      // A blank line ends a triangle. Few numbers are longer than the shortest: this beats a search.
       for (end += min_length; triangles[end] != '\n' || triangles[end + 1] != '\n';) ++end;
       end += kTriangleEnd.size();
       ends_.push_back(offset + end);
@@ -66,7 +65,7 @@ class TriangleTexts {
   std::vector<std::size_t> ends_;
 };
 
-/// A reader passes a batch on when it holds this many triangles.
+/// A reader passes on a batch of this many triangles.
 constexpr std::size_t kBatchSize = 2048;
 
 /// The center of a sphere, or of its image under an affine map, and the ends of three half axes.
@@ -78,37 +77,36 @@ struct Sphere {
   SpherePoints points = {};
   SpherePoints low_parts = {};  // as a triangle's
   std::array<LineAndColumn, 4> locations = {};
-  std::optional<Vec3> color = {};  // in scenes that have them
+  std::optional<Vec3> color = {};  // in scenes with colors
   std::uint32_t material = 0;
 };
 
-/// Triangles on their way through a stage, as arrays with one entry per triangle, and the spheres that follow
-/// them: a triangle after a sphere is one of the next batch.
+/// Triangles on their way through a stage, as arrays with one entry per triangle, and the spheres after them:
+/// a triangle after a sphere belongs to the next batch.
 struct TriangleBatch {
   std::vector<Triangle> triangles;
-  /// The part of each coordinate that its double does not hold, where a stage text has more digits: empty, or
-  /// as long as `triangles`.
+  /// The rest of each coordinate, where a stage text has more digits than its double holds: empty, or as long
+  /// as `triangles`.
   std::vector<Triangle> low_parts;
-  /// The triangle's number in the scene, from 0.
+  /// The triangles' numbers in the scene, from 0.
   std::vector<std::uint64_t> numbers;
   std::vector<VertexLocations> locations;
-  /// Which coordinates were written with at most 7 decimals and no exponent, so that they stand for that
-  /// decimal (hi + low part, to 7 decimals) and not for its nearest double: bit 3 * vertex + axis. Empty if
-  /// not requested.
+  /// Bit 3 * vertex + axis is set for a coordinate written with at most 7 decimals and no exponent: it stands
+  /// for that decimal (hi + low part, to 7 decimals), not for its nearest double. Empty if not requested.
   std::vector<std::uint16_t> decimal_marks;
-  /// The vertices' attributes, in scenes that have them.
+  /// The vertices' attributes, for scenes with attributes.
   AttributeArrays attributes;
-  /// For each piece of a clipped triangle the triangle before the cut, in clip space; empty if there is none,
-  /// else as long as `triangles`. Only in lit scenes, where the corners before the cut are lit.
+  /// For each piece of a clipped triangle, the triangle before the cut, in clip space, whose corners are lit;
+  /// only in lit scenes. Empty if there is none, else as long as `triangles`.
   std::vector<std::shared_ptr<const ClipTriangle>> unclipped;
   /// The triangles' lines; empty if not requested.
   TriangleTexts texts;
   std::vector<Sphere> spheres;
 
-  /// How many triangles there are.
+  /// The count of triangles.
   [[nodiscard]] std::size_t size() const { return triangles.size(); }
   [[nodiscard]] bool empty() const { return triangles.empty() && spheres.empty(); }
-  /// How many triangles and spheres there are.
+  /// The count of triangles and spheres.
   [[nodiscard]] std::size_t object_count() const { return size() + spheres.size(); }
   /// The number of a triangle or, from size() on, of a sphere.
   [[nodiscard]] std::uint64_t number_of(std::size_t object) const {
@@ -136,8 +134,8 @@ struct TriangleBatch {
     if (!decimal_marks.empty()) decimal_marks.emplace_back();
     if (!unclipped.empty()) unclipped.emplace_back();
   }
-  /// Completes triangles that were added to `triangles` alone: their text has four lines each, and the first
-  /// vertex of all stands on line `first_vertex`.
+  /// Completes triangles that were added to `triangles` alone: each has four lines of text, and the very
+  /// first vertex is on line `first_vertex`.
   void complete(std::uint64_t first_number, std::size_t first_vertex) {
     const std::size_t old_size = numbers.size();
     numbers.resize(size());
@@ -150,7 +148,7 @@ struct TriangleBatch {
     if (!decimal_marks.empty()) decimal_marks.resize(size());
     if (!unclipped.empty()) unclipped.resize(size());
   }
-  /// Sets the triangle of which the last one is a piece.
+  /// Makes the last triangle a piece of `triangle`.
   void set_last_unclipped(std::shared_ptr<const ClipTriangle> triangle) {
     unclipped.resize(size());
     unclipped.back() = std::move(triangle);

@@ -17,7 +17,7 @@ struct ExactParts {
   std::uint16_t marks = 0;
   Triangle low_parts{};
 
-  /// Adds the vertex on `line`; a word that is not a number is ignored here; the reader reports it.
+  /// Adds the vertex on `line`; ignores a word that is not a number: the reader reports it.
   void add_vertex(LineScanner line, std::size_t vertex) {
     constexpr std::array<double Vec3::*, 3> kAxes = {&Vec3::x, &Vec3::y, &Vec3::z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -61,7 +61,7 @@ bool TriangleReader::read_buffered(TriangleBatch& batch) {
     return false;
   }
   if (batch.size() >= kBatchSize) return false;
-  // The blank line after a triangle that the general path has read.
+  // Skips the blank line after a triangle that the general path has read.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   std::array<DecimalMarks, 24> marks;
   const std::size_t old_size = batch.size();
@@ -71,7 +71,7 @@ bool TriangleReader::read_buffered(TriangleBatch& batch) {
   consume(part, batch);
   if (marks_decimals_ && !part.decimals)
     std::copy_n(marks.begin(), part.triangle_count, batch.decimal_marks.begin() + old_size);
-  // A triangle that ends beyond the buffer is a miss, too, but a single one.
+  // A triangle that ends beyond the buffer is a miss, too, but only one.
   miss_count_ = part.triangle_count > 0 ? 0 : miss_count_ + 1;
   if (miss_count_ > 1) pause_ = kShortPause;
   return part.triangle_count > 0;

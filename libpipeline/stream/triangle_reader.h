@@ -12,22 +12,22 @@
 
 namespace pipeline {
 
-/// Reads the triangles and spheres of a stage text's body and counts them. A fast path reads nearly all text,
-/// as long as a triangle is completely buffered; the general path reads any triangle, line by line.
+/// Reads the triangles and spheres of a stage text's body and counts them. A fast path reads nearly all
+/// triangles, if they are completely buffered; the general path reads any triangle, line by line.
 class TriangleReader {
  public:
-  /// `columns` come from the header; numbers of materials have to be less than `material_count`. With
-  /// `marks_decimals`, batches mark the coordinates that are exact decimals.
+  /// `columns` come from the header; materials have numbers below `material_count`. With `marks_decimals`,
+  /// batches mark coordinates that are exact decimals.
   TriangleReader(TextReader& text, const AttributeSet& columns, std::size_t material_count,
                  bool marks_decimals);
 
   /// The number of the next triangle.
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
 
-  /// From now on, batches get the text of their triangles, too.
+  /// Makes later batches include the text of their triangles.
   void keep_text() { keeps_text_ = true; }
-  /// Adds some of the buffered triangles, as long as the fast path has them and the batch has fewer than
-  /// kBatchSize; false if it does not have the next.
+  /// Adds buffered triangles as long as the fast path reads them and the batch has fewer than kBatchSize;
+  /// false if it cannot read the next one.
   bool read_buffered(TriangleBatch& batch);
   /// Takes the line `triangle N` before a triangle. An InputError at the word that is wrong.
   void read_number(LineScanner& line);
@@ -37,28 +37,28 @@ class TriangleReader {
   void read_sphere(LineScanner& line, TriangleBatch& batch);
 
  private:
-  /// Consumes the part of the text that comes next, triangles of four lines which were added to the batch's
-  /// `triangles` and attributes alone, and completes the batch.
+  /// Consumes the next part of the text, triangles of four lines that the batch has only in `triangles` and
+  /// `attributes`, and completes the batch.
   void consume(const FixedTextPart& part, TriangleBatch& batch);
 
   TextReader& text_;
   VertexLineReader vertex_line_;
-  VertexLineReader sphere_line_;  // of all columns but the normal
+  VertexLineReader sphere_line_;  // all columns but the normal
   std::array<std::string, 4> sphere_names_;
   bool marks_decimals_;
   bool keeps_text_ = false;
   std::uint64_t next_number_ = 0;
-  int miss_count_ = 0;  // of the fast path, in a row
-  int pause_ = 0;       // triangles to read by the general path before trying the fast one
+  int miss_count_ = 0;  // misses of the fast path in a row
+  int pause_ = 0;       // triangles for the general path before the next try of the fast one
 };
 
-/// The error of a reader that has no use for a sphere.
+/// The error of a reader that does not accept spheres.
 InputError refused_sphere(const SourceLocation& location);
 
-/// Moves on to the line of vertex `index` (from 0) of a triangle; only comments may stand before it. An
-/// InputError if there is none.
+/// Moves on to the line of vertex `index` (from 0) of a triangle; only comments may precede it. An InputError
+/// if it is missing.
 void next_vertex_line(TextReader& text, LineScanner& line, std::size_t index);
-/// The same for a line of an `object` ("a triangle"); `expected` names the line in messages.
+/// Moves on likewise to a line of an `object` ("a triangle"); `expected` names the line in messages.
 void next_line_within(std::string_view object, TextReader& text, LineScanner& line,
                       const std::string& expected);
 

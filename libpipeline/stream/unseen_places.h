@@ -8,21 +8,21 @@
 
 namespace pipeline {
 
-/// Why a triangle, or a sphere, shows at no pixel: the first that applies, in order; fragments come last.
+/// The reason why a triangle or a sphere shows at no pixel: the first that applies, in this order.
 enum class UnseenPlace {
-  behind,  // the eye, all of it
-  near,    // all of it before the near plane or front limit, or a fragment, if none is visible
+  behind,  // all of it behind the eye
+  near,    // all of it, or a fragment if none is visible, before the near plane or front limit
   far,     // likewise beyond the far plane or rear limit
-  left,    // of the view volume or the window, all of it
+  left,    // all of it left of the view volume or the window
   right,   // likewise ...
   below,
   above,
   without_area,     // as seen from the eye
   between_centers,  // it covers no pixel
-  elsewhere         // no ray meets it, and no other place describes it
+  elsewhere         // no ray hits it, and no other reason applies
 };
 
-/// Triangles or spheres by their place, with their extents.
+/// The unseen triangles or spheres by place, with their extents.
 struct UnseenPlaces {
   struct Group {
     std::uint64_t count = 0;
