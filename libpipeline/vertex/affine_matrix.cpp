@@ -7,7 +7,7 @@ namespace pipeline {
 
 namespace {
 
-/// Enlarges a bound by more than the few operations that computed it can have lost to rounding and underflow.
+/// Enlarges a bound by more than the few operations that computed it can lose by rounding and underflow.
 double rounded_up(double bound) {
   return bound * (1 + 0x1p-40) + 0x1p-1000;
 }
@@ -29,7 +29,7 @@ double row_error_bound(const std::array<Ball, 4>& row) {
   return sum == 0 ? 0 : rounded_up(sum);
 }
 
-/// The Frobenius norm, which no vector is lengthened beyond.
+/// The Frobenius norm: no vector is lengthened by more.
 double norm_bound(const AffineMatrix::Rows& rows) {
   return rounded_up(
       std::hypot(row_length_bound(rows[0]), row_length_bound(rows[1]), row_length_bound(rows[2])));

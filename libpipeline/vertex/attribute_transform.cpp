@@ -26,7 +26,7 @@ std::int64_t exponent_of(const Ball& x) {
   return std::ilogb(x.value().hi) + x.exponent();
 }
 
-/// Divides vectors by the power of two that leaves their largest entry from 1 to 2; false if all are 0.
+/// Divides vectors by a power of two that brings their largest entry into [1, 2); false if all are 0.
 bool scale_to_1(std::span<BallVec3> vectors) {
   std::optional<std::int64_t> exponent;
   for (const BallVec3& v : vectors)

@@ -25,7 +25,7 @@ std::size_t index_of(ClipPlane plane) {
   return static_cast<std::size_t>(plane) - static_cast<std::size_t>(kAllClipPlanes[0]);
 }
 
-/// 0 for z, 1 for x, 2 for y: the axis of a plane.
+/// The axis of a plane: 0 for z, 1 for x, 2 for y.
 std::size_t axis_of(ClipPlane plane) {
   return index_of(plane) / 2;
 }
@@ -41,7 +41,7 @@ Ball distance_by_coordinates(ClipPlane plane, const ClipVertex& vertex) {
   return is_low(plane) ? vertex.w + coordinate : vertex.w - coordinate;
 }
 
-/// The distance from the near plane (`sign` -1) or the far one.
+/// The distance from the near plane (`sign` -1) or the far plane.
 Ball distance_from_end(int sign, const ClipVertex::Origin& vertex) {
   const double d = -vertex.p_view.z, inset = vertex.clip_inset;
   const double near = vertex.projection->near, far = vertex.projection->far;
@@ -66,7 +66,7 @@ Ball distance_from_side(int sign, const VolumeSides& sides, double coordinate, d
          (Ball(high) - low);
 }
 
-/// The distance from products that are not rounded; none if it depends on a tangent that is no double.
+/// The distance from unrounded products; none if it depends on a tangent that is not a double.
 std::optional<Ball> exact_distance(ClipPlane plane, const ClipVertex::Origin& vertex) {
   const int sign = is_low(plane) ? -1 : 1;
   if (axis_of(plane) == 0) return distance_from_end(sign, vertex);
@@ -77,7 +77,7 @@ std::optional<Ball> exact_distance(ClipPlane plane, const ClipVertex::Origin& ve
   return distance_from_side(sign, *sides, is_x ? vertex.p_view.x : vertex.p_view.y, w, vertex.clip_inset);
 }
 
-/// The distance, where its sign is not certain from the coordinates.
+/// The distance with a certain sign, if possible, where `distance`, from the coordinates, leaves it open.
 Ball distance_with_sign(ClipPlane plane, const ClipVertex& vertex, const Ball& distance) {
   if (vertex.origin.projection == nullptr || distance.is_exact()) return distance;
   return exact_distance(plane, vertex.origin).value_or(distance);
@@ -100,7 +100,7 @@ ClipVertex interpolate(const ClipVertex& a, const ClipVertex& b, const Ball& t) 
 ClipVertex cut(ClipPlane plane, const ClipVertex& a, const ClipVertex& b) {
   const Ball from = distance_inside(plane, a);
   const Ball to = distance_inside(plane, b);
-  // One of them is negative.
+  // One of the distances is negative.
   const int farther = compare(from.sign() < 0 ? -from : from, to.sign() < 0 ? -to : to);
   if (farther > 0 || (farther == 0 && is_lower(b, a))) return cut(plane, b, a);
   return interpolate(a, b, from / (from - to));

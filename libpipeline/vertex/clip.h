@@ -12,9 +12,9 @@ namespace pipeline {
 /// A point in clip space, before the divide: inside the view volume where -w <= x, y, z <= w. `weights` are
 /// its barycentric coordinates in the triangle it was cut from, for interpolating attributes.
 struct ClipVertex {
-  /// The vertex in view space that the point is the image of.
+  /// The origin of a point that is a vertex's image.
   struct Origin {
-    const ProjectionTransform* projection = nullptr;  // null for a cut
+    const ProjectionTransform* projection = nullptr;  // null for the point of a cut
     Vec3 p_view;
     double clip_inset = 0;
 
@@ -32,7 +32,7 @@ struct ClipVertex {
 /// planes. `projection` has to outlive it.
 ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_view, double clip_inset = 0);
 
-/// A plane of the view volume, from `near` to `above`, is called by the place beyond it.
+/// A plane of the view volume, from `near` to `above`, named after the place beyond it.
 using ClipPlane = UnseenPlace;
 
 constexpr std::array<ClipPlane, 6> kAllClipPlanes = {ClipPlane::near,  ClipPlane::far,   ClipPlane::left,
@@ -40,20 +40,20 @@ constexpr std::array<ClipPlane, 6> kAllClipPlanes = {ClipPlane::near,  ClipPlane
 constexpr std::array<ClipPlane, 1> kNearPlane = {ClipPlane::near};
 
 /// The signed distance from a plane in clip space, scaled: w + z for the near plane. Positive inside. Its
-/// sign is certain for the image of a vertex, except at sides of a perspective whose tangent is no double.
+/// sign is certain for the image of a vertex, except at sides of a perspective whose tangent is not a double.
 Ball distance_inside(ClipPlane plane, const ClipVertex& vertex);
 
-/// Its sign.
+/// The sign of distance_inside.
 int side_of(ClipPlane plane, const ClipVertex& vertex);
 
-/// The planes (bit i for kAllClipPlanes[i]) a vertex lies strictly outside of: its outcode (D. Cohen and
-/// I. Sutherland, 1967). A vertex on a plane, or so near that its sign is not certain, counts as inside.
+/// A vertex's outcode (D. Cohen and I. Sutherland, 1967): the planes that it lies strictly outside of, bit i
+/// for kAllClipPlanes[i]. A vertex on a plane, or so near that the side is not certain, counts as inside.
 unsigned outcode(const ClipVertex& vertex);
 
 /// The part of a convex polygon inside all `planes` (I. Sutherland, G. Hodgman, "Reentrant polygon clipping",
-/// 1974), in the same winding order; empty if no more than an edge or a corner is left. A cut is interpolated
-/// from the end of the edge nearer to the plane (from the lower one, by y, x, z, if both are equally near),
-/// so that polygons that share an edge get the same point.
+/// 1974), in the same winding order; empty if at most an edge or a corner is left. A cut is interpolated from
+/// the end of the edge nearer to the plane (if both are equally near, from the lower by y, x, z), so that
+/// polygons that share an edge get the same point.
 std::vector<ClipVertex> clip_polygon(std::span<const ClipVertex> polygon, std::span<const ClipPlane> planes);
 
 }  // namespace pipeline

@@ -25,7 +25,7 @@ CoordinateRounder::CoordinateRounder(Precision precision, NumberFormat format, s
 RoundingTest CoordinateRounder::rounding_test() const {
   if (precision_ == Precision::in_doubles) return {RoundingTestKind::finite};
   if (format_.shortest) return {RoundingTestKind::nearest};
-  // More decimals would show the last bits of a double of ordinary magnitude.
+  // More decimals would show rounding errors of doubles of ordinary magnitude.
   constexpr int kMaxDecimalsOfDoubles = 10;
   return {RoundingTestKind::decimals, kPowersOfTen[static_cast<std::size_t>(format_.decimals)],
           format_.decimals > kMaxDecimalsOfDoubles};
@@ -39,7 +39,7 @@ void CoordinateRounder::expect_finite(double coordinate, const char* name, LineA
                    expected_but_found("a vertex whose image is within a double's range", found));
 }
 
-// These two are seldom called, and not inlined, so that their callers are.
+// These two are seldom called; they are not inlined, so that their callers can be.
 [[gnu::noinline]] double CoordinateRounder::size_within_bounds(double input_size, const BallVec3& p) {
   return std::min(input_size, std::max({p.x.magnitude(), p.y.magnitude(), p.z.magnitude(), kLeastSize}));
 }
@@ -69,7 +69,7 @@ RoundedVertex CoordinateRounder::rounded_exactly(const BallVec3& p, LineAndColum
   return {{x.hi, y.hi, z.hi}, {x.lo, y.lo, z.lo}};
 }
 
-// Flat, as every vertex of a cut triangle comes here.
+// Flattened, as it is called for every vertex of a cut triangle.
 [[gnu::flatten]] void CoordinateRounder::set_vertex_exactly(TriangleBatch& batch, std::size_t triangle,
                                                             std::size_t vertex, const BallVec3& p,
                                                             double input_size, bool is_certain) {

@@ -14,17 +14,16 @@
 namespace pipeline {
 namespace {
 
-// Where it is too much work, every third row stays. Scenes of more than kSmallScene triangles get so little,
-// and a unit for every kTrianglesAUnit, that it is less than a hundredth of the instructions of `project`. A
-// unit is about ten.
+// Over the limit of work, every third row stays. Beyond kSmallScene triangles the limit, with a unit for
+// every kTrianglesAUnit, is below a hundredth of `project`'s instructions. A unit is about ten of them.
 constexpr std::size_t kSmallestScene = 256, kSmallScene = 1024, kLeastRows = 3;
 constexpr std::size_t kMostWork = 90'000, kWorkForLarge = 5'500, kWorkForRows = 6'000, kTrianglesAUnit = 5;
 constexpr unsigned kTrialCount = 5;
 constexpr std::size_t kAskedForDecimals = 8;
 constexpr int kMostDecimals = 12;       // more cost as much as all digits
-constexpr int kFewestDecimals = 6;      // numbers with fewer were typed, unless those written have as few
+constexpr int kFewestDecimals = 6;      // numbers with fewer were typed, unless the text written has as few
 constexpr double kFewUnits = 2000;      // over the window's height: a last decimal is half a row
-constexpr double kLeastShare = 0.005;   // below it, nothing is found
+constexpr double kLeastShare = 0.005;   // below it, no loss is reported
 constexpr double kNoPixel = 5e-7;       // a share
 constexpr double kDoubleError = 1e-14;  // of a depth
 
@@ -36,7 +35,7 @@ double rounded(double value, int decimals) {
   return std::nearbyint(value * power_of_ten(decimals)) / power_of_ten(decimals);
 }
 
-/// A number from -1 to 1 that looks random; the same for the same arguments.
+/// A pseudorandom number from -1 to 1; the same for the same arguments.
 double scattered(double value, unsigned trial) {
   std::uint64_t bits = std::bit_cast<std::uint64_t>(value + 0.0) + trial * 0x9e3779b97f4a7c15u;
   for (const int shift : {30, 27, 31}) bits = (bits ^ (bits >> shift)) * 0xbf58476d1ce4e5b9u;
@@ -71,8 +70,8 @@ std::size_t LostDigits::Steps::from(double value) const {
   return static_cast<std::size_t>(std::ceil(std::clamp(index, 0.0, static_cast<double>(count))));
 }
 
-/// Decides whether a stage has rounded the first numbers read, so that they have lost digits: many do not end
-/// in 0.
+/// Decides whether a stage has rounded the first numbers read, so that they have lost digits: then many of
+/// them do not end in 0.
 void LostDigits::look_for_decimals() {
   half_.written = decimals_ ? 0.5 / power_of_ten(*decimals_) : 0;
   if (decimals_read_ > kMostDecimals || (decimals_read_ < kFewestDecimals && decimals_read_ != decimals_))
@@ -112,7 +111,7 @@ void LostDigits::add(const TriangleBatch& p_view, const TriangleBatch& p_ndc) {
   triangle_count_ += triangles.size();
 }
 
-/// How many triangles to skip, as those that would be looked at lie between two rows.
+/// The count of first triangles to skip: each lies between two rows.
 std::size_t LostDigits::count_between_rows(std::span<const Triangle> p_ndc) const {
   constexpr double kToWhole = 0x1.8p52;  // added and rounded
   const double per_unit = ys_.per_unit, halfway = 0.5 - Steps::kMiddle * per_unit;
@@ -136,10 +135,10 @@ void LostDigits::look_at_kept() {
   kept_ = {};
 }
 
-/// Looks at a triangle. If that is too much work, fewer rows stay; if these are few, it is left out, except
-/// some that hide places.
+/// Looks at a triangle. Over the limit of work, rows are dropped; if few are left, the triangle, at twice the
+/// limit if it is near.
 void LostDigits::look_at(const Triangle& p_ndc, const Triangle& p_view, std::size_t most_work) {
-  constexpr double kMostReach = 1e-3;  // of triangles that lie behind all places except by their reach
+  constexpr double kMostReach = 1e-3;  // of triangles that lie behind all places but for their reach
   const auto& [a, b, c] = p_ndc;
   const double nearest = std::min({a.z, b.z, c.z});
   work_ += 2;
@@ -190,7 +189,7 @@ void LostDigits::look_along(Row& row, double y, Surface& surface, std::uint32_t&
   farthest_ = std::ranges::max_element(rows_, {}, &Row::farthest)->farthest;
 }
 
-/// The triangle is nearer than all others at this place, or may be.
+/// Compares a triangle that is, or may be, the nearest at a place.
 void LostDigits::look_at(Place& place, double z, Surface& surface, std::uint32_t& index) {
   if (index == kNone) {
     index = static_cast<std::uint32_t>(seen_.size());
@@ -208,7 +207,7 @@ void LostDigits::look_at(Place& place, double z, Surface& surface, std::uint32_t
     std::tie(place.rival, place.gap) = std::tuple(index, gap);
 }
 
-/// Makes the triangle from what was read, where the numbers to be printed may be rounded; a piece stays.
+/// Makes the triangle anew from the numbers read, as those to be printed may be rounded; a piece stays.
 void LostDigits::undo_rounding(Surface& surface) const {
   constexpr double kSame = 1e-6;
   const Triangle whole = projected(surface.p_view);
@@ -242,8 +241,8 @@ Triangle LostDigits::projected(const Triangle& p_view) const {
   return p_ndc;
 }
 
-/// A bound on the error, from lost digits, of a plane's depth where that depth is `z`. The numbers read were
-/// rounded by model and view.
+/// A bound on the error, from lost digits, of a plane's depth where it is `z`. Model and view have rounded
+/// the numbers read.
 double LostDigits::depth_error(const Plane& plane, double z, const HalfUnits& half) const {
   const double near = projection_.near, far = projection_.far;
   const double z_x = std::fabs(plane.z_x), z_y = std::fabs(plane.z_y);
@@ -255,9 +254,9 @@ double LostDigits::depth_error(const Plane& plane, double z, const HalfUnits& ha
   return (half.written + kDoubleError) * (1 + z_x + z_y) + 2 * half.read * by_view;
 }
 
-/// The share of the triangle that its edges sweep over, if by as much as they do here. An edge is off by 0.38
-/// half units in the mean, the square root of 2 times that if rounded twice; half of it is the triangle's own
-/// loss.
+/// The share of the triangle that its edges sweep over, if they all move as at this place. In the mean, an
+/// edge is off by 0.38 half units, or sqrt(2) times that if rounded twice; half of the swept area is the
+/// triangle's own loss.
 double LostDigits::edge_share(const Place& place) const {
   const auto& [p_ndc, p_view, plane, reach] = seen_[place.nearest];
   double scale = (x_scale_ + y_scale_) / 2, length = 0;
@@ -268,8 +267,8 @@ double LostDigits::edge_share(const Place& place) const {
   return std::min(0.38 * off * length / std::fabs(plane.area), 1.0);
 }
 
-/// The triangle by some numbers before model and view rounded them to those that were read. Equal numbers
-/// stay equal.
+/// The triangle with possible numbers, which model and view would round to those read. Equal numbers stay
+/// equal.
 Triangle LostDigits::possible_truth(const Surface& surface, unsigned trial) const {
   if (half_.read == 0) return surface.p_ndc;
   return projected(with_numbers(surface.p_view, [&](double number) {
@@ -279,7 +278,7 @@ Triangle LostDigits::possible_truth(const Surface& surface, unsigned trial) cons
 }
 
 /// The share of equally likely cases, which should differ from place to place, in which the two surfaces at a
-/// place are printed in the wrong order. Of equal depths, the earlier triangle is seen.
+/// place are printed in the wrong order. Among equal depths, the earlier triangle is seen.
 double LostDigits::wrong_share(const Place& place, double x, double y, unsigned first_trial) const {
   const auto [first, second] = std::minmax(place.nearest, place.rival);
   const Surface &a = seen_[first], &b = seen_[second];
@@ -291,7 +290,7 @@ double LostDigits::wrong_share(const Place& place, double x, double y, unsigned 
     return with_numbers(surface.p_ndc, [&](double number) { return rounded(number, *decimals_); });
   };
   const bool is_printed_nearer = is_second_nearer(printed(a), printed(b));
-  // Where numbers are as coarse as pixels, surfaces printed in one plane were probably layers.
+  // If numbers are as coarse as pixels, surfaces printed in one plane were probably layers.
   const double w = projection_.is_perspective ? view_from_clip_.w_of({0, 0, place.z}) : 1;
   if (place.gap <= kDoubleError && unit_read_ * y_scale_ / w > 2 / kFewUnits) return 0.5;
   unsigned wrong_count = 0;
@@ -342,7 +341,7 @@ bool LostDigits::suffice(int more_decimals, const Losses& losses) const {
 }
 
 std::optional<LostDigits::Found> LostDigits::found() {
-  if (kept_.size() == 1) return std::nullopt;  // nothing is close to it
+  if (kept_.size() == 1) return std::nullopt;  // one triangle has no rival
   if (rows_.empty()) look_at_kept();
   const Losses lost = losses();
   const double share = (lost.wrong + lost.at_edges) / lost.shown;

@@ -13,24 +13,23 @@
 namespace pipeline {
 
 /// Estimates the share of a picture that shows another surface than it would with all digits. Draws the scene
-/// at some places of the window. Where the two nearest surfaces are closer in depth than the decimals can
-/// tell, it asks whether they are printed in the true order; for every triangle, what share of it the
-/// rounding sweeps its edges over. These shares do not depend on the size of the picture.
-///
-/// The numbers written are known before they are rounded. The digits that the text read has lost are not:
-/// some equally likely ones are tried.
+/// at some places of the window. Where the decimals cannot order the two nearest surfaces, it checks whether
+/// they are printed in the true order; for every triangle, it estimates the share over which rounding moves
+/// the edges. These shares do not depend on the size of the picture. The numbers to be written are known
+/// before they are rounded. The digits lost by the text that is read are not known: some equally likely ones
+/// are tried.
 class LostDigits {
  public:
   struct Found {
-    double share = 0;               // of what is drawn
-    bool is_of_edges = false;       // or most of it is
-    int decimals = 0;               // too few of them
-    std::optional<int> enough;      // with these, no pixel should be wrong; none if 12 are too few
-    bool may_be_one_plane = false;  // most of it is surfaces that perhaps no digits tell apart
-    bool near_helps = false;        // a larger one would lose fewer digits and hide nothing
+    double share = 0;               // of the pixels drawn
+    bool is_of_edges = false;       // true if most of the loss is at edges
+    int decimals = 0;               // the count of decimals, which is too small
+    std::optional<int> enough;      // with so many, no pixel should be wrong; none if 12 are too few
+    bool may_be_one_plane = false;  // most of the loss is at surfaces that perhaps no digits tell apart
+    bool near_helps = false;        // a larger near would lose fewer digits and hide nothing
   };
 
-  /// `decimals` of the text that is written, none if it is exact, and of the first number that was read.
+  /// `decimals` of the text written, none if it is exact; `decimals_read` of the first number read.
   LostDigits(const ProjectionTransform& projection, std::optional<int> decimals,
              std::optional<int> decimals_read);
 
@@ -42,11 +41,11 @@ class LostDigits {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  /// Half of a last decimal, of the text read and of the text written; 0 if that one is exact.
+  /// Half a unit of the last decimal, in the text read and in the text written; 0 for an exact text.
   struct HalfUnits {
     double read = 0, written = 0;
   };
-  /// Depths over the window.
+  /// The plane of a triangle: depths over the window.
   struct Plane {
     Plane() = default;
     explicit Plane(const Triangle& p_ndc);
@@ -56,35 +55,35 @@ class LostDigits {
 
     Vec3 corner;
     double z = 0, z_x = 0, z_y = 0;
-    double area = 0;  // twice the triangle's, with a sign
+    double area = 0;  // twice the triangle's signed area
   };
-  /// A triangle as it is before it is printed and as it was read: whole, if it is a piece.
+  /// A triangle before it is printed and, even for a piece the whole one, as it was read.
   struct Surface {
     Triangle p_ndc, p_view;
     Plane plane = {};
-    double reach = 0;  // no error in depth is larger
+    double reach = 0;  // a bound on the error in depth
   };
   struct Place {
     double z = 2;                   // nothing
-    double reach = 0;               // of the nearest
-    double gap = 0;                 // to the rival
+    double reach = 0;               // of the nearest surface
+    double gap = 0;                 // in depth, to the rival
     std::uint32_t nearest = kNone;  // an index of seen_
-    std::uint32_t rival = kNone;    // one that may be nearer
+    std::uint32_t rival = kNone;    // a surface that may be nearer
   };
   struct Row {
-    double farthest = 2;  // no place is farther, with its reach
+    double farthest = 2;  // no place's z + reach is larger
     unsigned look_count = 0;
     std::vector<Place> places;
   };
   /// Some values of x or y over the window, one of them near the middle.
   struct Steps {
-    static constexpr double kMiddle = 0.0037, kOdd = 0.13;  // so that no grid of vertices meets them
+    static constexpr double kMiddle = 0.0037, kOdd = 0.13;  // so that they hit no grid of vertices
     [[nodiscard]] double at(std::size_t index) const {
       return (static_cast<double>(index) - static_cast<double>(count / 2)) / per_unit + kMiddle;
     }
-    /// The index of the first that is at least `value`.
+    /// The index of the first step that is at least `value`.
     [[nodiscard]] std::size_t from(double value) const;
-    /// Keeps every third, from the second on.
+    /// Keeps every third step, from the second on.
     void thin_out() {
       count /= 3;
       per_unit /= 3;
@@ -98,7 +97,7 @@ class LostDigits {
     double gap, z;
     const Surface &a, &b;
   };
-  /// Counts of places, those that may be wrong by their share.
+  /// Counts of places; those that may be wrong count by their share.
   struct Losses {
     double shown = 0, wrong = 0, at_edges = 0, in_one_plane = 0;
     double nearest = 2;  // the least z
@@ -128,15 +127,15 @@ class LostDigits {
   double x_scale_, y_scale_;
   std::optional<int> decimals_;  // of the text written
   int decimals_read_;
-  double unit_read_ = 0;  // a last decimal of the text read, if a stage has rounded its numbers
+  double unit_read_ = 0;  // a unit of the last decimal read, if a stage has rounded it
   HalfUnits half_;
 
   std::vector<Surface> kept_;  // all triangles, while they are few
   std::size_t triangle_count_ = 0, work_ = 0;
   Steps ys_, columns_;
-  double farthest_ = 2;        // of all rows
+  double farthest_ = 2;        // the largest of all rows
   std::vector<Row> rows_;      // none while triangles are kept
-  std::vector<Surface> seen_;  // somewhere when they came, in the order of the stream
+  std::vector<Surface> seen_;  // visible somewhere when added, in the order of the stream
 };
 
 }  // namespace pipeline

@@ -32,7 +32,7 @@ class MatrixStack {
     }
     return top_is_saved_ = true;
   }
-  /// Restores the matrix saved last; false, with nothing done, if none is.
+  /// Restores the matrix saved last; false, with nothing done, if none is saved.
   [[nodiscard]] bool pop() {
     if (saved_.empty()) return false;
     if (!top_is_saved_) top_ = saved_.back().matrix;

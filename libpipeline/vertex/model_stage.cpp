@@ -13,7 +13,7 @@ namespace pipeline {
 
 namespace {
 
-/// The unit normal on the side from where the triangle is counterclockwise; 0 where doubles do not keep eight
+/// The unit normal on the side from which the triangle is counterclockwise; 0 if doubles do not keep eight
 /// digits of it.
 Vec3 face_normal_in_doubles(const Triangle& p) {
   const Vec3 b = difference(p[1], p[0]), c = difference(p[2], p[0]), normal = cross(b, c);
@@ -34,7 +34,7 @@ ModelStage::ModelStage(SceneReader& scene, std::uint64_t first_number, const Sph
   }
 }
 
-/// The output's header needs the complete appearance.
+/// Reads up to the first object: the output's header needs the complete appearance.
 void ModelStage::read_until_object() {
   while (!done_ && !first_object_) {
     const Command command = scene_.next();
@@ -65,7 +65,7 @@ AttributeSet ModelStage::columns() const {
 
 bool ModelStage::read(TriangleBatch& batch) {
   const bool has_objects = deferred_error_.read(batch, [&] { fill(batch); });
-  if (facets_) batch.attributes.normals.resize(batch.size());  // also of a batch that an error has ended
+  if (facets_) batch.attributes.normals.resize(batch.size());  // even if an error has ended the batch
   return has_objects;
 }
 
@@ -79,7 +79,7 @@ void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) {
   }
 }
 
-/// Transforms normals, and gives faces without any theirs: in doubles or, if these lose digits, exactly.
+/// Transforms normals, or sets missing ones to the face's: in doubles or, if these lose digits, exactly.
 void ModelStage::transform_normals(TriangleBatch& batch, const Run& run, std::size_t end,
                                    CoordinateRounder& rounder) const {
   const NormalTransform& transform = *run.world_normal_from_model;
@@ -108,7 +108,7 @@ void ModelStage::transform_normals(TriangleBatch& batch, const Run& run, std::si
   }
 }
 
-/// Without a scale by 0, no triangle loses its area; under one, there is no sphere.
+/// Without a scale by 0, no triangle loses its area; under one, no sphere is allowed.
 void ModelStage::look_for_area(const TriangleBatch& p_model) {
   has_area_ = !scale_by_0_ || !p_model.spheres.empty();
   for (std::size_t i = 0, run = 0; i < p_model.size() && !has_area_; ++i) {
@@ -173,7 +173,7 @@ void ModelStage::add(const TriangleCommand& triangle, TriangleBatch& batch) {
   if (columns.any()) batch.attributes.add(scene_.lines(), columns);
 }
 
-/// Adds the sphere that the scene reader returned last, or has its facets come next.
+/// Adds the sphere that the scene reader returned last, or makes its facets come next.
 // M10
 void ModelStage::add(const SphereCommand& sphere, TriangleBatch& batch) {
   if (refuses_spheres_) throw refused_sphere(scene_.location());
@@ -195,7 +195,7 @@ void ModelStage::add(const SphereCommand& sphere, TriangleBatch& batch) {
 }
 
 /// Adds facets of the sphere as long as there is room; all have its number. The outside of a mirrored sphere
-/// stays the front.
+/// remains its front.
 void ModelStage::add_facets(TriangleBatch& batch) {
   const bool is_mirrored = runs_.back().world_from_model.matrix().orientation < 0;
   const LineAndColumn location = faceted_->center_location;
@@ -245,14 +245,14 @@ void ModelStage::carry_out(const Command& command) {
   }
 }
 
-/// The next batch begins with the matrix with which the last one ended.
+/// Keeps the last run, whose matrix the next batch begins with.
 void ModelStage::keep_last_run() {
   if (runs_.empty()) return;
   runs_.erase(runs_.begin(), runs_.end() - 1);
   runs_.front().first = 0;
 }
 
-/// From triangle `first` of the batch on, the matrix on top of the stack applies.
+/// Applies the matrix on top of the stack from triangle `first` of the batch on.
 void ModelStage::begin_run(std::size_t first) {
   if (!is_matrix_new_) return;
   is_matrix_new_ = false;

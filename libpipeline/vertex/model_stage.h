@@ -17,7 +17,7 @@
 
 namespace pipeline {
 
-/// How a scene's spheres are written.
+/// The form in which a scene's spheres are written.
 struct SphereForm {
   bool is_refused = false;
   /// If given, a sphere becomes this many belts of facets (SphereFacets), and all triangles get normals.
@@ -27,8 +27,8 @@ struct SphereForm {
 /// The model stage: carries out a scene's commands, model space to world space.
 class ModelStage {
  public:
-  /// Carries out the commands before the first triangle; an error there is thrown by the first `read`.
-  /// Triangles are numbered from `first_number` on.
+  /// Carries out the commands before the first object; the first `read` throws an error among them. Triangles
+  /// are numbered from `first_number` on.
   explicit ModelStage(SceneReader& scene, std::uint64_t first_number = 0, const SphereForm& spheres = {});
 
   /// The scene's color and light, the lights in world space.
@@ -36,20 +36,20 @@ class ModelStage {
   /// The lights whose coordinates have an uncertain digit.
   [[nodiscard]] const UncertainDigits& uncertain_lights() const { return uncertain_lights_; }
   /// Fills the batch with the next triangles, in model space; false at the scene's end. An InputError if the
-  /// scene is wrong or the matrix stack under- or overflows; it is thrown after the triangles before it are
+  /// scene is wrong or the matrix stack under- or overflows, thrown after the triangles before it are
   /// delivered.
   bool read(TriangleBatch& batch);
   /// Transforms the batch read last to world space, normals included. An InputError at the vertex on
   /// overflow, or where a facet's normal is lost; the batch then keeps the triangles before it.
   void transform(TriangleBatch& batch, CoordinateRounder& rounder);
-  /// The first scale by 0, if no triangle transformed so far has an area; else none.
+  /// The first scale by 0 if no triangle transformed so far has an area; else none.
   [[nodiscard]] std::optional<SourceLocation> flattening_scale() const {
     return has_area_ ? std::nullopt : scale_by_0_;
   }
   [[nodiscard]] const OddTransforms& odd_transforms() const { return odd_transforms_; }
 
  private:
-  /// The triangles and spheres of a batch under one matrix: from `first` up to the next run's.
+  /// The triangles and spheres of a batch under one matrix: from `first` up to the next run's `first`.
   struct Run {
     std::size_t first;
     VertexTransform world_from_model;
@@ -81,8 +81,8 @@ class ModelStage {
   UncertainDigits uncertain_lights_;
   std::optional<SourceLocation> scale_by_0_;  // the first
   OddTransforms odd_transforms_;
-  bool has_area_ = false;                // some triangle has, in world space
-  std::optional<Command> first_object_;  // of the next batch, if it has been read
+  bool has_area_ = false;                // a triangle has one, in world space
+  std::optional<Command> first_object_;  // of the next batch, if already read
   bool refuses_spheres_;
   std::optional<SphereFacets> facets_;
   std::optional<SphereCommand> faceted_;  // the sphere whose facets come next

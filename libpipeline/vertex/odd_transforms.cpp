@@ -12,9 +12,9 @@
 namespace pipeline {
 namespace {
 
-constexpr std::uint64_t kMostTyped = 100;  // triangles; models may have a few without area
+constexpr std::uint64_t kMostTyped = 100;  // triangles; larger models may have a few without area
 
-/// How many decimals a number was written with, as far as its double shows; 10 for more.
+/// The count of decimals that a number was written with, as far as its double shows; at most 10.
 int decimal_count(double value) {
   double scaled = std::fabs(value);
   for (int count = 0; count < 10; ++count, scaled *= 10)
@@ -22,8 +22,8 @@ int decimal_count(double value) {
   return 10;
 }
 
-/// True for a multiple of 30 or 45 degrees, up to a full turn, if `angle` is taken for radians: written with
-/// at least four decimals, the last of them rounded or cut.
+/// True if `angle`, taken as radians, is a multiple of 30 or 45 degrees, up to a full turn, written with at
+/// least four decimals, the last of them rounded or cut.
 bool looks_like_radians(double angle) {
   constexpr double kFullTurn = 2 * std::numbers::pi;
   if (angle == 0 || std::fabs(angle) > kFullTurn + 1e-4) return false;
@@ -35,7 +35,7 @@ bool looks_like_radians(double angle) {
   });
 }
 
-/// True for three points, no two of them equal, on a line, up to the rounding of decimals.
+/// True for three points, no two of them equal, that lie on a line but for the rounding of decimals.
 bool are_on_line(const Triangle& p) {
   constexpr double kSine = 1e-12;
   const Vec3 normal = cross(unit_vector(difference(p[1], p[0])), unit_vector(difference(p[2], p[0])));

@@ -13,7 +13,7 @@
 namespace pipeline {
 namespace {
 
-/// The sign of the determinant with rows (x, y, w) of the three vertices. It is the sign of the area in NDC
+/// The sign of the determinant with rows (x, y, w) of the three vertices. This is the sign of the area in NDC
 /// of the part in front of the eye, unless the projection mirrors one axis.
 int winding_sign(const Triangle& p_view, bool is_perspective) {
   const auto w = [&](const Vec3& p) { return is_perspective ? -p.z : 1.0; };
@@ -40,7 +40,7 @@ int winding_sign(const Triangle& p_view, bool is_perspective) {
       .sign();
 }
 
-/// The nearest double, if products with it stay in range and within one rounding of those with the number
+/// The nearest double if products with it stay in range, and within one rounding of products with the number
 /// itself; else NaN, which fails every rounding test.
 double safe_double(const Ball& number) {
   if (number.is_exact_zero()) return 0;
@@ -50,15 +50,15 @@ double safe_double(const Ball& number) {
   return is_fine ? nearest : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The location of the corner with the largest weight in a vertex of a piece, for messages.
+/// For messages, the location of the corner with the largest weight in a piece's vertex.
 // N4
 LineAndColumn location_of(const ClipVertex& vertex, const VertexLocations& corners) {
   const auto heaviest = std::max_element(vertex.weights.begin(), vertex.weights.end());
   return corners[static_cast<std::size_t>(heaviest - vertex.weights.begin())];
 }
 
-/// The corners of a triangle relative to the clip planes, as outcodes: the planes that at least one corner is
-/// outside of, and the planes that all corners are outside of.
+/// The corners of a triangle relative to the clip planes, as outcodes: the planes with at least one corner
+/// outside, and the planes with all corners outside.
 struct TriangleOutcode {
   unsigned any = 0;
   unsigned all = ~0u;
@@ -156,7 +156,7 @@ void ProjectionStage::project_or_clip(const TriangleBatch& p_view, std::size_t i
   drop_outside(p_view, index, p_ndc);
 }
 
-/// True if clipping might leave something of a triangle whose vertices are within the bounds of these.
+/// True if clipping might leave something of a triangle within the error bounds of this one.
 bool ProjectionStage::may_be_inside(const Triangle& p_view) const {
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
   for (const Vec3& p : p_view) {
@@ -167,7 +167,7 @@ bool ProjectionStage::may_be_inside(const Triangle& p_view) const {
   return farthest >= projection_.near || (clip_ == ClipMode::automatic && nearest * 1024 >= projection_.near);
 }
 
-/// Adds the whole of a triangle that clipping has dropped, with a piece that has no area.
+/// Adds a triangle that clipping has dropped, as a piece without area that keeps the whole.
 void ProjectionStage::add_possible(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
   const Vec3 on_far = {0, 0, 1};
   p_ndc.add({on_far, on_far, on_far}, p_view.numbers[index], p_view.locations[index]);
@@ -198,7 +198,7 @@ void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t in
   names.w = true;
   for (std::size_t v = 0; v < 3; ++v) lines.vertices[v].w = mixes[v].w;
   for_each_attribute([&](const auto& attribute) {
-    const auto& array = corners.*attribute.array;  // the one of w is empty
+    const auto& array = corners.*attribute.array;  // the array of w is empty
     for (std::size_t v = 0; v < 3 && !array.empty(); ++v) {
       auto& value = lines.vertices[v].*attribute.value = mean(array[index], mixes[v].weights);
       // Rounded weights may push a value at a limit beyond it.
@@ -213,7 +213,7 @@ void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t in
 void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t index,
                                         TriangleBatch& p_ndc) {
   // A block is transformed as soon as one of its triangles is neither culled nor dropped: with AVX2 the
-  // kernel takes 7 % of the instructions of `project`, so that to leave out the others would save little.
+  // kernel takes 7 % of `project`'s instructions, so leaving out the other triangles would save little.
   if (!has_images_) {
     vertex_kernel().project(coefficients_, rounder_.rounding_test(), vertices_, block_);
     has_images_ = true;
@@ -259,7 +259,7 @@ std::vector<ClipVertex> ProjectionStage::clipped(const std::array<ClipVertex, 3>
     const auto corner = std::ranges::find(corners, vertex);
     if (corner == corners.end())
       vertex.w = vertex.w / (Ball(1) - clip_inset_);
-    else  // to divide again would lose digits
+    else  // dividing again would lose digits
       vertex.w = w_of(p_view[static_cast<std::size_t>(corner - corners.begin())]);
   }
   return polygon;
@@ -309,7 +309,7 @@ std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
   return std::make_shared<const ClipTriangle>(triangle);
 }
 
-/// The image of a vertex of a piece that is a corner of its triangle, if it passed the rounding test.
+/// The image of a piece's vertex if that is a corner of its triangle and passed the rounding test.
 std::optional<Vec3> ProjectionStage::image_of_corner(const ClipVertex& vertex, std::size_t index) const {
   if (!has_images_ || clip_inset_ != 0) return std::nullopt;
   const std::size_t first = 3 * (index % VertexBlock::kTriangles);
@@ -319,7 +319,7 @@ std::optional<Vec3> ProjectionStage::image_of_corner(const ClipVertex& vertex, s
   return std::nullopt;
 }
 
-/// Adds the image of a piece of triangle `index`, with that triangle's number.
+/// Adds the image of a piece of triangle `index`, with the triangle's number.
 void ProjectionStage::add_piece(const TriangleBatch& p_view, std::size_t index, const Piece& piece,
                                 TriangleBatch& p_ndc) {
   const std::size_t target = p_ndc.size();

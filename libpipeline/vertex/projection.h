@@ -15,52 +15,52 @@
 
 namespace pipeline {
 
-/// Which triangles are cut or dropped before the perspective divide.
+/// The choice of triangles to cut or drop before the perspective divide.
 enum class ClipMode {
-  automatic,  // clips at the near plane the triangles with a vertex nearer to the eye plane than near / 1024
+  automatic,  // clips triangles with a vertex nearer to the eye plane than near / 1024, at the near plane
   near,       // clips every triangle at the near plane
   frustum,    // clips every triangle at all six planes
-  reject,     // drops the triangles wholly outside one plane, clips none
+  reject,     // drops triangles wholly outside one plane, clips none
   none        // clips and drops none; a vertex not in front of the eye is an error
 };
 
-/// Which triangles are dropped by their winding as seen from the eye; counterclockwise is front. A triangle
-/// seen edge-on, as far as 31 digits can tell, is kept.
+/// The winding, as seen from the eye, of triangles to drop; counterclockwise is front. A triangle seen
+/// edge-on, as far as 31 digits can tell, is kept.
 enum class CullMode { nothing, back, front };
 
 struct ProjectionCounts {
-  std::uint64_t clipped = 0;  // triangles that were cut
-  std::uint64_t pieces = 0;   // triangles they became
+  std::uint64_t clipped = 0;  // triangles cut
+  std::uint64_t pieces = 0;   // triangles made of these
   std::uint64_t outside = 0;  // triangles dropped by clipping
   std::uint64_t culled = 0;   // triangles dropped by their winding
 };
 
-/// The kernels' coefficients (vertex_kernel.h). The values of scales and offsets are NaN, which fails every
-/// test, where products with them may leave a double's range.
+/// The kernels' coefficients (vertex_kernel.h). A scale or an offset is NaN, which fails every test, if
+/// products with it may leave a double's range.
 ProjectionCoefficients coefficients_of(const ProjectionTransform& projection, double clip_inset = 0);
 
 /// The project stage: view space to NDC, by way of clip space.
 class ProjectionStage {
  public:
-  /// Clips and drops at planes pulled in by `clip_inset`, in [0, 1): inside them |x|, |y| and |z| are at most
-  /// 1 - clip_inset in NDC. `rounder` must outlive the stage.
+  /// Clips and drops at planes pulled in by `clip_inset`, in [0, 1): in NDC, |x|, |y| and |z| inside are at
+  /// most 1 - clip_inset. `rounder` must outlive the stage.
   ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull,
                   CoordinateRounder& rounder, double clip_inset = 0);
 
-  /// Fills `p_ndc` with the images of the triangles in `p_view`, in order. A clipped triangle becomes the fan
-  /// of its polygon, all pieces with its number; a dropped one becomes none. Attributes are interpolated
-  /// linearly in clip space and w is added to them; normals are not normalized again, so that a piece is
-  /// shaded like the whole. An InputError at the vertex's location if w <= 0 in a vertex to be divided, or an
-  /// image overflows; `p_ndc` then holds the images of the triangles before it. Colors and
-  /// normals of cut vertices are calculated in doubles: within 1e-12 and 1e-14 of the exact means.
+  /// Fills `p_ndc` with the images of the triangles in `p_view`, in order. A clipped triangle becomes a fan
+  /// of pieces, all with its number; a dropped one is left out. Attributes are interpolated linearly in clip
+  /// space, and w is added to them; normals are not normalized again, so that a piece is shaded like the
+  /// whole. An InputError at the vertex's location if w <= 0 in a vertex to be divided, or an image
+  /// overflows; `p_ndc` then holds the images of the triangles before it. Colors and normals of cut vertices
+  /// are calculated in doubles: within 1e-12 and 1e-14 of the exact means.
   void project(const TriangleBatch& p_view, TriangleBatch& p_ndc);
 
-  /// From now on pieces keep the triangle they were cut from (TriangleBatch::unclipped), as lighting needs.
+  /// Makes pieces keep the triangle they were cut from (TriangleBatch::unclipped), for lighting.
   void keep_unclipped_triangles() { keeps_unclipped_ = true; }
 
-  /// From now on writes w with every vertex. A triangle that clipping drops, but might not with its vertices
-  /// moved by up to `error`, is passed on as a piece without area. All pieces keep their uncut triangle. Not
-  /// with the clip modes frustum, reject and none.
+  /// Makes the stage write w with every vertex. A triangle that clipping drops, but might keep if its
+  /// vertices moved by up to `error`, is passed on as a piece without area. All pieces keep their uncut
+  /// triangle. Not for the clip modes frustum, reject and none.
   void keep_bounds(const ErrorBound& error) {
     error_ = error;
     keeps_unclipped_ = true;
@@ -68,7 +68,7 @@ class ProjectionStage {
   }
 
   [[nodiscard]] const ProjectionCounts& counts() const { return counts_; }
-  /// True if the triangle's winding is one that the stage drops.
+  /// True if the stage drops triangles of this winding.
   [[nodiscard]] bool culls(const Triangle& p_view) const {
     return cull_ != CullMode::nothing && is_culled(p_view);
   }
@@ -86,7 +86,7 @@ class ProjectionStage {
 
   [[nodiscard]] double w_of(const Vec3& p_view) const { return projection_.is_perspective ? -p_view.z : 1; }
   [[nodiscard]] bool is_culled(const Triangle& p_view) const;
-  /// True if the clip mode looks at every triangle.
+  /// True if the clip mode applies to every triangle.
   [[nodiscard]] bool clips_all() const { return clip_ != ClipMode::automatic && clip_ != ClipMode::none; }
   [[nodiscard]] bool may_clip(const Triangle& p_view) const {
     if (clip_ != ClipMode::automatic) return clip_ != ClipMode::none;
@@ -108,7 +108,7 @@ class ProjectionStage {
   void project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   [[nodiscard]] std::array<ClipVertex, 3> corners_in_clip_space(const Triangle& p_view) const;
   [[nodiscard]] bool may_be_inside(const Triangle& p_view) const;
-  /// Drops a triangle that is outside, or passes it on as one that the bounds leave possible.
+  /// Drops a triangle that is outside, or passes it on if it might be inside within the error bounds.
   void drop_outside(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
     ++counts_.outside;
     if (error_ && may_be_inside(p_view.triangles[index])) add_possible(p_view, index, p_ndc);
@@ -128,20 +128,20 @@ class ProjectionStage {
   CoordinateRounder& rounder_;
   ProjectionCoefficients coefficients_;
   VertexBlock vertices_;  // the block around the current triangle
-  ImageBlock block_;      // their images
+  ImageBlock block_;      // the images of `vertices_`
   bool has_images_ = false;
-  std::array<ClipVertex, 3> corners_;  // of the triangle that is being cut
-  SideBlock sides_;                    // and where they lie, unless the clip mode is automatic or none
-  bool mirrored_;                      // one axis is, so clockwise and counterclockwise change places
+  std::array<ClipVertex, 3> corners_;  // of the triangle being cut
+  SideBlock sides_;                    // the corners' sides, unless the clip mode is automatic or none
+  bool mirrored_;                      // one axis is mirrored, so the winding changes
   bool keeps_unclipped_ = false;
-  std::optional<ErrorBound> error_;  // of what is read, if bounds are kept
-  bool writes_w_ = false;            // with the triangles of this batch
+  std::optional<ErrorBound> error_;  // of the text read, if bounds are kept
+  bool writes_w_ = false;            // with this batch's triangles
   ProjectionCounts counts_;
 };
 
-/// The header of a text once it is projected by `projection`, which comes from `given`: without a camera,
-/// with w among the columns if there are any, and, if there are lights, with the view volume; with both if
-/// there are bounds. An InputError at `given.location` if a plane of the volume is beyond a double's range.
+/// The header of a text projected by `projection`, which comes from `given`: without a camera, with a column
+/// w if there are columns, with the view volume if there are lights, and with both if there are bounds. An
+/// InputError at `given.location` if a plane of the volume is beyond a double's range.
 StageHeader projected_header(const StageHeader& p_view, const Located<Projection>& given,
                              const ProjectionTransform& projection);
 

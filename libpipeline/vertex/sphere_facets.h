@@ -9,7 +9,7 @@
 namespace pipeline {
 
 /// Cuts spheres into triangles: N belts from pole to pole, along z, of 2 N facets each. A facet is two
-/// triangles, at the poles one.
+/// triangles, or one at the poles.
 class SphereFacets {
  public:
   static constexpr std::size_t kMinBelts = 2;
@@ -17,8 +17,7 @@ class SphereFacets {
 
   explicit SphereFacets(std::size_t belt_count);
 
-  /// A triangle with its corners on the sphere, counterclockwise from outside, and the sphere's normals
-  /// there.
+  /// A triangle with its corners on the sphere, counterclockwise from outside, and the normals at them.
   struct Facet {
     Triangle corners;
     std::array<Vec3, 3> normals;
@@ -30,7 +29,7 @@ class SphereFacets {
   [[nodiscard]] Vec3 normal(std::size_t belt, std::size_t meridian) const;
 
   std::size_t belts_;
-  // For multiples of 180 degrees / belts_, up to 360.
+  // Indexed by multiples of 180 degrees / belts_, up to 360.
   std::vector<double> sines_, cosines_;
 };
 

@@ -19,7 +19,7 @@ BallVec3 rodrigues(const BallVec3& x, const BallVec3& axis, const SineCosine& an
   return {kept.x + along.x + turned.x, kept.y + along.y + turned.y, kept.z + along.z + turned.z};
 }
 
-/// 1 / tan of half the angle; the angle, an exact product, must lie in (0, 180) degrees.
+/// 1 / tan(angle / 2); the angle, an exact product, must lie in (0, 180) degrees.
 Ball cotangent_of_half(const Ball& angle_degrees) {
   // This close to 0, 1 / tan(x / 2) is 2 / x to far more digits than a ball has.
   if (angle_degrees.nearest_double() < kTinyDegrees) return Ball(2) / to_radians(angle_degrees);
@@ -61,7 +61,7 @@ ProjectionTransform perspective(const Perspective& p, const SourceLocation& loca
   return transform;
 }
 
-/// A Frustum, or an Orthographic, whose window is at every distance as at 1.
+/// The projection of a Frustum, or of an Orthographic, whose window is the same at every distance.
 // P3
 template <typename Volume>
 ProjectionTransform volume(const Volume& v) {
@@ -132,7 +132,7 @@ ProjectionTransform clip_from_view(const Located<Projection>& projection) {
 
 Projection volume_of(const Located<Projection>& projection, const ProjectionTransform& transform) {
   if (!std::holds_alternative<Perspective>(projection.value)) return projection.value;
-  // All three are known to far more digits than a double's, so that the midpoint's nearest double is theirs.
+  // All three have far more digits than a double, so the midpoint's nearest double is the quotient's.
   const double right = (Ball(transform.near) / transform.x_scale).nearest_double();
   const double top = (Ball(transform.near) / transform.y_scale).nearest_double();
   if (!std::isfinite(right) || !std::isfinite(top))

@@ -14,12 +14,12 @@ namespace pipeline {
 AffineMatrix translation(const Vec3& offset);
 AffineMatrix scaling(const Vec3& factors);
 /// The rotation by `angle_degrees` about an axis of any length but 0, counterclockwise when the axis points
-/// at the observer. Column by column from Rodrigues' formula in vector form.
+/// at the observer. By Rodrigues' formula in vector form, for each column.
 AffineMatrix rotation(double angle_degrees, const Vec3& axis);
 
-/// From world to view space: p_view = rows * (p_world - eye). The rows right, up and backward are
-/// orthonormal. The eye is kept separate: subtracting it from a point first keeps the digits of points far
-/// from the origin.
+/// The transform from world to view space: p_view = rows * (p_world - eye). The rows right, up and backward
+/// are orthonormal. The eye is kept separate: subtracting it from a point first keeps the digits of points
+/// far from the origin.
 struct ViewTransform {
   Vec3 eye;
   BallVec3 right;
@@ -31,8 +31,8 @@ struct ViewTransform {
 /// direction (check_camera).
 ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up);
 
-/// Where the view volume begins and ends on an axis: at `low` and `high` at the distance `at` in front of the
-/// eye, for an orthographic projection at every distance. Not rounded.
+/// The sides of the view volume on an axis, not rounded: `low` and `high` at the distance `at` in front of
+/// the eye; for an orthographic projection at every distance.
 struct VolumeSides {
   double at = 1;
   double low = 0;
@@ -49,7 +49,7 @@ struct ProjectionTransform {
   Ball y_scale, y_offset;
   double near = 0;
   double far = 0;
-  /// The sides in x and y; none where a tangent is no double.
+  /// The sides in x and y; none where a tangent is not a double.
   std::array<std::optional<VolumeSides>, 2> sides = {};
 };
 
@@ -62,15 +62,15 @@ ProjectionTransform clip_from_view(const Located<Projection>& projection);
 /// beyond a double's range.
 Projection volume_of(const Located<Projection>& projection, const ProjectionTransform& transform);
 
-/// From clip to view space: the inverse of a projection, in doubles.
+/// The inverse of a projection, from clip to view space, in doubles.
 class ViewFromClip {
  public:
   explicit ViewFromClip(const ProjectionTransform& clip_from_view);
 
   [[nodiscard]] bool is_perspective() const { return is_perspective_; }
-  /// A point's w in clip space, from its depth in NDC: its distance in front of the eye, 1 if orthographic.
+  /// A point's w in clip space from its depth in NDC: the distance in front of the eye, or 1 if orthographic.
   [[nodiscard]] double w_of(const Vec3& p_ndc) const;
-  /// The point in view space; it may lie behind the eye.
+  /// The point in view space, which may lie behind the eye.
   [[nodiscard]] Vec3 operator()(const Vec3& p_clip, double w) const;
 
  private:

@@ -12,13 +12,13 @@ PIPELINE_BEGIN_KERNELS();
 constexpr hn::RebindToUnsigned<decltype(kDoubles)> kBits;
 using Bits = hn::Vec<decltype(kBits)>;
 
-// Lanes beyond the last vertex of a block are calculated with whatever is there, and never read.
+// Lanes beyond a block's last vertex are calculated from arbitrary values, and never read.
 
 HWY_INLINE Doubles coordinates(const VertexBlock& p, std::size_t axis, std::size_t i) {
   return hn::LoadU(kDoubles, &p.p[axis][i]);
 }
 
-/// Sets some vertices of a block to the `estimate(axis)` of their images, and whether they pass the test.
+/// Sets some vertices of a block to images, by `estimate(axis)`, and marks those that pass the test.
 template <RoundingTestKind kind, typename Estimator>
 HWY_INLINE void set_images(ImageBlock& image, std::size_t i, double scale, Mask are_safe,
                            const Estimator& estimate) {
@@ -46,7 +46,7 @@ HWY_INLINE void transform_all(AffineCoefficients m, double scale, const VertexBl
   }
 }
 
-/// Calls `run` with the kind of test and whether it takes pairs.
+/// Calls `run` with two template arguments: the kind of test, and whether it takes pairs.
 template <typename Run>
 HWY_INLINE void by_test(const RoundingTest& test, const Run& run) {
   using Kind = RoundingTestKind;
@@ -91,11 +91,11 @@ void project(const ProjectionCoefficients& m, const RoundingTest& test, const Ve
                     HWY_ATTR { project_all<kind, in_pairs>(m, test.scale, p, p_ndc); });
 }
 
-/// Adds the two planes of an axis, `low` and the bit after it. A vertex is at the distances w + v and w - v
-/// from them, where v = scale p + offset q and w is that of the clip volume. Each of these three terms is
-/// rounded less often than a term of tests/proofs/coordinate_in_doubles.g, so a distance is off by less than
-/// 8 u of their sum, and one of 2^-30 of that sum has the right sign. Sums above 2^-400 make the underflow of
-/// a product negligible; a sum that overflows, or a coefficient that is NaN, fails every comparison.
+/// Adds the two planes of an axis, bit `low` and the next. A vertex is at the distances w + v and w - v from
+/// them, where v = scale p + offset q and w is the clip volume's. Each of these three terms is rounded less
+/// often than a term of tests/proofs/coordinate_in_doubles.g, so a distance is off by less than 8 u times
+/// their sum, and its sign is right above 2^-30 times that sum. For sums above 2^-400, a product's underflow
+/// is negligible; a sum that overflows, or a coefficient that is NaN, fails every comparison.
 HWY_INLINE void add_sides(const Coefficient& a, const Coefficient& b, std::uint64_t low, Doubles p, Doubles q,
                           Doubles w, Bits& outside, Bits& inside) {
   const Doubles scaled = all(a.value) * p, shift = all(b.value) * q, v = scaled + shift;
@@ -153,12 +153,12 @@ Coefficient::Coefficient(const Ball& number) {
   if (number.is_exact_zero()) return;
   value = number.nearest_double();
   is_nonzero = 1;
-  // tests/proofs/coordinate_in_doubles.g. Added to that are the ball's own error and the bits that a
-  // subnormal value lacks.
+  // tests/proofs/coordinate_in_doubles.g. The ball's own error and the bits that a subnormal value lacks are
+  // added.
   error = 8 * kUnitRoundoff * std::fabs(value) + number.radius() + 0x1p-1073;
   pair = number.value();
-  // Far more than a calculation in pairs loses (tests/proofs/coordinate_in_pairs.g), and ball arithmetic on
-  // the same numbers: a pair that passes the test is not a tie for the ball.
+  // Far more than a calculation in pairs (tests/proofs/coordinate_in_pairs.g) or in balls loses: a pair that
+  // passes the test is not a tie for the ball.
   pair_error = number.exponent() == 0 ? 0x1p-94 * std::fabs(value) + 8 * number.radius()
                                       : std::numeric_limits<double>::quiet_NaN();
 }

@@ -12,22 +12,22 @@
 namespace pipeline {
 
 // The fast arithmetic on vertices. A kernel calculates a coordinate in doubles, or as an unevaluated sum of
-// two (a pair), together with a bound on its error. Where the bound does not determine the printed text, the
-// vertex fails the rounding test and the caller calculates it again in ball arithmetic. So the text of a
+// two (a pair), together with a bound on its error. If the bound does not determine the printed text, the
+// vertex fails the rounding test, and the caller calculates it again in ball arithmetic. So the text of a
 // correctly rounded coordinate does not depend on the kernel. With RoundingTestKind::finite every kernel does
 // the same operations in the same order.
 
-/// When a calculated coordinate may be printed as it is.
+/// The condition for printing a calculated coordinate as it is.
 enum class RoundingTestKind {
   finite,    // it is finite
-  decimals,  // all numbers within its error bound have the same text with that many decimals
+  decimals,  // all numbers within its error bound have the same text with the requested decimals
   nearest    // all numbers within its error bound have the same nearest double
 };
 
 struct RoundingTest {
   RoundingTestKind kind = RoundingTestKind::finite;
   double scale = 1;  // 10^decimals
-  /// Calculates in pairs: with that many decimals the rounding error of a double shows.
+  /// True if there are so many decimals that a double's rounding error would show: calculates in pairs.
   bool needs_pairs = false;
 };
 
@@ -40,7 +40,7 @@ struct VertexBlock {
   std::size_t count = 0;
   std::array<Axis, 3> p;  // x, y, z
 
-  /// Takes the vertices of at most kTriangles triangles.
+  /// Stores the vertices of at most kTriangles triangles.
   void fill(std::span<const Triangle> triangles) {
     count = 0;
     for (const Triangle& triangle : triangles)
@@ -57,21 +57,20 @@ struct VertexBlock {
   }
 };
 
-/// The images of a block's vertices. One that fails the rounding test must be calculated again in another
-/// way.
+/// The images of a block's vertices. The caller must recalculate an image that fails the rounding test.
 struct ImageBlock : VertexBlock {
   std::array<std::uint64_t, kSize> passes_rounding_test;  // all bits or none
 };
 
-/// Where the corners of a triangle lie, as far as doubles can tell: sets of planes of the view volume (bit i
-/// for kAllClipPlanes[i]).
+/// The sides on which a triangle's corners lie, as far as doubles can tell: sets of planes of the view volume
+/// (bit i for kAllClipPlanes[i]).
 struct CertainSides {
-  std::uint64_t all_outside = 0;  // all corners lie outside, each by far more than is lost by rounding
+  std::uint64_t all_outside = 0;  // all corners lie outside, each by far more than rounding errors
   std::uint64_t none_inside = 0;  // no corner is surely inside
-  std::uint64_t some_unsure = 0;  // some is not
+  std::uint64_t some_unsure = 0;  // a corner is not surely inside
 };
 
-/// The planes of the view volume that a block's vertices lie outside, and inside of, by so much.
+/// The planes of the view volume that each vertex of a block is surely outside of, and surely inside of.
 struct SideBlock {
   static constexpr std::uint64_t kAllPlanes = 0b111111;
 
@@ -84,17 +83,17 @@ struct SideBlock {
   std::array<std::uint64_t, VertexBlock::kSize> outside, inside;
 };
 
-/// An entry of a matrix, and the error it adds to an image per unit of the coordinate it is multiplied by.
+/// An entry of a matrix, and the error that it adds to an image per unit of the coordinate it multiplies.
 struct Coefficient {
   double value = 0;  // the nearest double
   double error = 0;  // added by a calculation in doubles
   DoubleDouble pair;
   double pair_error = 0;  // added by a calculation in pairs
-  double is_nonzero = 0;  // 0 if the entry is exactly 0, else 1: summed up instead of tested
+  double is_nonzero = 0;  // 0 if the entry is exactly 0, else 1: to be summed instead of tested
 
   Coefficient() = default;
-  /// `pair_error` is NaN, which fails every test, where the ball is beyond the range in which products of
-  /// pairs are safe.
+  /// `pair_error` is NaN, which fails every test, if the ball is outside the range where products of pairs
+  /// are safe.
   explicit Coefficient(const Ball& number);
 };
 
@@ -106,7 +105,7 @@ struct AffineCoefficients {
 
 /// x' = (x_scale x + x_offset q) / w and likewise y', with w = -z and q = z for a perspective, w = q = 1 for
 /// an orthographic projection. z' is (z_scale z + z_offset) / w in pairs; in doubles it comes from `near`,
-/// `far` and `depth_range`, by the formula that keeps its digits however close or far apart the planes are.
+/// `far` and `depth_range`, by a formula that keeps its digits, however close or far apart the planes are.
 struct ProjectionCoefficients {
   bool is_perspective = true;
   std::array<Coefficient, 3> scales;   // of x, y, z
@@ -114,10 +113,10 @@ struct ProjectionCoefficients {
   double near = 0;
   double far = 0;
   double depth_range = 0;  // far - near
-  double clip_w = 1;       // w times that bounds the clip volume
+  double clip_w = 1;       // w times this bounds the clip volume
 };
 
-/// The rest of a unit vector may be nothing but the rounding errors of doubles.
+/// A unit vector's image that is shorter may be nothing but rounding errors.
 constexpr double kNearlyLost = 0x1p-40;
 
 /// One implementation of the loops over a block's vertices.
@@ -125,10 +124,10 @@ struct VertexKernel {
   void (*transform)(const AffineCoefficients&, const RoundingTest&, const VertexBlock& p, ImageBlock& image);
   void (*project)(const ProjectionCoefficients&, const RoundingTest&, const VertexBlock& p_view,
                   ImageBlock& p_ndc);
-  /// With `beside` of all planes, else of near and far alone.
+  /// Finds the sides of all planes with `beside`, else of near and far alone.
   void (*find_sides)(const ProjectionCoefficients&, const VertexBlock& p_view, SideBlock& sides, bool beside);
-  /// Replaces normals by their images, as NormalTransform (attribute_transform.h) does. Returns how many:
-  /// stops at a vector with one that is 0 or has an image below kNearlyLost, or that is not full.
+  /// Replaces normals by their images, as NormalTransform (attribute_transform.h) does. Returns their count;
+  /// stops at a partial SIMD vector, or one with a normal of 0 or an image below kNearlyLost.
   std::size_t (*transform_normals)(const std::array<Vec3, 3>& rows, std::span<Vec3> normals);
 };
 
@@ -137,7 +136,7 @@ extern const KernelTable<const VertexKernel*> kVertexKernels;
 /// The kernel in use.
 const VertexKernel& vertex_kernel();
 
-/// Where one triangle lies.
+/// The sides on which one triangle's corners lie.
 CertainSides certain_sides(const ProjectionCoefficients& projection, const Triangle& p_view);
 
 }  // namespace pipeline

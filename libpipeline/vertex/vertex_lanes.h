@@ -17,7 +17,7 @@ struct Estimate {
   Doubles value;
   Doubles error;
 };
-/// The same for a pair, |low| <= ulp(high) / 2.
+/// The estimate as a pair, |low| <= ulp(high) / 2.
 struct PairEstimate {
   Doubles high;
   Doubles low;
@@ -27,7 +27,7 @@ struct PairEstimate {
 
 // ---- rounding tests; `value` becomes the double that is printed ----
 
-/// As nearest_whole in numbers/decimal_units.h.
+/// nearest_whole of numbers/decimal_units.h, in each lane.
 HWY_INLINE Doubles nearest_whole(Doubles value, double rounder = kWholeRounder) {
   return (value + all(rounder)) - all(rounder);
 }
@@ -44,10 +44,10 @@ HWY_INLINE Mask has_one_text(const Estimate& e, double scale, Doubles& value) {
   return hn::Lt(hn::Abs(offset) + scaled * all(kProductError), all(kBelowHalf) - e.error * all(scale));
 }
 
-/// The same for a pair: its product with the scale is exact up to the pair's error. Far enough from a tie,
-/// it has the text of the nearest whole number of units, which is rounded to in two steps, since a double up
-/// to 2^53 may be one. Below a power of two where doubles lie closer than units, the nearest double to that
-/// many units has their text.
+/// The rounding test of a pair: its product with the scale is exact up to the pair's error. Far enough from a
+/// tie, it has the text of the nearest whole number of units, found in two steps, since that may be any
+/// double up to 2^53. Below a power of two up to which doubles lie closer than units, the double nearest to
+/// this number of units has its text.
 HWY_INLINE Mask has_one_text(const PairEstimate& e, double scale, Doubles& value) {
   constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000;
   const double limit = std::bit_cast<double>(std::bit_cast<std::uint64_t>(0x1p53 / scale) & kExponent);
@@ -60,9 +60,9 @@ HWY_INLINE Mask has_one_text(const PairEstimate& e, double scale, Doubles& value
   return hn::And(hn::Lt(reach, all(kBelowHalf)), hn::Lt(hn::Abs(e.high), all(limit)));
 }
 
-/// Both ends of the interval round to the same double, and so does every number between them (A. Ziv, "Fast
-/// evaluation of elementary mathematical functions with correctly rounded last bit", 1991). Accepts only
-/// values far above the lower end of a double's range, so that the underflow of products is negligible
+/// True if both ends of the interval round to the same double, as does every number between them (A. Ziv,
+/// "Fast evaluation of elementary mathematical functions with correctly rounded last bit", 1991). Accepts
+/// only values far above the lower end of a double's range, so that the underflow of products is negligible
 /// against the error.
 HWY_INLINE Mask has_one_double(const PairEstimate& e, Doubles& value) {
   const Doubles error = e.error + hn::Abs(e.low) * all(0x1p-50);
@@ -121,8 +121,8 @@ HWY_INLINE PairEstimate image_in_pairs(const std::array<Coefficient, 4>& row, co
 
 // ---- projections ----
 
-/// For any other w, behind the eye included, the kernels have no result: intermediate results of a w outside
-/// these bounds may leave a double's range.
+/// True for a w in front of the eye whose intermediate results stay in a double's range; for others, the
+/// kernels have no result.
 HWY_INLINE Mask is_safe_divisor(Doubles w) {
   return hn::And(hn::Gt(w, all(0x1p-400)), hn::Lt(w, all(0x1p400)));
 }
@@ -134,7 +134,7 @@ HWY_INLINE Estimate quotient_in_doubles(Doubles a, Doubles b, Doubles divisor) {
   return {(a + b) / divisor, all(kRelative) * ((hn::Abs(a) + hn::Abs(b)) / divisor) + all(kLost)};
 }
 
-/// z, at a distance in front of the eye.
+/// z in NDC, at a distance in front of the eye.
 HWY_INLINE Estimate depth_in_doubles(const ProjectionCoefficients& m, Doubles distance, Doubles w) {
   const Doubles beyond_near = (distance - all(m.near)) * all(m.is_perspective ? m.far : 1);
   const Doubles before_far = (all(m.far) - distance) * all(m.is_perspective ? m.near : 1);

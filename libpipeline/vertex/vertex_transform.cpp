@@ -58,7 +58,7 @@ void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t
       block.first_triangle = i;
       block.p.fill(std::span(batch.triangles).subspan(i, count));
       vertex_kernel().transform(coefficients_, test, block.p, block.image);
-      // Numbers so large that doubles cannot decide the last decimal: where there is one, others follow.
+      // Doubles cannot decide the last decimal of numbers this large, and more of them will follow.
       if (!test.needs_pairs && block.image.passes_rounding_test[0] == 0) {
         test.needs_pairs = true;
         vertex_kernel().transform(coefficients_, test, block.p, block.image);
@@ -88,8 +88,7 @@ void VertexTransform::apply(Sphere& sphere, CoordinateRounder& rounder) const {
   }
 }
 
-/// Replaces triangle `index` of a block by its image; vertices that failed the rounding test are calculated
-/// again.
+/// Replaces triangle `index` of a block by its image; recalculates vertices that failed the rounding test.
 void VertexTransform::set_image(TriangleBatch& batch, const TransformedBlock& block, std::size_t index,
                                 CoordinateRounder& rounder) const {
   const std::size_t triangle = block.first_triangle + index;

@@ -9,16 +9,15 @@
 
 namespace pipeline {
 
-/// A projection's view volume, for asking where triangles in view space lie.
+/// A projection's view volume, to locate triangles in view space.
 class ViewVolume {
  public:
-  /// Its planes are pulled in by `clip_inset`, as a ProjectionStage's.
+  /// Its planes are pulled in by `clip_inset`, like a ProjectionStage's.
   explicit ViewVolume(const ProjectionTransform& projection, double clip_inset = 0);
 
-  /// None if some part of the triangle is inside or on the border, as far as 31 digits can tell. Behind: no
-  /// corner is in front of the eye. Otherwise the first plane, in the order of UnseenPlace, that all corners
-  /// are outside of; or, where clipping at several planes leaves nothing, the plane that takes the last of
-  /// it.
+  /// None if part of the triangle is inside or on the border, as far as 31 digits can tell; `behind` if no
+  /// corner is in front of the eye. Otherwise the first plane, in the order of UnseenPlace, with all corners
+  /// outside; or, if only clipping at several planes leaves nothing, the plane that cuts off the last part.
   [[nodiscard]] std::optional<UnseenPlace> outside(const Triangle& p_view) const;
 
  private:
