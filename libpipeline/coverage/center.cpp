@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-// Below the limits of the types by more than the rounding error of the bound.
+// Limits below the types' own by more than the rounding error of the bound.
 constexpr double kMaxIn64Bits = 0x1p61;
 [[maybe_unused]] constexpr double kMaxIn128Bits = 0x1p125;
 constexpr int kMaxBitsOfCoordinate = 126;
@@ -32,7 +32,7 @@ CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
       set(rows_.emplace<ExactRows<std::int64_t>>(*narrow, box, z));
       return;
     }
-    // No coordinate in 64 bits is more than 2^60 from the middle of the window.
+    // No coordinate in 64 bits is more than 2^60 away from the middle of the window.
     assert(largest <= kMaxIn128Bits);
     set(rows_.emplace<ExactRows<Int128>>(*narrow, box, z));
     return;

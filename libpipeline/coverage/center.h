@@ -14,7 +14,7 @@
 namespace pipeline {
 
 /// The plane of a triangle whose coordinates are not all decimals, for its depths under the rule `center`. It
-/// is calculated in pairs of doubles, which lose nothing that the depth's bound would show
+/// is calculated in pairs of doubles, with errors far below the depth's bound
 /// (tests/proofs/depth_in_planes.g).
 struct DepthPlane {
   DoubleDouble corner;  // the depth at the center of the pixel in row 0 and column 0
@@ -22,8 +22,8 @@ struct DepthPlane {
   DoubleDouble per_row;
 };
 
-/// The triangle's plane; none where that bound is not certain: for the narrowest triangles, extreme numbers,
-/// and windows whose limits have many digits.
+/// The triangle's plane; none if the depth's bound is not certain: for the narrowest triangles, extreme
+/// numbers, and windows whose limits have many digits.
 std::optional<DepthPlane> depth_plane(const ExactGrid& grid, const ExactTriangle& triangle);
 
 /// The depth along a row of the triangle, as TriangleDepth::along().
@@ -32,9 +32,8 @@ SpanDepth depth_along(const DepthPlane& plane, int row, int first_column, int la
 /// The coverage rule `center` for one triangle: the pixels whose centers lie inside it. A center on an edge
 /// belongs to the triangle only if that edge is a top or a left edge, so triangles that share edges own every
 /// pixel once. Both windings are drawn alike; a triangle without area covers nothing.
-///
-/// Decided exactly, for any finite coordinates: in 64 bits where they suffice (nearly always), in 128, or in
-/// as many as it takes. The depth is TriangleDepth's, within 2^-50 of the triangle's largest |z|.
+/// Decided exactly, for any finite coordinates: in 64 bits where they suffice (nearly always), else in 128,
+/// or in as many as needed. The depth is TriangleDepth's, within 2^-50 of the triangle's largest |z|.
 class CenterRows {
  public:
   CenterRows(const ExactGrid& grid, const ExactTriangle& triangle);
@@ -43,7 +42,7 @@ class CenterRows {
   [[nodiscard]] int first_row() const { return first_row_; }
   [[nodiscard]] int last_row() const { return last_row_; }
 
-  /// The pixels the triangle covers on `row`, inside the screen; none where no center lies in it.
+  /// The pixels that the triangle covers on `row`, inside the screen; none if it contains no center.
   [[nodiscard]] std::optional<Span> span(int row) const {
     if (const auto* const narrow = std::get_if<ExactRows<std::int64_t>>(&rows_)) return narrow->span(row);
     if (const auto* const medium = std::get_if<ExactRows<Int128>>(&rows_)) return medium->span(row);

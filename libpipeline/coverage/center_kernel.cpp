@@ -26,13 +26,12 @@ Planes plane_of(const ExactGrid& grid, const ExactTriangle& triangle) {
 
 #else
 
-// CenterRows in doubles instead of 64 bits: they hold whole numbers up to 2^53. Triangles whose numbers could
-// be larger are left to CenterRows.
+// CenterRows in doubles instead of 64 bits: doubles hold whole numbers up to 2^53. Triangles whose numbers
+// could be larger are left to CenterRows.
 static_assert(kMaxExactDouble <= DepthInDoubles::kMaxWeight);
 
 /// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none. The estimate
-/// for a dividend up to 2^50 is off by at most 1/4, so c is the whole number nearest to it or the one after
-/// that.
+/// for a dividend up to 2^50 is off by at most 1/4, so c is the nearest whole number or the next.
 HWY_INLINE Doubles quotient_rounded_up(Doubles dividend, Doubles divisor, Doubles inverse, Doubles most) {
   const Doubles near = hn::Round(dividend * inverse);
   const Doubles quotient = near + hn::IfThenElseZero(hn::Lt(near * divisor, dividend), all(1));
@@ -49,15 +48,15 @@ struct AxisLanes {
         origin(all(axis.in_doubles.origin)),
         largest(all(axis.in_doubles.largest)) {}
 
-  /// How far a coordinate is from the middle, on the grid.
+  /// A coordinate's distance from the middle, on the grid.
   HWY_INLINE Doubles scaled(Doubles coordinate) const {
     return hn::Round(coordinate * all(kGridUnitsPerOne)) * factor;
   }
-  /// True if the calculated distances from pixel 0, of which these are the extremes, are exact.
+  /// True if calculated distances from pixel 0 between these extremes are exact.
   HWY_INLINE Mask fit(Doubles least, Doubles most) const {
     return hn::Le(hn::Max(hn::Abs(most), hn::Abs(least)), largest);
   }
-  /// The first pixel at or after that.
+  /// The first pixel at or after a distance.
   HWY_INLINE Doubles pixel(Doubles distance) const {
     return quotient_rounded_up(distance, step, inverse, count);
   }
@@ -82,8 +81,7 @@ HWY_INLINE Edges choose(Mask mask, const Edges& yes, const Edges& no) {
           choose(mask, yes.column_step, no.column_step), choose(mask, yes.inverse, no.inverse)};
 }
 
-/// The numbers from which the rows of some triangles are calculated (see ExactRows), or those of one, in all
-/// lanes.
+/// The numbers from which rows are calculated (see ExactRows): of some triangles, or of one in all lanes.
 struct RowSources {
   Doubles first_row;
   Doubles middle_row;
@@ -93,7 +91,7 @@ struct RowSources {
   // The corners a, b, c are sorted from the top.
   Mask longest_is_left;
   Doubles twice_total;  // of the weights
-  Mask is_flat;         // all of one depth
+  Mask is_flat;         // all vertices have one depth
   Doubles a_z;
   Doubles b_z;
   Doubles c_z;
@@ -114,9 +112,9 @@ struct TriangleLanes {
     const Doubles u_left = hn::Min(r.x, hn::Min(q.x, p.x)), u_right = hn::Max(r.x, hn::Max(q.x, p.x));
     const Doubles v_top = hn::Min(r.y, hn::Min(q.y, p.y)), v_bottom = hn::Max(r.y, hn::Max(q.y, p.y));
     const Mask fits = hn::And(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
-    // A column at or before the first that may be covered.
+    // A column at or before the first that can be covered.
     const Doubles left = hn::Max(all(0), hn::Round(u_left * columns.inverse) - all(1));
-    // The bound of largest_product, from that column. Triangles without a row may have larger products, which
+    // The bound of largest_product, from this column. Triangles without a row may have larger products, which
     // are never used.
     const Doubles first = left * columns.step;
     const Doubles x = hn::Max(hn::Abs(u_right - first), hn::Abs(u_left - first)) + all(2) * columns.step;
@@ -143,12 +141,12 @@ struct TriangleLanes {
   HWY_INLINE Doubles end_row() const { return sources.end_row; }
 
   RowSources sources;
-  Doubles begin_row;  // the first in the range
+  Doubles begin_row;  // the first row in the range
   LaneSet ordinary;   // triangles whose numbers doubles hold exactly
   Numbers half_slope;
 
  private:
-  /// Vertices on the grid: x to the right and y down, in its units; z stays.
+  /// Vertices on the grid: x to the right and y down, in its units; z is unchanged.
   HWY_INLINE static Vectors on_grid(const AxisLanes& columns, const AxisLanes& rows, const Vectors& p) {
     return {columns.origin + columns.scaled(p.x), rows.origin - rows.scaled(p.y), p.z};
   }
@@ -156,7 +154,7 @@ struct TriangleLanes {
                               const Vectors& b, const Vectors& c, Doubles end_row, Mask is_beside) {
     const Doubles weight = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     sources.longest_is_left = hn::Lt(all(0), weight);
-    // All weights and their sum have the same sign, whichever it is.
+    // All weights have the same sign as their sum.
     set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.y - a.y), columns.step * (a.y - b.y));
 
     const Mask is_empty = hn::Or(hn::Eq(weight, all(0)), is_beside);
@@ -194,10 +192,10 @@ struct TriangleLanes {
   }
 };
 
-/// A row of each of some triangles, or some rows of one. All are ordinary where the triangles are.
+/// One row each of some triangles, or some rows of one triangle. All rows of ordinary triangles are ordinary.
 struct RowLanes {
   RowLanes() = default;
-  /// Which pixels are covered.
+  /// Finds the covered pixels.
   HWY_INLINE RowLanes(const RowSources& of, Doubles rows) {
     const Mask is_upper = hn::Lt(rows, of.middle_row);
     const Doubles row_count = rows - of.first_row;
@@ -214,14 +212,14 @@ struct RowLanes {
     spans.set_columns(rows, hn::IfThenElseZero(is_there, of.first_column + first),
                       hn::IfThenElseZero(is_there, of.first_column + end) - all(1));
 
-    // The weights of the vertices opposite to the edges, at the first and at the last pixel added up.
+    // The weights of the vertices opposite to the edges: the sums of those at the first and the last pixel.
     const Doubles sum = longest_pixel + shorter_pixel - all(1);
     opposite_longest_ = sum * of.longest.column_step - (longest_crossing + longest_crossing);
     opposite_shorter_ = (shorter_crossing + shorter_crossing) - sum * shorter.column_step;
     is_upper_ = is_upper;
     columns_added_up_ = of.first_column + of.first_column + sum;
   }
-  /// Sets their depths.
+  /// Sets the spans' depths.
   HWY_INLINE void set_depths(const RowSources& of) {
     const Doubles rest = of.twice_total - opposite_longest_ - opposite_shorter_;
     const Doubles twice_c = choose(is_upper_, opposite_shorter_, rest);
@@ -235,14 +233,14 @@ struct RowLanes {
   LaneSpans spans;
 
  private:
-  Doubles columns_added_up_;  // the first and the last
+  Doubles columns_added_up_;  // the sum of the first and the last
   Mask is_upper_;
-  // Weights of vertices.
+  // The weights of the vertices opposite to these edges.
   Doubles opposite_longest_;
   Doubles opposite_shorter_;
 };
 
-/// The rule `center` for triangle_lanes.h, by what an axis, some triangles and a row of each become.
+/// The rule `center` for triangle_lanes.h; the types are those of an axis, triangles and their rows.
 template <typename Axes, typename Triangles, typename Rows>
 struct RuleOf {
   using RowLanes = Rows;
@@ -268,7 +266,7 @@ struct RuleOf {
   Axes row_axis;
 };
 using Rule = RuleOf<AxisLanes, TriangleLanes, RowLanes>;
-/// For triangles that have other coordinates than decimals.
+/// The rule for triangles with coordinates other than decimals.
 using DoubleRule = RuleOf<PixelAxis, DoubleTriangleLanes, DoubleRowLanes>;
 
 template <typename Rule>
@@ -290,7 +288,7 @@ TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> 
                          const RowRange& rows, TaggedSpan* spans) {
 #if HWY_TARGET != HWY_SCALAR
   for (; triangles.size() >= kLanes; triangles = triangles.subspan(kLanes)) {
-    // Usually all of a text have decimals, or none.
+    // Usually all triangles of a text have decimals, or none has.
     std::size_t decimal_count = 0;
     for (std::size_t i = 0; i < kLanes; ++i) decimal_count += triangles[i].triangle.is_decimal() ? 1 : 0;
     spans = decimal_count == kLanes ? append_by(Rule(grid), triangles.data(), rows, spans)

@@ -6,18 +6,18 @@
 
 PIPELINE_BEGIN_KERNELS();
 
-// Triangles of any doubles, mixed with decimals: their positions in pixels, their planes, and which pixels
-// they cover, where that is certain.
+// Triangles with any doubles as coordinates, also mixed with decimals: their positions in pixels, their
+// planes, and the pixels that they certainly cover.
 
-/// Numbers beyond that are left to CenterRows.
+/// Triangles with larger numbers are left to CenterRows.
 constexpr double kMaxPixel = 0x1p50;
 
-/// A direction of the grid, in all lanes.
+/// One direction of the grid, in all lanes.
 struct PixelAxis {
   HWY_INLINE explicit PixelAxis(const GridAxis& axis)
       : per_unit(all(axis.pixels_per_unit)), middle(all(0.5 * (axis.count - 1))), count(all(axis.count)) {}
 
-  /// Positions in units of the seventh decimal: of decimals, which `is_decimal` masks, whole.
+  /// Positions in units of the seventh decimal; whole numbers for decimals, which `is_decimal` masks.
   HWY_INLINE static Pairs units(Doubles coordinate, Mask is_decimal) {
     const Pairs product = two_product(coordinate, all(kGridUnitsPerOne));
     return {choose(is_decimal, hn::Round(product.hi), product.hi),
@@ -36,7 +36,7 @@ struct PixelPoints {
   Doubles z;
 };
 
-/// Some triangles of any doubles: the numbers that DepthPlane has for one.
+/// The planes of some triangles with any doubles: the numbers that DepthPlane has for one.
 struct Planes {
   /// `decimal(k)` masks the coordinates with mark k (ExactTriangle).
   template <typename Decimal>
@@ -49,7 +49,7 @@ struct Planes {
       const Pairs y = PixelAxis::units(p_ndc[i].y, decimal(mark + 1));
       const Pairs right = x * columns.per_unit, up = y * rows.per_unit;
       corners[i] = {Pairs{columns.middle, all(0)} + right, Pairs{rows.middle, all(0)} - up, p_ndc[i].z};
-      // A NaN stays in the sum.
+      // A NaN remains in the sum.
       fits = fits + (hn::Abs(x.hi) + hn::Abs(y.hi));
     }
     const auto& [p, q, r] = corners;
@@ -75,33 +75,33 @@ struct Planes {
   }
 
   std::array<PixelPoints, 3> corners;
-  Pairs q_u, q_v, r_u, r_v;  // of the second and the third corner, from the first
-  Pairs area;                // twice, with a sign
+  Pairs q_u, q_v, r_u, r_v;  // the second and the third corner, from the first
+  Pairs area;                // twice the signed area
   Doubles size_u, size_v;    // no number in pixels is larger
   Pairs corner, per_column, per_row;
   Mask are_certain;
 };
 
-/// The depth halfway between two columns, which `columns_added_up` are.
+/// The depth halfway between two columns whose sum is `columns_added_up`.
 HWY_INLINE Doubles middle_depth(const Pairs& corner, const Pairs& per_column, const Pairs& per_row,
                                 Doubles columns_added_up, Doubles rows) {
   return ((corner + per_column * (all(0.5) * columns_added_up)) + per_row * rows).hi +
          all(DepthInDoubles::kNoMinus);
 }
-/// Their slope in half columns.
+/// The slope per half column.
 HWY_INLINE Doubles half_slope_of(const Pairs& per_column) {
   return all(0.5) * per_column.hi + all(DepthInDoubles::kNoMinus);
 }
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The rule `center` for triangles of any doubles: where an edge crosses a row is calculated in doubles, with
-// a bound on the error. Where that bound reaches a pixel's center, CenterRows decides.
+// The rule `center` for triangles with any doubles. An edge's crossing with a row is calculated in doubles,
+// with an error bound; if this reaches a pixel's center, CenterRows decides.
 
-/// No pair in pixels is off by more than that, relative to the largest.
+/// A bound on the error of every pair in pixels, relative to the largest.
 constexpr double kPairDoubt = 0x1p-95;
 
-/// A pixel, and where it is certain.
+/// Pixels, and the lanes where they are certain.
 struct FirstPixels {
   Doubles pixel;
   Mask are_certain;
@@ -116,7 +116,7 @@ HWY_INLINE FirstPixels first_pixel(Doubles whole, Doubles rest, Doubles doubt, D
 struct DoubleEdges {
   /// The first pixel at or after the edge on its row.
   HWY_INLINE FirstPixels cross(Doubles rows, Doubles column_count) const {
-    // u is off by u 2^-53 at most, and the product by 7 * 2^-53 of itself.
+    // u is off by at most 2^-53 of itself, the product by at most 7 * 2^-53 of itself.
     const Doubles shift = ((rows - v.hi) - v.lo) * slope, crossing = u + shift;
     const Doubles whole = hn::Round(crossing);
     return first_pixel(whole, crossing - whole, doubt + all(0x1p-50) * hn::Abs(shift), column_count);
@@ -134,7 +134,7 @@ HWY_INLINE DoubleEdges choose(Mask mask, const DoubleEdges& yes, const DoubleEdg
           choose(mask, yes.doubt, no.doubt)};
 }
 
-/// As RowSources.
+/// The RowSources (center_kernel.cpp) of such triangles.
 struct DoubleRowSources {
   Doubles middle_row;
   Doubles end_row;
@@ -191,13 +191,13 @@ struct DoubleTriangleLanes {
   HWY_INLINE Doubles end_row() const { return sources.end_row; }
 
   DoubleRowSources sources;
-  Doubles begin_row;  // the first in the range
+  Doubles begin_row;  // the first row in the range
   LaneSet ordinary;   // triangles whose rows and depths are certain
   Numbers half_slope;
 
  private:
   struct Corner {
-    Doubles row;  // the first at or below
+    Doubles row;  // the first row at or below the corner
     Doubles u;
     Pairs v;
     Doubles slope;  // of the opposite edge
@@ -211,7 +211,7 @@ struct DoubleTriangleLanes {
     a = chosen(b, a);
     b = chosen(kept, b);
   }
-  /// Sorts from the top; masks those whose winding flips.
+  /// Sorts corners from the top; masks the triangles whose winding this flips.
   HWY_INLINE static Mask sort(std::array<Corner, 3>& corners) {
     auto& [a, b, c] = corners;
     const Mask first = hn::Lt(b.row, a.row);
@@ -234,7 +234,7 @@ struct DoubleTriangleLanes {
   }
 };
 
-/// A row of each of some triangles, or some rows of one.
+/// One row each of some triangles, or some rows of one triangle.
 struct DoubleRowLanes {
   DoubleRowLanes() = default;
   HWY_INLINE DoubleRowLanes(const DoubleRowSources& of, Doubles rows) : rows_(rows) {
@@ -258,7 +258,7 @@ struct DoubleRowLanes {
 
  private:
   Doubles rows_;
-  Doubles columns_added_up_;  // the first and the last
+  Doubles columns_added_up_;  // the sum of the first and the last
   Mask uncertain_;
 };
 

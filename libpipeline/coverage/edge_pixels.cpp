@@ -7,7 +7,7 @@
 namespace pipeline {
 namespace {
 
-/// Rows or columns, with the corners' distances from the first.
+/// The rows or the columns, with the corners' distances from the first one.
 template <typename Int>
 struct Axis {
   const std::array<Int, 3>& corners;
@@ -20,8 +20,8 @@ Product size(const Product& value) {
   return value < 0 ? -value : value;
 }
 
-/// Calls `visit(i, k, t)` for each pixel, i counted along the edge and k across it. It lies at the part t of
-/// the way from the edge's lower end, along, to the other.
+/// Calls `visit(i, k, t)` for each pixel, i counted along the edge and k across it. The pixel lies at the
+/// fraction t of the way from the end `low` to the end `high`.
 template <typename Product, typename Int, typename Visitor>
 void for_each_on_edge(const Axis<Int>& along, const Axis<Int>& across, std::size_t low, std::size_t high,
                       int width, Visitor&& visit) {
@@ -57,7 +57,7 @@ void add_edge(const GridTriangle<Int>& t, const Triangle& p_ndc, std::size_t fro
   if (du == 0 && dv == 0) return;
   const Axis<Int> across_columns = {t.u, t.column_step, columns}, across_rows = {t.v, t.row_step, rows};
   const bool is_flat = size(du) * Product(t.row_step.value()) >= size(dv) * Product(t.column_step.value());
-  // From the same end for both triangles at the edge.
+  // Both triangles at the edge begin at the same end.
   const bool is_rising = is_flat ? du > 0 : dv > 0;
   const std::size_t low = is_rising ? from : to, high = is_rising ? to : from;
   const auto depth = [&](double part) { return depth_between(p_ndc[low].z, p_ndc[high].z, part); };
@@ -83,7 +83,7 @@ void add_edge_pixels(const ExactGrid& grid, const ExactTriangle& triangle,
       if (is_drawn[i])
         add_edge<Product>(on_grid, triangle.p_ndc, i, columns, rows, samples_per_pixel, pixels);
   };
-  // Products of three numbers of 61 bits and less, one of them a distance within the screen.
+  // Int128 holds products of three numbers of at most 61 bits, one of them a distance within the screen.
   if (const auto narrow = narrow_triangle(grid, triangle)) return add(*narrow, Int128());
   const AxisUnits x = column_units(grid, triangle), y = row_units(grid, triangle);
   if (x.bits + y.bits + 8 < static_cast<int>(8 * sizeof(WideInt)))

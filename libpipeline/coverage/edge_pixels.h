@@ -7,7 +7,7 @@
 
 namespace pipeline {
 
-/// A pixel of an edge, or a sample of one.
+/// A pixel of an edge, or a sample of such a pixel.
 struct EdgePixel {
   int row;
   int column;
@@ -15,13 +15,11 @@ struct EdgePixel {
 };
 
 /// Adds the pixels of a triangle's edges; edge i goes from corner i to the next, and `is_drawn` chooses among
-/// them. In every column of pixels from one end of an edge to the other, both included, it has the one pixel
-/// whose center is nearest, the upper of two; in every row the left of two if it spans more rows than
-/// columns. The depth is the edge's in the middle of the column or row. The pixels are decided exactly, for
-/// any finite coordinates; the edge's two triangles get the same pixels, with the same depths.
-///
-/// On a grid of samples the line is as wide as a pixel, `samples_per_pixel`. `rows` are the screen's
-/// that are drawn.
+/// them. In every column of pixels from end to end, both included, an edge has the pixel whose center is
+/// nearest (the upper if two are); if the edge spans more rows than columns, in every row (the left if two
+/// are). The depth is the edge's in the middle of the column or row. The pixels are decided exactly, for any
+/// finite coordinates; both triangles at an edge get the same pixels and depths. On a grid of samples, the
+/// line is as wide as a pixel: `samples_per_pixel`. `rows` are the rows to draw.
 void add_edge_pixels(const ExactGrid& grid, const ExactTriangle& triangle,
                      const std::array<bool, 3>& is_drawn, int samples_per_pixel, const RowRange& rows,
                      std::vector<EdgePixel>& pixels);

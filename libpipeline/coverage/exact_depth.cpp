@@ -11,7 +11,7 @@
 namespace pipeline {
 namespace {
 
-/// The sum of the weights of the vertices at (x, y), each times one of `z`: a determinant.
+/// The sum of `z`, weighted by the weights of the vertices at (x, y): a determinant.
 Ball weighted_sum(const Triangle& p, double x, double y, const std::array<double, 3>& z) {
   std::vector<ExactProduct> terms;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -23,7 +23,7 @@ Ball weighted_sum(const Triangle& p, double x, double y, const std::array<double
   return exact_sum(terms);
 }
 
-/// The smallest z at which an edge meets the line at y.
+/// The smallest z where an edge meets the line at y.
 Ball least_on_edges(const Triangle& p, double y) {
   std::optional<Ball> least;
   for (std::size_t i = 0; i < 3; ++i) {

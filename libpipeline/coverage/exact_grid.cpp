@@ -10,8 +10,8 @@
 namespace pipeline {
 namespace {
 
-// hi * 10^7 is off from the n it stands for by at most 2^-52 of n, so n is the nearest whole number up to
-// here.
+// The product hi * 10^7 for n units is off by at most 2^-52 of n, so up to this limit n is the nearest whole
+// number.
 constexpr double kMaxRoundedUnits = 0x1p50;
 constexpr double kMaxNarrow = 0x1p60;
 constexpr double kMaxDecimal = 1e22;
@@ -20,7 +20,7 @@ std::int64_t nearest_int(double units) {
   return static_cast<std::int64_t>(nearest_whole(units));
 }
 
-/// The same number with an odd mantissa (or 0).
+/// The number with an odd mantissa (or 0).
 BinaryNumber reduced(Int128 mantissa, int exponent) {
   const auto low = static_cast<std::uint64_t>(mantissa);
   const int zeros =
@@ -33,12 +33,12 @@ BinaryNumber binary_units(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   const auto fraction = static_cast<std::int64_t>(bits) & (kHiddenBit - 1);
   const auto biased = static_cast<int>(bits >> 52 & 0x7ff);
-  // Subnormal numbers, and 0, have no hidden bit, and the exponent of the smallest others.
+  // Subnormal numbers and 0 have no hidden bit, and the exponent of the smallest normal numbers.
   const std::int64_t size = fraction + (biased > 0 ? kHiddenBit : 0);
   return reduced(Int128{value < 0 ? -size : size} * kGridUnitsPerOne, std::max(biased, 1) - 1075);
 }
 
-/// `value` units in 2^-20 units, rounded down; below 2^126 for |value| <= 10^22.
+/// The value in 2^-20 units, rounded down; below 2^126 for |value| <= 10^22.
 Int128 fixed_point_units(double value) {
   constexpr int kFractionBits = 20;
   const BinaryNumber number = binary_units(value);
@@ -75,9 +75,8 @@ AxisUnits axis_units(const GridAxis& axis, const ExactTriangle& triangle, double
     result.twos = std::max(result.twos, -result.units[i].exponent);
     value_bits = std::max(value_bits, bits_of(result.units[i]));
   }
-  // The sum of two terms: a vertex from the middle of the window, and up to 2^17 half steps to either side of
-  // it (more, where pixels are places of samples); and a factor of 2 for the distance between two such
-  // points.
+  // Two terms: a vertex's distance from the middle of the window, and up to 2^17 half steps to either side of
+  // it (more if pixels are samples); two more bits hold their sum and the distance between two such points.
   const int window_bits = axis.half_step_bits + std::max(18, bit_length(Int128{axis.count}) + 2);
   result.bits = result.twos + std::max(value_bits + axis.vertex_factor_bits, window_bits) + 2;
   return result;
@@ -100,8 +99,8 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
   vertex_factor_bits = bit_length(vertex_factor);
   half_step_bits = bit_length(half_step);
 
-  // 2^44 leaves room for a product with the pixels of any picture; where these are places of samples, there
-  // are more.
+  // 2^44 leaves room for a product with the pixels of any picture; if pixels are samples, there are more of
+  // them.
   if (vertex_factor_bits > 44 || half_step_bits > std::min(44, 60 - bit_length(Int128{count}))) return;
   narrow_vertex_factor = cut(vertex_factor, 0);
   narrow_origin = cut(origin, 0);

@@ -21,25 +21,25 @@ namespace pipeline {
 /// sizes.
 using DoublesInt = FixedInt<4>;
 /// Enough bits for all exact geometry in practice: every text with more than 7 decimals (--digits exact),
-/// vertices 10^30 pixels away, coordinates of 10^-30 beside others of 1. In HugeInt, such triangles take some
-/// 50 times as long.
+/// vertices 10^30 pixels away, or coordinates of 10^-30 next to others of 1. In HugeInt, such triangles take
+/// some 50 times as long.
 using WideInt = FixedInt<6>;
-/// Enough for any finite coordinates and limits: a coordinate on the grid has at most 2850 bits, a product
-/// 5705.
+/// Enough bits for any finite coordinates and limits: a coordinate on the grid has at most 2850 bits, a
+/// product 5705.
 using HugeInt = FixedInt<92>;
 
-/// A triangle in NDC with the exact x and y of its text: a coordinate whose mark (bit 3 * vertex + axis) is
-/// set, below 10^22, is the decimal with at most 7 digits after the point that is nearest to the double plus
-/// the low part; any other is exactly its double.
+/// A triangle in NDC with the exact x and y of its text: a coordinate with its mark set (bit 3 * vertex +
+/// axis), below 10^22, is the decimal of at most 7 digits after the point nearest to the double plus the low
+/// part; any other is exactly its double.
 struct ExactTriangle {
-  /// True if all of x and y are decimals.
+  /// True if every x and y is a decimal.
   [[nodiscard]] bool is_decimal() const {
     constexpr unsigned kMarksOfXAndY = 0b011'011'011;
     return (decimal_marks & kMarksOfXAndY) == kMarksOfXAndY;
   }
 
   const Triangle& p_ndc;
-  const Triangle* low_parts = nullptr;  // none: all 0
+  const Triangle* low_parts = nullptr;  // null if all are 0
   std::uint16_t decimal_marks = 0;
 };
 
@@ -65,21 +65,21 @@ struct BinaryNumber {
   int exponent = 0;
 };
 
-/// A coordinate n / 10^7 is n units.
+/// The units in 1: a coordinate n / 10^7 is n units.
 constexpr std::int64_t kGridUnitsPerOne = 10'000'000;
 
-/// The largest whole number calculated in doubles: leaves room for sums and for the rounding of a quotient.
+/// The largest whole number calculated in doubles, with room for sums and for the rounding of a quotient.
 constexpr double kMaxExactDouble = 0x1p50;
 
 /// A GridAxis whose numbers are small, in doubles.
 struct AxisInDoubles {
   double count = 0;  // of pixels
-  double step = 1;   // from one to the next
+  double step = 1;   // from one pixel to the next
   double inverse_step = 1;
   double vertex_factor = 1;
   double origin = 0;
-  /// A vertex whose calculated distance from the center of pixel 0 has at most this absolute value was
-  /// calculated exactly. Negative where the numbers are not small; then the other members are meaningless.
+  /// A vertex's calculated distance from the center of pixel 0 is exact if its absolute value is at most
+  /// this. Negative if the numbers are not small; the other members are then meaningless.
   double largest = -1;
 };
 
@@ -97,7 +97,7 @@ struct GridAxis {
   HugeInt origin;  // the distance from the center of pixel 0 to the middle
   int vertex_factor_bits = 0;
   int half_step_bits = 0;
-  // The same where they are small; then 64 bits are enough for decimals n / 10^7 with |n| <=
+  // The same numbers if they are small; 64 bits are then enough for decimals n / 10^7 with |n| <=
   // largest_narrow_units.
   double largest_narrow_units = -1;
   std::int64_t narrow_vertex_factor = 0;
@@ -107,14 +107,14 @@ struct GridAxis {
   DoubleDouble pixels_per_unit = {std::numeric_limits<double>::quiet_NaN(), 0};  // within 2^-101
 };
 
-/// The coordinates of a triangle along one axis as exact numbers, and how fine a grid they need.
+/// The coordinates of a triangle along one axis as exact numbers, and the grid that they need.
 struct AxisUnits {
   std::array<BinaryNumber, 3> units;  // a coordinate n / 10^7 is n units
   int twos = 0;                       // all units are whole multiples of 2^-twos
-  int bits = 0;                       // of the largest number on the grid, or more
+  int bits = 0;                       // at least those of the largest number on the grid
 };
 
-/// The exact positions of a screen's pixel centers; PixelGrid has them rounded.
+/// The exact positions of a screen's pixel centers; PixelGrid rounds them.
 struct ExactGrid {
   explicit ExactGrid(const Viewport& screen)
       : columns(screen.columns, screen.left, screen.left_low_part, screen.left_is_decimal),
@@ -124,7 +124,7 @@ struct ExactGrid {
   GridAxis rows;
 };
 
-/// The triangle in 64 bits, every |u| and |v| below 2^61. None unless all of x and y are decimals of usual
+/// The triangle in 64 bits, every |u| and |v| below 2^61. None unless every x and y is a decimal of usual
 /// size.
 std::optional<GridTriangle<std::int64_t>> narrow_triangle(const ExactGrid& grid,
                                                           const ExactTriangle& triangle);
@@ -155,12 +155,12 @@ GridTriangle<Int> grid_triangle(const ExactGrid& grid, const AxisUnits& x, const
   return result;
 }
 
-// The coverage rules for many triangles at a time. A kernel makes the spans for one kind of processor; all
-// make the spans of NearestRows and CenterRows, to the last bit.
+// The coverage rules for many triangles at a time. Each kernel is for one kind of processor; all make the
+// spans of NearestRows and CenterRows, to the last bit.
 
 /// Writes the spans of the triangles, one triangle after the other and row by row, within `rows`, and returns
-/// the end of the last one. There must be room for as many spans as there are rows, for every triangle; the
-/// room after the last one may be overwritten.
+/// the end of the last one. There must be room for one span per row and triangle; the room after the last
+/// span may be overwritten.
 using NearestSpans = TaggedSpan* (*)(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
                                      const RowRange& rows, TaggedSpan* spans);
 using CenterSpans = TaggedSpan* (*)(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
@@ -169,7 +169,7 @@ using CenterSpans = TaggedSpan* (*)(const ExactGrid& grid, std::span<const Tagge
 extern const KernelTable<NearestSpans> kNearestKernels;
 extern const KernelTable<CenterSpans> kCenterKernels;
 
-/// Writes the spans of one triangle likewise; `covered` are its rows by a coverage rule.
+/// Writes the spans of one triangle likewise; `covered` has its rows by a coverage rule.
 template <typename CoveredRows>
 TaggedSpan* append_spans(const CoveredRows& covered, PixelTag tag, const RowRange& rows, TaggedSpan* spans) {
   for_each_span(covered, rows, [&](const Span& span) { *spans++ = {span, tag}; });

@@ -14,7 +14,7 @@
 
 namespace pipeline {
 
-/// The pixels that a triangle can cover: the centers on the screen in its bounding box, without those on its
+/// The pixels that a triangle can cover: the centers on the screen in its bounding box, but not on the box's
 /// lower or right side.
 struct CenterBox {
   template <typename Int>
@@ -22,17 +22,17 @@ struct CenterBox {
 
   [[nodiscard]] bool is_empty() const { return first_row == end_row || first_column == end_column; }
 
-  /// The vertices, by the first row at or below each; in any order where that is the same one, or off the
+  /// The vertices, sorted by the first row at or below each; in any order if these rows are equal or off the
   /// screen.
   std::array<std::size_t, 3> from_top;
   int first_row;
-  int middle_row;  // the first at or below the middle vertex
+  int middle_row;  // the first row at or below the middle vertex
   int end_row;
   int first_column;
   int end_column;
 
  private:
-  /// Branch-free: which of three corners comes first is unpredictable.
+  /// Sorts three numbers, branch-free: their order is unpredictable.
   static std::array<unsigned, 3> sorted(unsigned p, unsigned q, unsigned r) {
     const auto smaller = [](unsigned i, unsigned j) { return i < j ? i : j; };
     const auto larger = [](unsigned i, unsigned j) { return i < j ? j : i; };
@@ -61,23 +61,21 @@ CenterBox::CenterBox(const GridTriangle<Int>& t, int rows, int columns) {
 }
 
 /// The pixels whose centers lie in a triangle on the grid, exactly, row by row.
-///
-/// An edge crosses the rows from the one at or below its upper end (included) to the one at or below its
-/// lower end (excluded), and a row has the pixels from the one at or right of its left crossing (included) to
-/// the one at or right of its right crossing (excluded). This is the entire top-left rule: two edges cross
+/// An edge crosses the rows from the first at or below its upper end (included) to the first at or below its
+/// lower end (excluded); a row has the pixels from the first at or right of its left crossing (included) to
+/// the first at or right of its right crossing (excluded). This is the entire top-left rule: two edges cross
 /// each row, and a crossing is the same fraction for both triangles at the edge.
-///
-/// Crossings are kept as exact numerators over exact denominators. The same numbers, at a pixel, are edge
+/// Crossings are kept as exact numerators over exact denominators. At a pixel, these numbers are edge
 /// functions (J. Pineda, "A parallel algorithm for polygon rasterization", 1988), the weights of the
-/// vertices. Where `Int` is of limited size, largest_product() bounds them.
+/// vertices. For an `Int` of limited size, largest_product() bounds them.
 template <typename Int>
 class ExactRows {
  public:
-  /// The pixels of a triangle whose box is `box`, not empty; `z` are the depths of its vertices.
+  /// The pixels of a triangle whose box is `box`, not empty; `z` has the depths of its vertices.
   template <typename Coordinate>
   ExactRows(const GridTriangle<Coordinate>& triangle, const CenterBox& box, const std::array<double, 3>& z);
 
-  /// The rows to ask for, inside the screen; first_row() > last_row() where there are none.
+  /// The rows to ask for, inside the screen; first_row() > last_row() if there are none.
   [[nodiscard]] int first_row() const { return first_row_; }
   [[nodiscard]] int last_row() const { return last_row_; }
   [[nodiscard]] std::optional<Span> span(int row) const;
@@ -85,8 +83,8 @@ class ExactRows {
  private:
   struct Edge {
     Int crossing;              // of first_row_: its distance from first_column_, times column_step
-    Int row_step;              // how much more that is on the next row
-    Divisor<Int> column_step;  // and for a crossing one column further right
+    Int row_step;              // the increase of `crossing` on the next row
+    Divisor<Int> column_step;  // the increase for a crossing one column further right
   };
   template <typename Coordinate>
   [[nodiscard]] Edge edge(const GridTriangle<Coordinate>& t, std::size_t upper, std::size_t lower) const;
@@ -98,19 +96,19 @@ class ExactRows {
   int last_row_;
   bool longest_is_left_;
   Int twice_total_;
-  // For the vertices a, b, c from the top: ac crosses all rows, ab those above middle_row_, bc the others.
+  // For the vertices a, b, c from the top: ac crosses all rows, ab the rows above middle_row_, bc the others.
   std::array<Edge, 3> edges_;
   TriangleDepth depth_;
 };
 
-/// A bound on the numbers that an ExactRows of the triangle calculates with.
+/// A bound on the numbers in an ExactRows of the triangle.
 inline double largest_product(const GridTriangle<std::int64_t>& t, const CenterBox& box) {
   const auto [left, right] = std::minmax({t.u[0], t.u[1], t.u[2]});
   const auto [top, bottom] = std::minmax({t.v[0], t.v[1], t.v[2]});
   const std::int64_t first = box.first_column * t.column_step.value();
-  // Vertices, and the pixels they enclose, are at most x from the first column, vertices and rows at most y
-  // from one another. The first crossing is the sum of a product below x y and one below 2 x y; the area is
-  // the difference of two products below 2 x y; all else is less.
+  // Vertices and the pixels they enclose are at most x away from the first column; vertices and rows are at
+  // most y apart. The first crossing is the sum of a product below x y and one below 2 x y; the area is the
+  // difference of two products below 2 x y; all other numbers are smaller.
   const double x =
       std::max(std::fabs(static_cast<double>(left - first)), std::fabs(static_cast<double>(right - first))) +
       2 * static_cast<double>(t.column_step.value());
@@ -171,8 +169,8 @@ std::optional<Span> ExactRows<Int>::span(int row) const {
   const int last = right_edge.column_step.quotient_rounded_up(right_crossing, column_count_) - 1;
   if (first > last) return std::nullopt;
 
-  // The weights of the vertices b, c and a, each opposite to an edge, at the first and at the last pixel
-  // added up.
+  // The weights of the vertices b, c and a, each opposite to an edge: the sums of those at the first and the
+  // last pixel.
   std::array<Int, 3> weights;
   weights[left] = (first + last) * left_edge.column_step.value() - 2 * left_crossing;
   weights[right] = 2 * right_crossing - (first + last) * right_edge.column_step.value();

@@ -12,8 +12,7 @@
 namespace pipeline {
 namespace {
 
-/// The vertex opposite to the longest edge. Seen from there, what is far away spoils no digit of what is
-/// near.
+/// The vertex opposite to the longest edge: from there, no far vertex spoils the digits of a near one.
 std::size_t nearest_to_the_others(const Triangle& p) {
   const auto length = [&](std::size_t i, std::size_t j) {
     return std::fabs(p[i].x - p[j].x) + std::fabs(p[i].y - p[j].y);
@@ -51,15 +50,15 @@ std::optional<SpanDepth> DepthInPairs::along(int row, int first_column, int last
 
 namespace {
 
-// Branch-free where a branch would be unpredictable: which vertex of a small triangle comes first, which of
-// its edges is on the left.
+// The code below avoids unpredictable branches: on the order of a small triangle's vertices, and on which
+// edge is on the left.
 
 bool is_lower(const Vec3& a, const Vec3& b) {
   const bool at_equal_x = (a.x == b.x) & (a.z < b.z);
   return (a.y < b.y) | ((a.y == b.y) & ((a.x < b.x) | at_equal_x));
 }
 
-/// The vertices from the lowest to the highest, equal ones in their order.
+/// The vertices from the lowest to the highest, equal ones in their given order.
 Triangle sorted(const Triangle& p) {
   const unsigned b_first = is_lower(p[1], p[0]), c_before_a = is_lower(p[2], p[0]),
                  c_before_b = is_lower(p[2], p[1]);
@@ -85,7 +84,7 @@ int clamped_ceil(double value, int low, int high) {
   return towards_zero + static_cast<int>(towards_zero < value);
 }
 
-/// The three values divided by 2^exponent, which makes the largest one lie in [1/2, 1).
+/// The three values divided by 2^exponent, so that the largest lies in [1/2, 1).
 std::array<double, 3> scaled(const std::array<double, 3>& values, int& exponent) {
   const double largest = std::max({std::fabs(values[0]), std::fabs(values[1]), std::fabs(values[2])});
   exponent = largest == 0 ? 0 : std::ilogb(largest) + 1;
@@ -93,7 +92,7 @@ std::array<double, 3> scaled(const std::array<double, 3>& values, int& exponent)
           std::ldexp(values[2], -exponent)};
 }
 
-/// A triangle's plane by the vectors b and c from its lowest vertex to the others.
+/// A triangle's plane, given by the vectors b and c from its lowest vertex to the others.
 struct Plane {
   Vec3 b;
   Vec3 c;
@@ -101,7 +100,7 @@ struct Plane {
   double area;   // twice the signed area of the triangle in x and y
   double terms;  // the sum of the absolute values of the two terms of `area`
 
-  /// True if no product is so near to the ends of a double's range that it may have lost digits.
+  /// True if no product is so near the ends of a double's range that it may have lost digits.
   [[nodiscard]] bool is_in_range() const {
     return terms > 0x1p-900 && terms < 0x1p900 && std::isfinite(rise);
   }
@@ -124,8 +123,8 @@ Plane plane_of(const Vec3& lowest, const Vec3& middle, const Vec3& highest) {
   return {b, c, b.z * c.y - c.z * b.y, forward - backward, std::fabs(forward) + std::fabs(backward)};
 }
 
-/// dz/dx of a triangle with products near the ends of a double's range, none where it may be seen edge-on:
-/// calculated with powers of two factored out.
+/// dz/dx of a triangle with products near the ends of a double's range, with powers of two factored out; none
+/// if it may be seen edge-on.
 [[gnu::noinline]] std::optional<double> slope_of_scaled(const Vec3& a, const Vec3& b, const Vec3& c) {
   int x_exponent = 0, y_exponent = 0, z_exponent = 0;
   const auto x = scaled({a.x, b.x, c.x}, x_exponent);
@@ -140,7 +139,7 @@ Plane plane_of(const Vec3& lowest, const Vec3& middle, const Vec3& highest) {
 // Z2b
 double interpolate(double from, double to, double t) {
   const double difference = to - from;
-  // The first form is exact where both are equal, the second cannot overflow.
+  // The first form is exact if both are equal; the second cannot overflow.
   return std::isfinite(difference) ? from + t * difference : (1 - t) * from + t * to;
 }
 
@@ -162,7 +161,7 @@ NearestRows::NearestRows(const PixelGrid& grid, const Triangle& p_ndc) : grid_(g
 }
 
 inline NearestRows::Intersection NearestRows::intersect(const Vec3& lower, const Vec3& upper, double y) {
-  // Exact at the corners, where two edges have to meet.
+  // Exact at the corners, where two edges must meet.
   if (y == upper.y) return {upper.x, upper.z};
   const double length = upper.y - lower.y;
   const double t =

@@ -10,15 +10,15 @@
 
 namespace pipeline {
 
-/// The depths of a triangle's plane, calculated with 106 bits, at pixel centers that are not rounded: for
-/// triangles so steep or so narrow that doubles lose digits. Bound: tests/proofs/depth_in_pairs.g.
+/// The depths of a triangle's plane with 106 bits, at unrounded pixel centers: for triangles so steep or so
+/// narrow that doubles lose digits. Bound: tests/proofs/depth_in_pairs.g.
 class DepthInPairs {
  public:
   /// The triangle must not be seen edge-on.
   DepthInPairs(const PixelGrid& grid, const Triangle& p_ndc);
 
-  /// The depth along a row; none beyond a double's range. Like TriangleDepth's it is given from the middle,
-  /// in half columns: both are whole numbers.
+  /// The depth along a row; none beyond a double's range. As in TriangleDepth, it starts from the middle and
+  /// counts half columns, so both are whole numbers.
   [[nodiscard]] std::optional<SpanDepth> along(int row, int first_column, int last_column) const;
 
  private:
@@ -36,24 +36,23 @@ class DepthInPairs {
 /// triangle, the pixels from the one nearest to the left intersection to the one nearest to the right, both
 /// included (halfway: the pixel on the right). Neighboring triangles thus both own the pixels on a shared
 /// edge, and a triangle that is narrower than a pixel still has one on each row. Horizontal edges do not
-/// count; both ends of the others do.
-///
-/// All arithmetic is in doubles, in a fixed order. Any finite coordinates are allowed, also where differences
-/// or products of them are not finite. Source: "Raster Based Graphics Pipeline", CSE 410 offline 2, 2022.
+/// count; the others include both ends.
+/// All arithmetic is in doubles, in a fixed order. Any finite coordinates are allowed, even if their
+/// differences or products are not finite. Source: "Raster Based Graphics Pipeline", CSE 410 offline 2, 2022.
 class NearestRows {
  public:
-  /// A bound on the error of a triangle's area, relative to the sum of the two products whose difference it
-  /// is. Up to that bound, rounding hides whether the triangle is seen edge-on (J. Shewchuk, "Adaptive
-  /// precision floating-point arithmetic and fast robust geometric predicates", 1997, ccwerrboundA).
+  /// A bound on the error of a triangle's area, a difference of two products, relative to their sum. Up to
+  /// that bound, rounding hides whether the triangle is seen edge-on (J. Shewchuk, "Adaptive precision
+  /// floating-point arithmetic and fast robust geometric predicates", 1997, ccwerrboundA).
   static constexpr double kAreaError = (3 + 16 * 0x1p-53) * 0x1p-53;
 
-  /// Doubles are enough for the depths of a triangle whose depth changes, with its slopes in x and in y, over
-  /// the window and the triangle by at most kSteepest times the sum of its vertices' |z|; if its area is more
-  /// than kNarrowest of the sum of its two products, and its widest row wider than kNarrowestRow of a pixel.
-  /// (The comparison adds up the three.) The depths of any other triangle are calculated as
-  /// DoubleDoubles. Error bounds: tests/proofs/nearest_depth.g.
+  /// Doubles are enough for a triangle's depths if three conditions hold: over the window and the triangle,
+  /// its slopes change the depth by at most kSteepest times the sum of its vertices' |z|; its area is more
+  /// than kNarrowest of the sum of its two products; its widest row is wider than kNarrowestRow of a pixel.
+  /// (One comparison adds up the three.) Other triangles' depths are calculated as DoubleDoubles. Error
+  /// bounds: tests/proofs/nearest_depth.g.
   static constexpr double kSteepest = 0x1p9, kNarrowest = 0x1p-40, kNarrowestRow = 0x1p-12;
-  /// Both sides of the comparison are clamped to this, so that they cannot both become infinite.
+  /// Both sides of that comparison are clamped to this, so that they cannot both become infinite.
   static constexpr double kHuge = 0x1p1000;
 
   NearestRows(const PixelGrid& grid, const Triangle& p_ndc);
@@ -62,14 +61,14 @@ class NearestRows {
   [[nodiscard]] int first_row() const { return first_row_; }
   [[nodiscard]] int last_row() const { return last_row_; }
 
-  /// The pixels the triangle covers on `row`, inside the screen; none where it has fewer than two
+  /// The pixels that the triangle covers on `row`, inside the screen; none if the row has fewer than two
   /// intersections or lies entirely left or right of the screen. The depth is linear through the left
-  /// intersection and has the slope of the triangle's plane; where left and right intersection have the same
-  /// x, and where the triangle is seen edge-on, the depth is the smaller of the two. Everywhere else it is
-  /// the plane's at the exact center of the pixel within 2^-39 of the largest |z| of a vertex; at a pixel
-  /// whose center lies beyond an end of the row within 2^-28, or of its own |z| if that is larger.
+  /// intersection and has the slope of the triangle's plane; if both intersections have the same x, or the
+  /// triangle is seen edge-on, it is the smaller of their two depths. Everywhere else, it is the plane's
+  /// depth at the pixel's exact center within 2^-39 of the largest |z| of a vertex; if the center lies beyond
+  /// an end of the row, within 2^-28 of that or of its own |z|, whichever is larger.
   [[nodiscard]] std::optional<Span> span(int row) const;
-  /// That depth exactly, at the center as Z1 of docs/stages.md rounds it: rules.h.
+  /// The exact depth, at the center as rounded by Z1 of docs/stages.md; see rules.h.
   [[nodiscard]] Ball exact_depth(int row, int column) const;
 
  private:
@@ -81,9 +80,9 @@ class NearestRows {
     Intersection left;
     Intersection right;
   };
-  /// Where the line at `y` meets the edge. Inlined: a call would cost a third of it.
+  /// The intersection of the line at `y` with the edge. Inlined: a call would cost a third of the time.
   [[gnu::always_inline]] static inline Intersection intersect(const Vec3& lower, const Vec3& upper, double y);
-  /// Where the line at `y` enters and leaves the triangle; none where it has fewer than two intersections.
+  /// The points where the line at `y` enters and leaves the triangle; none if it has fewer than two.
   [[nodiscard]] std::optional<Ends> ends(double y) const;
   [[nodiscard]] std::optional<Ends> ends_at_corner(double y) const;
 
@@ -91,10 +90,9 @@ class NearestRows {
   [[gnu::noinline]] [[nodiscard]] Span refined(Span span) const;
 
   PixelGrid grid_;
-  Triangle p_;  // by y, then x, then z, from the lowest: neighbors get the same point of a shared edge
-  // dz/dx of the triangle's plane, none for a triangle seen edge-on. One slope for all rows: the quotient of
-  // the differences between the ends of a row has no correct digit where the row crosses the triangle next to
-  // a corner.
+  Triangle p_;  // sorted by y, x, z from the lowest: neighbors get the same point of a shared edge
+  // dz/dx of the triangle's plane; none for a triangle seen edge-on. One slope serves all rows: next to a
+  // corner, the quotient of the differences between a row's ends has no correct digit.
   std::optional<double> slope_;
   std::optional<DepthInPairs> in_pairs_;
   int first_row_;

@@ -10,20 +10,20 @@ PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The same operations as in NearestRows, as long as neither a triangle nor a row is out of the ordinary: no
-// product near the ends of a double's range, no corner on the line of pixel centers.
+// The operations of NearestRows for ordinary triangles and rows: no product is near the ends of a double's
+// range, no corner on the line of pixel centers.
 
 HWY_INLINE Doubles clamped(Doubles value, double low, double high) {
   return hn::Min(all(high), hn::Max(all(low), value));
 }
 
-/// By y, then x, then z.
+/// The order by y, then x, then z.
 HWY_INLINE Mask is_lower(const Vectors& a, const Vectors& b) {
   const Mask by_x = hn::Or(hn::Lt(a.x, b.x), hn::And(hn::Eq(a.x, b.x), hn::Lt(a.z, b.z)));
   return hn::Or(hn::Lt(a.y, b.y), hn::And(hn::Eq(a.y, b.y), by_x));
 }
 
-/// The numbers from which the rows of some triangles are calculated, or those of one, in all lanes.
+/// The numbers from which rows are calculated: of some triangles, or of one in all lanes.
 struct RowSources {
   Vectors lowest;
   Vectors middle;
@@ -49,8 +49,8 @@ struct TriangleLanes {
   HWY_INLINE Doubles end_row() const { return sources.last_row + all(1); }
 
   RowSources sources;
-  Doubles begin_row;  // the first in the range
-  LaneSet ordinary;   // triangles whose numbers all stay in the range of this arithmetic
+  Doubles begin_row;  // the first row in the range
+  LaneSet ordinary;   // triangles whose numbers stay in this arithmetic's range
 
  private:
   HWY_INLINE void set_corners(const PixelGrid& grid, const Vectors& p, const Vectors& q, const Vectors& r) {
@@ -63,7 +63,7 @@ struct TriangleLanes {
     sources.last_row = hn::Floor(clamped(bottom, -1, grid.rows - 1));
     set_slope(grid, q - p, r - p, hn::Abs(p.z) + hn::Abs(q.z) + hn::Abs(r.z));
   }
-  /// From the edges that leave the lowest corner.
+  /// Sets the slope from the edges at the lowest corner.
   HWY_INLINE void set_slope(const PixelGrid& grid, const Vectors& b, const Vectors& c, Doubles size) {
     const Doubles forward = b.x * c.y, backward = c.x * b.y;
     const Doubles rise = b.z * c.y - c.z * b.y;
@@ -88,7 +88,7 @@ struct TriangleLanes {
   }
 };
 
-/// A row of each of some triangles, or some rows of one.
+/// One row each of some triangles, or some rows of one triangle.
 struct RowLanes {
   RowLanes() = default;
   HWY_INLINE RowLanes(const PixelGrid& grid, const RowSources& of, Doubles rows) {
@@ -114,7 +114,7 @@ struct RowLanes {
     const Mask is_at_corner = hn::AndNot(hn::AndNot(hn::Eq(y, of.middle.y), is_between), is_there);
     ordinary_.bits = LaneSet::kAll & ~bits_of(is_at_corner);
   }
-  /// Depths are set with the columns.
+  /// Does nothing: depths are set with the columns.
   void set_depths(const RowSources&) {}
 
   /// The rows without a corner on their line of pixel centers.

@@ -11,20 +11,19 @@
 
 namespace pipeline {
 
-// The coverage rules of a screen. A visibility algorithm takes one as its template parameter `Coverage`. A
+// The coverage rules of a screen. A visibility algorithm takes a rule as its template parameter `Coverage`. A
 // rule has
-//   kName, kMeaning   the word users choose it by, and the line of --help beside it;
-//   kUsesDecimals     whether a coordinate written as a decimal is that decimal, not its nearest double;
+//   kName, kMeaning   the word that chooses it, and its line in --help;
+//   kUsesDecimals     true if a coordinate written as a decimal is that decimal, not its nearest double;
 //   rows(triangle)    the triangle's pixels: first_row() and last_row(), inside the screen, and span(row), a
 //                     std::optional<Span>. Only a row whose line of pixel centers meets the triangle has any:
 //                     bands and buffers are chosen by the triangle's height;
 //   exact_depth(triangle, row, column)   the depth (NDC z) at a pixel that the triangle covers, within 2^-97
 //   of
-//                     the largest |z| of its vertices and of itself. Slow: for digits that a Span may lack;
-//   spans(triangles, rows, begin)   if it has a kernel for many triangles: the same spans, written as a
-//                     kernel does.
+//                     itself or the vertices' largest |z|, if larger. Slow: for digits that a Span may lack;
+//   spans(triangles, rows, begin)   only if there is a kernel for many triangles: writes the same spans.
 
-/// On each row, from the pixel nearest to the triangle's left end to the one nearest to its right end.
+/// On each row, the pixels from the nearest to the triangle's left end to the nearest to its right end.
 struct NearestCoverage {
   static constexpr std::string_view
       kName = "nearest",
@@ -64,7 +63,7 @@ struct CenterCoverage {
 /// Every coverage rule, in the order of --help; the first is the default.
 using CoverageRules = TypeList<NearestCoverage, CenterCoverage>;
 
-/// Writes the spans of many triangles by any rule, as a kernel does (exact_grid.h).
+/// Writes the spans of many triangles by any rule, in a kernel's way (exact_grid.h).
 template <typename Coverage>
 TaggedSpan* spans_by(const Coverage& rule, std::span<const TaggedTriangle> triangles, const RowRange& rows,
                      TaggedSpan* spans) {

@@ -21,11 +21,11 @@ int first_column_where(int first, int end, Predicate&& is_true) {
   return first;
 }
 
-/// A triangle's depth along one row, a linear function of the column. It is evaluated anew for every pixel:
-/// adding up a difference per column would drift.
+/// A triangle's depth along one row, a linear function of the column. Evaluated anew for every pixel: adding
+/// a difference per column would drift.
 struct SpanDepth {
-  /// The depth (NDC z) at the center of the pixel in `column`. Finite parts give a finite or infinite depth,
-  /// never NaN; only finite ones can be seen.
+  /// The depth (NDC z) at the center of the pixel in `column`. Finite members give a finite or infinite
+  /// depth, never NaN; only finite depths can be seen.
   [[nodiscard]] double operator()(int column) const { return z0 + (left_x + column * dx - x0) * slope; }
 
   double left_x;  // x of the center of column 0
@@ -35,8 +35,8 @@ struct SpanDepth {
   double slope;   // dz/dx
 };
 
-/// A run of adjacent pixels of one row, covered by one triangle: from a coverage rule to a visibility
-/// algorithm.
+/// A run of adjacent pixels in one row, covered by one triangle; coverage rules pass spans to visibility
+/// algorithms.
 struct Span {
   int row;
   int first_column;
@@ -44,8 +44,8 @@ struct Span {
   SpanDepth depth;
 };
 
-/// The 32 bits kept for a triangle at every pixel that shows it, whose meaning is the caller's: the RGB value
-/// of a color, or the number of a surface.
+/// The 32 bits kept for a triangle at every pixel that shows it; the caller gives them a meaning: the RGB
+/// value of a color, or the number of a surface.
 using PixelTag = std::uint32_t;
 
 /// A span to be drawn.
@@ -54,8 +54,8 @@ struct TaggedSpan {
   PixelTag tag;
 };
 
-/// Calls `visit(span)` for every row of `range` a triangle covers, from the top. `rows` are the triangle's by
-/// a coverage rule: first_row() and last_row(), inside the screen, and span(row), a std::optional<Span>.
+/// Calls `visit(span)` for every row of `range` that a triangle covers, from the top. `rows` come from a
+/// coverage rule: first_row() and last_row(), inside the screen, and span(row), a std::optional<Span>.
 template <typename CoveredRows, typename Visitor>
 void for_each_span(const CoveredRows& rows, const RowRange& range, Visitor&& visit) {
   const int end = std::min(rows.last_row() + 1, range.end);

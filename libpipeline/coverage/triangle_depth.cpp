@@ -8,7 +8,7 @@ namespace pipeline {
 namespace {
 
 constexpr int kDepthBits = 61;
-// The smallest unit that is, like its inverse, a normal double.
+// The exponent of the smallest unit that is, like its inverse, a normal double.
 constexpr int kMinUnit = -1020;
 
 /// The exponent of the unit in which a number of this size has kDepthBits bits.
@@ -37,7 +37,7 @@ void TriangleDepth::set_depths(const std::array<double, 3>& z, std::int64_t tota
 
 void TriangleDepth::set_slope(std::int64_t b_step, std::int64_t c_step, double total) {
   const Int128 rise = Int128{b_step} * b_rise_ + Int128{c_step} * c_rise_;
-  // At most the largest depth where it is needed; elsewhere it need only be finite.
+  // Where it is needed, at most the largest depth; elsewhere it need only be finite.
   constexpr double kLargest = std::numeric_limits<double>::max();
   half_slope_ = std::clamp(to_double(rise) / (2 * total) * unit_, -kLargest, kLargest);
 }

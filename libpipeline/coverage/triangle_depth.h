@@ -14,19 +14,19 @@
 
 namespace pipeline {
 
-/// TriangleDepth for weights that are whole numbers and fit in a double, as they nearly always do.
+/// TriangleDepth for weights that are whole numbers and fit in a double, as nearly all do.
 ///
 /// The depth is the weighted mean of the three depths, within the bound of tests/proofs/depth_in_doubles.g of
 /// the exact one.
 class DepthInDoubles {
  public:
   static constexpr std::int64_t kMaxWeight = std::int64_t{1} << 50;
-  /// While the largest |z| lies between these, no product with a weight overflows, and the underflow of a
-  /// smaller one is negligible.
+  /// If the largest |z| lies between these, no product with a weight overflows, and the underflow of one is
+  /// negligible.
   static constexpr double kMinDepth = 0x1p-900, kMaxDepth = 0x1p900;
 
-  /// Turns -0 into 0, so that the sign of a zero does not depend on the signs of the weights, nor on zeros
-  /// among them.
+  /// Added, turns -0 into 0, so that a zero's sign does not depend on the weights' signs or on zeros among
+  /// them.
   static constexpr double kNoMinus = 0;
 
   /// True if these depths and weights of a TriangleDepth are in range.
@@ -62,16 +62,14 @@ class DepthInDoubles {
 };
 
 /// The depth over a triangle a, b, c, from the exact weights of its vertices. A vertex's weight at a point is
-/// twice the area of the triangle that the point makes with the other two: at least 0 inside; the three add
-/// up to `total`.
-///
+/// twice the area of the triangle of the point and the other two vertices: at least 0 inside; the three
+/// weights add up to `total`.
 /// For Z the largest |z| of the three, the depth at a pixel inside is within 2^-50 Z of the exact one (while
 /// Z is at least 1e-288), and a triangle of one depth has exactly that depth everywhere. If the depths are
-/// taken to be the decimals next to the doubles, that adds no more than another 2^-53 Z.
-///
-/// Where weights are whole numbers that doubles hold, the depth comes from DepthInDoubles. Otherwise depths
-/// become whole numbers of 61 bits, so that the depth in the middle of a span and its slope per half column
-/// are exact sums of products over the total: tests/proofs/depth_in_wide_integers.g.
+/// taken as the decimals next to the doubles, this adds at most another 2^-53 Z.
+/// If doubles hold the weights, the depth comes from DepthInDoubles. Otherwise depths become whole numbers of
+/// 61 bits, so that the depth in the middle of a span and the slope per half column are exact sums of
+/// products, divided by the total: tests/proofs/depth_in_wide_integers.g.
 class TriangleDepth {
  public:
   TriangleDepth() = default;
@@ -81,7 +79,7 @@ class TriangleDepth {
   TriangleDepth(const std::array<double, 3>& z, const Int& total, const Int& b_step, const Int& c_step);
 
   /// The depth along the pixels from `first_column` to `last_column` of a row, all in the triangle. `twice_b`
-  /// and `twice_c` are the weights of b and c at the first and at the last pixel added up.
+  /// and `twice_c` are the sums of the weights of b and c at the first and the last pixel.
   template <typename Int>
   [[nodiscard]] SpanDepth along(int first_column, int last_column, const Int& twice_b,
                                 const Int& twice_c) const {
@@ -107,10 +105,10 @@ class TriangleDepth {
   void set_depths(const std::array<double, 3>& z, std::int64_t total);
   void set_slope(std::int64_t b_step, std::int64_t c_step, double total);
 
-  std::optional<DepthInDoubles> in_doubles_;  // if there is one, all else is unused
-  int weight_shift_ = 0;                      // how many low bits of the weights are cut off
+  std::optional<DepthInDoubles> in_doubles_;  // if set, all else is unused
+  int weight_shift_ = 0;                      // the count of low bits cut off the weights
   double inverse_ = 0;                        // 1 / (2 * total weight)
-  double flat_depth_ = 0;    // of a triangle of one depth; then all below are 0, otherwise this is
+  double flat_depth_ = 0;    // of a triangle of one depth: then the members below are 0, else this is
   double half_slope_ = 0;    // per half column
   double unit_ = 0;          // depths are whole multiples of this:
   Int128 a_sum_ = 0;         // twice the total weight times the depth of a
@@ -130,7 +128,7 @@ TriangleDepth::TriangleDepth(const std::array<double, 3>& z, const Int& total, c
     }
   set_depths(z, cut(total, weight_shift_));
   const int shift = std::max(bits_to_cut(b_step), bits_to_cut(c_step));
-  // Less than 1 only where a step is more than the total, so that no row has two pixels and no slope is
+  // The quotient is below 1 only if a step exceeds the total: then no row has two pixels, and no slope is
   // needed.
   set_slope(cut(b_step, shift), cut(c_step, shift), std::max(to_double(total, shift), 1.0));
 }

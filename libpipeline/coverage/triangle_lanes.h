@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "libpipeline/coverage/exact_grid.h"
-// With AVX-512, masks would be converted to vectors and back all the time, which takes up to a tenth longer.
+// AVX-512 would convert masks to vectors and back all the time, and take up to a tenth longer.
 #ifdef PIPELINE_ALL_KERNELS
 #define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4 | HWY_AVX2)
 #else
@@ -17,7 +17,7 @@ PIPELINE_BEGIN_KERNELS();
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Two neighboring numbers of each of some triangles, `i` numbers after the first.
+/// Loads numbers `i` and `i` + 1 of each of some triangles.
 HWY_INLINE void load_two(const TaggedTriangle* triangles, std::size_t i, Doubles& first, Doubles& second) {
   static_assert(sizeof(Triangle) == 9 * sizeof(double));
   constexpr hn::FixedTag<double, 2> kTwo;
@@ -46,8 +46,8 @@ HWY_INLINE std::array<Vectors, 3> vertices_of(const TaggedTriangle* triangles) {
 /// left_x and dx of a depth.
 using Axis = std::array<double, 2>;
 
-/// A struct of Doubles and Masks alone, with the numbers of one lane in all lanes. By bit_cast, GCC 12 would
-/// copy the struct twice.
+/// A struct of Doubles and Masks alone, with the numbers of one lane in all lanes. With bit_cast, GCC 12
+/// would copy the struct twice.
 template <typename Lanes>
 HWY_INLINE Lanes lane_of(const Lanes& some, std::size_t lane) {
   Lanes result;
@@ -62,26 +62,26 @@ HWY_INLINE Lanes lane_of(const Lanes& some, std::size_t lane) {
   return result;
 }
 
-/// Spans that kernels find in their lanes.
+/// The spans that a kernel finds in its lanes.
 class LaneSpans {
  public:
-  /// There is a span where the last column is not before the first.
+  /// Sets the columns; a lane has a span if its last column is not before the first.
   HWY_INLINE void set_columns(Doubles row, Doubles first, Doubles last) {
     constexpr hn::Rebind<int, decltype(kDoubles)> kInts;
     const auto firsts = hn::DemoteTo(kInts, first), lasts = hn::DemoteTo(kInts, last);
     const auto steps = hn::IfThenZeroElse(hn::Gt(firsts, lasts), hn::Set(kInts, sizeof(TaggedSpan)));
     hn::StoreInterleaved4(hn::DemoteTo(kInts, row), firsts, lasts, steps, kInts, columns_[0].data());
   }
-  /// The points where depths are known.
+  /// Sets the points where depths are known.
   HWY_INLINE void set_points(Doubles x0, Doubles z0) {
     hn::StoreInterleaved2(x0, z0, kDoubles, points_[0].data());
   }
 
-  /// Writes one of them to `spans`; returns where the next one goes, which is `spans` again if this one has
-  /// no pixel. `axis` is left_x and dx of its depth. Branch-free: whether it has one is unpredictable.
+  /// Writes a lane's span to `spans`; returns the place of the next, `spans` again if this one has no pixel.
+  /// `axis` is left_x and dx of its depth. Branch-free: whether it has a pixel is unpredictable.
   HWY_INLINE TaggedSpan* append(std::size_t lane, const Axis& axis, double slope, PixelTag tag,
                                 TaggedSpan* spans) const {
-    // A depth is five doubles; the size falls between the columns and them.
+    // A depth is five doubles; the fourth number, the size, is not part of a span.
     static_assert(offsetof(Span, depth) == sizeof columns_[lane] && sizeof(SpanDepth) == 5 * sizeof(double));
     Span& span = spans->span;
     std::memcpy(static_cast<void*>(&span), &columns_[lane], sizeof columns_[lane]);
@@ -98,8 +98,8 @@ class LaneSpans {
   alignas(16) std::array<std::array<double, 2>, kLanes> points_;
 };
 
-// The loops of every kernel that prepares some triangles at a time, and then works on a row of each or, where
-// one of them is tall or not ordinary, on one triangle after the other, as many rows at a time.
+// The loops of the kernels: they prepare some triangles at a time, and then work on a row of each or, if one
+// of them is tall or not ordinary, on one triangle after the other, several rows at a time.
 //
 // `Rule` is the part in which kernels differ:
 //   rows(triangle)                 the rows of one triangle, by its coverage rule;
@@ -112,7 +112,7 @@ class LaneSpans {
 //   axis()                         left_x and dx of all depths.
 // Lanes that are not ordinary are left to rows().
 
-/// One bit for each lane.
+/// A set of lanes, one bit each.
 struct LaneSet {
   [[nodiscard]] bool has(std::size_t lane) const { return (bits >> lane & 1) != 0; }
   [[nodiscard]] bool has_all() const { return bits == kAll; }
@@ -121,7 +121,7 @@ struct LaneSet {
   unsigned bits = kAll;
 };
 
-/// Appends the spans of one of some triangles: as many rows at a time. Not inlined, so that its caller is.
+/// Appends the spans of one of some triangles, several rows at a time. Not inlined, so that its caller is.
 template <typename Rule, typename TriangleLanes>
 [[gnu::noinline]] TaggedSpan* append_triangle(const Rule& rule, const TriangleLanes& some, std::size_t lane,
                                               const TaggedTriangle& triangle, const RowRange& range,
@@ -145,7 +145,7 @@ template <typename Rule, typename TriangleLanes>
   return spans;
 }
 
-/// Appends the spans of some triangles: a row of each at a time, because short ones have too few rows to fill
+/// Appends the spans of some triangles, a row of each at a time: short triangles have too few rows to fill
 /// the lanes.
 template <typename Rule, typename TriangleLanes>
 TaggedSpan* append_triangles(const Rule& rule, const TriangleLanes& some, const TaggedTriangle* triangles,
@@ -155,7 +155,7 @@ TaggedSpan* append_triangles(const Rule& rule, const TriangleLanes& some, const 
   bool are_ordinary = some.ordinary.has_all() && most <= kMaxLowRows;
   const int count = are_ordinary ? static_cast<int>(most) : 0;
   std::array<typename Rule::RowLanes, kMaxLowRows> low;
-  // Separate loops: a processor can look ahead beyond the current iteration if iterations are short.
+  // Separate loops: if iterations are short, a processor can look ahead to the next ones.
   for (int i = 0; i < count; ++i) {
     auto& rows = low[static_cast<std::size_t>(i)];
     rows = rule.some_rows(some.sources, some.begin_row + all(i));
@@ -167,7 +167,7 @@ TaggedSpan* append_triangles(const Rule& rule, const TriangleLanes& some, const 
     return spans;
   }
   for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)].set_depths(some.sources);
-  // The same number of rows of each, covered or not: how many are covered is unpredictable.
+  // The same count of rows for each, covered or not: the count of covered rows is unpredictable.
   const Axis axis = rule.axis();
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const PixelTag tag = triangles[lane].tag;
