@@ -18,20 +18,20 @@ namespace pipeline {
 /// a span is queued while its pixels are fetched into the cache. First in, first out.
 class SpanQueue {
  public:
-  /// At most `most_spans` spans are put at a time.
+  /// `most_spans` is the maximum for one call of `put`.
   explicit SpanQueue(std::size_t most_spans)
       : spans_(std::make_unique_for_overwrite<TaggedSpan[]>(kWaiting + most_spans)), end_(spans_.get()) {}
 
-  /// Where to write the next spans, one after the other.
+  /// The place for the next spans, one after the other.
   [[nodiscard]] TaggedSpan* end() { return end_; }
-  /// Queues the spans written there, up to `new_end`. Calls `fetch(span)` for each at once, and `draw(spans)`
-  /// for all queued when there are many.
+  /// Queues the spans written there, up to `new_end`. Calls `fetch(span)` for each immediately, and
+  /// `draw(spans)` for all queued spans once there are many.
   template <typename Fetch, typename Draw>
   void put(TaggedSpan* new_end, Fetch&& fetch, Draw&& draw) {
     for (; end_ != new_end; ++end_) fetch(*end_);
     if (end_ >= spans_.get() + kWaiting) finish(draw);
   }
-  /// Calls `draw(spans)` for all still queued.
+  /// Calls `draw(spans)` for all spans still queued.
   template <typename Draw>
   void finish(Draw&& draw) {
     draw(std::span<const TaggedSpan>(spans_.get(), end_));
@@ -48,12 +48,12 @@ class SpanQueue {
 
 // A visibility algorithm receives the triangles of the stream one by one, and then reports, row by row, the
 // visible triangle at every pixel and its depth. The visible triangle is the one with the smallest depth
-// between the limits, as the depth format stores it; among equal depths, the earliest. So the result does
-// not depend on the algorithm. Each is a class template of a coverage rule and a depth format, constructed
-// from the viewport, with draw(triangle, tag) and for_each_row(visit).
+// between the limits, as the depth format stores it; among equal depths, the earliest. So the result does not
+// depend on the algorithm. An algorithm is a class template with a coverage rule and a depth format as
+// arguments; it is constructed from the viewport, and has draw(triangle, tag) and for_each_row(visit).
 
-/// The z-buffer: draws a triangle as soon as it arrives, all of it or its part in some rows; threads may draw
-/// into different rows at the same time.
+/// The z-buffer: draws a triangle, or its part in some rows, as soon as it arrives; threads may draw into
+/// different rows at the same time.
 template <typename Coverage, typename Depth>
 class ZBufferAlgorithm {
  public:
@@ -63,13 +63,13 @@ class ZBufferAlgorithm {
         buffer_(screen, background),
         most_height_((kMaxRows - 1) * screen.dy()) {}
 
-  /// From now on a fragment wins only if it is nearer than the visible one by more than `epsilon`.
+  /// Lets a fragment win only if it is nearer than the visible one by more than `epsilon`.
   void set_depth_epsilon(double epsilon) { buffer_.set_depth_epsilon(epsilon); }
   void draw(const ExactTriangle& triangle, PixelTag tag) {
     for_each_span(coverage_.rows(triangle), rows_, [&](const Span& span) { buffer_.draw(span, tag); });
   }
-  /// Draws into some of the rows that are drawn, or all of them, triangle by triangle; nothing else may draw
-  /// there while it is in use.
+  /// Draws into some or all of the drawn rows, triangle by triangle; nothing else may draw there in the
+  /// meantime.
   class Drawer {
    public:
     Drawer(ZBufferAlgorithm& algorithm, const RowRange& rows)
@@ -80,8 +80,7 @@ class ZBufferAlgorithm {
           queue_(kTriangles * kMaxRows) {
       triangles_.reserve(kTriangles);
     }
-    /// Draws the triangle now or later, at the latest in finish(); until then its coordinates must stay in
-    /// memory.
+    /// Draws the triangle, at the latest in finish(); until then, its coordinates must stay in memory.
     [[gnu::always_inline]] void draw(const ExactTriangle& triangle, PixelTag tag) {
       triangles_.push_back({triangle, tag});
       if (!is_low_) is_any_high_ |= !(height_of(triangle.p_ndc) < algorithm_.most_height_);
@@ -93,7 +92,7 @@ class ZBufferAlgorithm {
     }
 
    private:
-    // As many as a coverage kernel processes at a time, or a multiple of that.
+    // The count that a coverage kernel processes at a time, or a multiple of it.
     static constexpr std::size_t kTriangles = 4;
 
     static double height_of(const Triangle& p_ndc) {
@@ -115,7 +114,7 @@ class ZBufferAlgorithm {
       triangles_.clear();
       is_any_high_ = false;
     }
-    // If there are many rows, draws without depth bounds: those of a whole tall picture would take too much
+    // For many rows, draws without depth bounds: the bounds of a whole tall picture would take too much
     // memory.
     void draw_spans(std::span<const TaggedSpan> spans) {
       algorithm_.buffer_.draw(spans, is_low_ ? &farthest_ : nullptr);
@@ -126,12 +125,12 @@ class ZBufferAlgorithm {
     bool is_low_;
     HierarchicalDepth<Depth> farthest_;
     std::vector<TaggedTriangle> triangles_;
-    bool is_any_high_ = false;  // where that matters
+    bool is_any_high_ = false;  // set only where it matters
     SpanQueue queue_;
   };
 
-  /// Calls `visit(tags)`, which may change them, for every row in which something has been drawn. No drawer
-  /// may be in use.
+  /// Calls `visit(tags)`, which may change the tags, for every row with something drawn. No drawer may be in
+  /// use.
   template <typename Visitor>
   void for_each_drawn_row(Visitor&& visit) {
     buffer_.for_each_drawn_row(visit);
@@ -142,12 +141,12 @@ class ZBufferAlgorithm {
   }
 
  private:
-  // The maximum number of rows of a triangle whose spans are queued. Bands are higher only in pictures of
-  // more than 65536 rows of samples.
+  // The maximum number of rows of a triangle whose spans are queued. Only pictures with more than 65536 rows
+  // of samples have higher bands.
   static constexpr int kMaxRows = 128;
 
   Coverage coverage_;
-  RowRange rows_;  // those that are drawn
+  RowRange rows_;  // the rows that are drawn
   ZBuffer<Depth> buffer_;
   double most_height_;  // of a triangle with less than kMaxRows rows
 };

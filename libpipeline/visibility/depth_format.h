@@ -11,15 +11,15 @@
 
 namespace pipeline {
 
-// How the z-buffer stores a depth. A format rounds depths to values it can store and compares those, so two
-// depths that round to the same value are equal and the earlier triangle stays. `store` is monotone; `depth`
-// gives the depth of a stored value. Two depths that differ by `separation(size)` or more, neither larger
-// than `size`, are never stored as the same value. Users choose a format by kName and read kMeaning beside
-// it. Not every format has room for every pair of limits: `needed_limits` is what it needs, in words, where
-// it cannot store the depths between a screen's limits, and empty where it can.
+// The formats in which the z-buffer stores depths. A format rounds depths to stored values and compares
+// these, so two depths that round to the same value are equal, and the earlier triangle stays. `store` is
+// monotone; `depth` gives the depth of a stored value. Two depths that differ by `separation(size)` or more,
+// neither larger than `size`, are never stored as the same value. kName is the word that chooses the format,
+// kMeaning its line in --help. Not every format has room for every pair of limits: `needed_limits` is empty
+// if it can store the depths between a screen's limits, else it says which limits the format needs.
 
-/// The depth rule: a fragment is drawn if it is not before the front limit, and takes a pixel if it is nearer
-/// than what the pixel shows, as stored.
+/// The depth rule: a fragment is drawn if it is not before the front limit, and wins a pixel if its stored
+/// depth is less than the pixel's.
 // Z8
 constexpr bool is_drawn(double z, double front) {
   return z >= front;
@@ -29,7 +29,7 @@ constexpr bool is_nearer(Stored stored, Stored of_pixel) {
   return stored < of_pixel;
 }
 
-/// A double: the depth as calculated.
+/// A double, the depth as calculated.
 struct DepthF64 {
   static constexpr std::string_view kName = "f64", kMeaning = "as a double";
   using Stored = double;
@@ -40,7 +40,7 @@ struct DepthF64 {
   [[nodiscard]] static double separation(double) { return std::numeric_limits<double>::denorm_min(); }
 };
 
-/// A float: 24 significant bits, so steps are finer near 0.
+/// A float with 24 significant bits, so steps are finer near 0.
 struct DepthF32 {
   static constexpr std::string_view kName = "f32", kMeaning = "as a float";
   using Stored = float;
@@ -52,7 +52,7 @@ struct DepthF32 {
   }
   [[nodiscard]] static Stored store(double z) { return static_cast<float>(z); }
   [[nodiscard]] static double depth(Stored stored) { return stored; }
-  // More than the distance of neighboring floats.
+  // More than the distance between neighboring floats.
   [[nodiscard]] static double separation(double size) {
     const bool is_in_range = size <= std::numeric_limits<float>::max();
     return is_in_range ? size * 0x1.01p-23 + 0x1p-148 : std::numeric_limits<double>::infinity();
@@ -60,9 +60,9 @@ struct DepthF32 {
 };
 
 /// A whole number of 2^24 - 1 equal steps between the front and the rear limit, as in graphics hardware: the
-/// limits are stored exactly, depths between them are rounded to the nearest step, halves up. Finer than a
-/// float where the limits are close together, as from 0.999 to 1. Signed, because processors convert doubles
-/// to signed numbers only.
+/// limits are stored exactly; depths between them are rounded to the nearest step, halves up. Finer than a
+/// float if the limits are close together, like 0.999 and 1. Signed, because processors convert doubles only
+/// to signed numbers.
 struct DepthU24 {
   static constexpr std::string_view kName = "u24", kMeaning = "in 2^24 - 1 equal steps between the limits";
   using Stored = std::int32_t;
@@ -74,11 +74,11 @@ struct DepthU24 {
     assert(needed_limits(screen).empty());
   }
   [[nodiscard]] static std::string_view needed_limits(const Viewport& screen) {
-    // Closer together, a step or the number of steps a unit leaves a double's range.
+    // With closer limits, a step or the number of steps per unit would leave a double's range.
     const double distance = screen.rear - screen.front;
     return 1e-300 <= distance && std::isfinite(distance) ? "" : "1e-300 to 1.7976931e+308 apart";
   }
-  /// `z` outside the limits is stored as the nearer limit.
+  /// The stored value of `z`; outside the limits, the nearer limit's.
   [[nodiscard]] Stored store(double z) const {
     const double steps = (z - front) * steps_per_depth + 0.5;
     const double steps_from_front = steps > 0 ? steps : 0;
@@ -93,8 +93,8 @@ struct DepthU24 {
   double depth_per_step;
 };
 
-/// Every depth format, in the order of --help; the first is the default. Functions that are compiled once for
-/// each of them are instantiated from the same list, by PIPELINE_FOR_EACH_DEPTH_FORMAT.
+/// Every depth format, in the order of --help; the first is the default. Functions compiled once per format
+/// are instantiated from the same list, by PIPELINE_FOR_EACH_DEPTH_FORMAT.
 #define PIPELINE_FOR_EACH_DEPTH_FORMAT(DO) DO(DepthF64) DO(DepthF32) DO(DepthU24)
 
 template <typename First, typename... Others>

@@ -14,16 +14,16 @@
 
 namespace pipeline {
 
-/// The fate of a picture's triangles. Every triangle is counted once: as seen, as hidden, or by the
-/// reason for which it would show nowhere.
+/// The fate of a picture's triangles. Every triangle is counted once: as seen, as hidden, or by the reason
+/// why it would show nowhere.
 struct DrawingCounts {
   UnseenPlaces unseen;
   std::uint64_t triangles = 0;
   std::uint64_t seen = 0;              // triangles that own a pixel of the complete picture
-  std::uint64_t hidden = 0;            // that own none, but would if they were alone
-  std::uint64_t outside_rows = 0;      // that cover pixels, but none in the rows that are drawn
+  std::uint64_t hidden = 0;            // triangles that own none, but would if they were alone
+  std::uint64_t outside_rows = 0;      // triangles that cover pixels, but none in the drawn rows
   std::uint64_t pixels_written = 0;    // pixels that show a triangle
-  std::uint64_t fragments_tested = 0;  // pixels that each triangle covers, added up
+  std::uint64_t fragments_tested = 0;  // the sum of the pixels that each triangle covers
   BoundingBox extent;                  // in NDC
 };
 
@@ -98,7 +98,7 @@ class DrawingCounter {
   Viewport screen_;
   AnyCoverage coverage_;
   FragmentTest test_;
-  Raster<FragmentTest::Seen> visible_;  // `triangle` counts those of the stream
+  Raster<FragmentTest::Seen> visible_;  // `triangle` is the index in the stream
   DrawingCounts counts_;
 };
 

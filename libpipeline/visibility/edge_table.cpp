@@ -12,8 +12,8 @@ bool is_left_of(const ActiveEdge& a, const ActiveEdge& b) {
   return a.column < b.column;
 }
 
-/// Insertion sort: one step for every pair of edges that crossed since the last scanline. Falls back to
-/// std::sort if too many did.
+/// Insertion sort: one step for every two edges that have crossed since the last scanline. Falls back to
+/// std::sort if there are too many.
 void sort_nearly_sorted(Edges edges) {
   std::size_t steps_left = 16 * edges.size();
   for (std::size_t i = 1; i < edges.size(); ++i) {

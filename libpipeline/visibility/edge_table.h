@@ -15,12 +15,11 @@ namespace pipeline {
 /// A polygon's number in its table. Polygons are numbered in the order of the stream.
 using PolygonId = std::uint32_t;
 
-/// The polygon table of the scan-line algorithm: every triangle that reaches the screen, in 88 bytes (72 more
-/// where the text has more digits than doubles hold).
-///
-/// The textbook's entry has the plane equation, the shading information and the in-out flag. Here the plane
-/// is its three vertices, from which the coverage rule makes the depth along a row, and the flag is kept only
-/// for the polygons on the scanline (`RowPolygon`).
+/// The polygon table of the scan-line algorithm: every triangle that reaches the screen, in 88 bytes (and 72
+/// more if the text has more digits than doubles hold).
+/// The textbook's entry has the plane equation, the shading information and the in-out flag. Here, three
+/// vertices stand for the plane: the coverage rule calculates the depth along a row from them. Only polygons
+/// on the scanline have a flag (`RowPolygon`).
 class PolygonTable {
  public:
   /// Adds the next triangle; its number is the count so far.
@@ -31,7 +30,7 @@ class PolygonTable {
     polygons_.push_back({triangle.p_ndc, tag, low_parts, triangle.decimal_marks});
   }
 
-  /// The triangle as it was added; refers to the table.
+  /// The triangle as added; refers to the table.
   [[nodiscard]] ExactTriangle triangle(PolygonId id) const {
     const Polygon& polygon = polygons_[id];
     return {polygon.p_ndc, polygon.low_parts == 0 ? nullptr : &low_parts_[polygon.low_parts - 1],
@@ -44,7 +43,7 @@ class PolygonTable {
   struct Polygon {
     Triangle p_ndc;
     PixelTag tag;
-    std::uint32_t low_parts;  // their index in low_parts_, counted from 1; 0: none
+    std::uint32_t low_parts;  // an index of low_parts_, counted from 1; 0: none
     std::uint16_t decimal_marks;
   };
 
@@ -54,17 +53,16 @@ class PolygonTable {
 
 /// The edge table of the scan-line algorithm: for every scanline a bucket of the polygons whose edges begin
 /// there, as a linked list like the textbook's; 4 bytes per scanline and 4 per polygon.
-///
 /// The textbook's entry is one edge with its x on the first scanline, its last scanline, dx per scanline and
-/// polygon. Here an entry stands for the two edges of a polygon that cross a scanline, left and right: one
-/// call of the coverage rule gives both ends, wherever one edge of a triangle ends and the next begins, and
-/// the last row. There is no dx: see ActiveEdgeList.
+/// polygon. Here, an entry stands for the two edges of a polygon that cross a scanline, left and right: one
+/// call of the coverage rule finds both ends, even where one edge of a triangle ends and the next begins; it
+/// also knows the last row. There is no dx: see ActiveEdgeList.
 class EdgeTable {
  public:
   explicit EdgeTable(int rows) : first_in_bucket_(static_cast<std::size_t>(rows), kNone) {}
 
-  /// Adds the next polygon, whose edges begin on `first_row`, counted from the first row that is drawn; its
-  /// number is the count so far.
+  /// Adds the next polygon, whose edges begin on `first_row`, counted from the first drawn row; its number is
+  /// the count so far.
   void add(int first_row) {
     PolygonId& first = first_in_bucket_[static_cast<std::size_t>(first_row)];
     const auto id = static_cast<PolygonId>(next_in_bucket_.size());
@@ -88,20 +86,18 @@ class EdgeTable {
   std::deque<PolygonId> next_in_bucket_;
 };
 
-/// Where on a scanline a polygon begins (left edge) or has just ended (right edge).
+/// The column of a scanline where a polygon begins (left edge) or has just ended (right edge).
 struct ActiveEdge {
-  int column;          // the polygon's first, or the first after its last
+  int column;          // the polygon's first column, or the first after its last
   std::uint32_t slot;  // of the polygon among the active ones
   bool is_right;
 };
 
-/// The active edge list of the scan-line algorithm: the edges on the current scanline, sorted by column.
-///
-/// The textbook goes from one scanline to the next by x += dx. In doubles that puts 6816 of 1020230 span ends
-/// (0.7%) into a column other than the exact one, for triangles whose vertices have two decimals on a screen
-/// of 1000 x 1000 pixels (4028 if x is calculated anew instead of accumulated;
-/// Scanline.IncrementalXWouldGiveOtherColumns counts them). So the coverage rule calculates the columns on
-/// every row.
+/// The active edge list of the scan-line algorithm: the edges on the current scanline, sorted by column. The
+/// textbook goes from one scanline to the next by x += dx. In doubles, this puts 6816 of 1020230 span ends
+/// (0.7%) into a wrong column, for triangles whose vertices have two decimals on a screen of 1000 x 1000
+/// pixels (4028 if x is calculated anew instead of accumulated; Scanline.IncrementalXWouldGiveOtherColumns
+/// counts them). So the coverage rule calculates the columns on every row.
 class ActiveEdgeList {
  public:
   /// The column of an edge whose polygon has no pixel on this scanline; such edges are sorted to the end.
@@ -128,7 +124,7 @@ class ActiveEdgeList {
   }
 
   /// Sets every edge's column to column_of(edge) and sorts: edges from the previous scanline are nearly in
-  /// order, new ones are sorted by themselves and merged in.
+  /// order; new edges are sorted separately and merged in.
   template <typename ColumnOf>
   void sort(ColumnOf&& column_of) {
     for (ActiveEdge& edge : edges_) edge.column = column_of(edge);

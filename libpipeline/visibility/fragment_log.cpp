@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-/// As shortest_text, also for the infinite depths that huge coordinates overflow to.
+/// shortest_text that also takes infinite depths, to which huge coordinates overflow.
 std::string depth_text(double depth) {
   if (std::isfinite(depth)) return shortest_text(depth);
   return depth < 0 ? "-inf" : "inf";

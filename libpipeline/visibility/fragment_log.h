@@ -24,20 +24,20 @@ struct Pixel {
 /// The result of a fragment's depth test.
 enum class DepthTestResult {
   kept,
-  behind,        // the visible one is nearer
-  equal,         // the visible one is as near and came earlier
-  too_close,     // it is nearer than the visible one, but not by more than the depth epsilon
+  behind,        // the visible fragment is nearer
+  equal,         // the visible fragment is as near and came earlier
+  too_close,     // nearer than the visible fragment, but by the depth epsilon at most
   before_front,  // nearer than the front limit
   beyond_rear    // not nearer than the rear limit
 };
 
-/// One triangle at one pixel.
+/// A triangle at a pixel.
 struct Fragment {
   Pixel pixel;
   std::uint64_t triangle = 0;
-  double depth = 0;  // NDC z, as the depth format stores it; outside the limits as it was calculated
+  double depth = 0;  // NDC z as the depth format stores it; as calculated if outside the limits
   DepthTestResult result = DepthTestResult::kept;
-  std::uint64_t winner = 0;  // the triangle it lost to, if it is behind, equal or too close
+  std::uint64_t winner = 0;  // the triangle that beat it, if it is behind, equal or too close
 
   friend bool operator==(const Fragment&, const Fragment&) = default;
 };
@@ -45,7 +45,7 @@ struct Fragment {
 /// "COLUMN,ROW: triangle N, depth Z: kept", or "lost, " and why; the depth reads back to the same double.
 std::string to_text(const Fragment& fragment);
 
-/// The depth test of the visibility algorithms, one fragment at a time and with the reason for its result.
+/// The depth test of the visibility algorithms, fragment by fragment, with the reason for each result.
 class FragmentTest {
  public:
   /// The fragment visible at a pixel so far.
@@ -60,7 +60,7 @@ class FragmentTest {
         rear_(format_.store(screen.rear)),
         epsilon_(rules.depth_epsilon) {}
 
-  /// A pixel that shows no triangle.
+  /// The value of a pixel that shows no triangle.
   [[nodiscard]] Seen nothing() const { return {rear_, 0}; }
 
   /// Tests the next triangle's fragment of depth z at a pixel and updates `seen`.
@@ -85,17 +85,17 @@ class FragmentTest {
   double epsilon_;
 };
 
-/// Reports every fragment of the picture, or of one pixel, triangle by triangle in the order of the stream
-/// and each from the top left. Keeps a depth and a number per pixel.
+/// Reports every fragment of the picture or of one pixel, by triangle in the order of the stream, and within
+/// a triangle from the top left. Keeps a depth and a number per pixel.
 class FragmentLog {
  public:
   FragmentLog(const PixelRules& rules, const Viewport& screen)
       : FragmentLog(rules, screen, screen.drawn_rows(), {0, screen.columns}) {}
-  /// For one pixel of the screen.
+  /// The log of one pixel of the screen.
   FragmentLog(const PixelRules& rules, const Viewport& screen, const Pixel& pixel)
       : FragmentLog(rules, screen, {pixel.row, pixel.row + 1}, {pixel.column, pixel.column + 1}) {}
 
-  /// Calls `visit(fragment)` for every one of these pixels that the next triangle covers.
+  /// Calls `visit(fragment)` for every pixel of the log that the next triangle covers.
   template <typename Visitor>
   void add(const ExactTriangle& p_ndc, std::uint64_t triangle, Visitor&& visit) {
     const auto add_span = [&](const Span& span) {

@@ -9,15 +9,15 @@
 
 namespace pipeline {
 
-/// Which pixels a triangle covers, how its depths are stored, and which of them are kept.
+/// The rules for the pixels that a triangle covers, and for storing and comparing depths.
 struct PixelRules {
   CoverageRules::Choice coverage;
   DepthFormats::Choice depth;
-  /// Where a triangle is visible, a fragment wins only if it is nearer by more than this, at least 0.
+  /// At least 0; a fragment wins over a visible triangle only if it is nearer by more than this.
   double depth_epsilon = 0;
 };
 
-/// A coverage rule that is chosen at run time, for code that is not worth compiling for each.
+/// A coverage rule chosen at run time, for code that is not worth compiling once per rule.
 class AnyCoverage {
  public:
   AnyCoverage(const PixelRules& chosen, const Viewport& screen)
@@ -33,8 +33,8 @@ class AnyCoverage {
   CoverageRules::Object rule_;
 };
 
-/// A depth format that is chosen at run time, likewise. Stored depths are doubles, which hold those of every
-/// format. Its functions are inlined, as they are called for each fragment.
+/// A depth format chosen at run time. Stored depths are doubles, which hold every format's values. Functions
+/// called for each fragment are inlined.
 class AnyDepth {
  public:
   AnyDepth(const PixelRules& chosen, const Viewport& screen)

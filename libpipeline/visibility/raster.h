@@ -13,20 +13,20 @@
 
 namespace pipeline {
 
-/// A two-dimensional array, row after row; row 0 is at the top, column 0 on the left. It may hold a few rows
-/// of a picture alone, under their numbers in the picture.
+/// A two-dimensional array, row after row; row 0 is at the top, column 0 on the left. It may hold only some
+/// rows of a picture; they keep their numbers.
 template <typename T>
 class Raster {
  public:
-  /// Entries of `value`; both sizes are at least 0.
+  /// An array whose entries are `value`; both sizes are at least 0.
   Raster(const RowRange& rows, int columns, const T& value)
       : rows_(rows), columns_(columns), entries_(count(rows, columns), value) {}
-  /// Entries without values: reading one before it is written is undefined. Where nothing is written, the
-  /// system provides no memory.
+  /// An array of uninitialized entries: to read one before it is written is undefined. The system provides
+  /// memory only where something is written.
   Raster(const RowRange& rows, int columns)
       : rows_(rows), columns_(columns), entries_(count(rows, columns)) {}
 
-  /// Which rows of a picture they are.
+  /// The rows' numbers in the picture.
   [[nodiscard]] const RowRange& row_range() const { return rows_; }
   [[nodiscard]] int columns() const { return columns_; }
 
@@ -48,8 +48,8 @@ class Raster {
   std::vector<T, LargePageAllocator<T>> entries_;
 };
 
-/// One row of a visibility algorithm's result: for every column the depth (NDC z) of the nearest triangle and
-/// its tag, or the rear limit and the background's tag. Depth text and image are made from these rows alone.
+/// One row of a visibility algorithm's result: for every column, the depth (NDC z) and the tag of the nearest
+/// triangle, or the rear limit and the background's tag. Depth text and image are made from these rows alone.
 struct VisibleRow {
   std::span<const double> depths;
   std::span<const PixelTag> tags;

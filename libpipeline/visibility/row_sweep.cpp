@@ -11,7 +11,7 @@ namespace {
 constexpr int kFirstRun = 4;
 constexpr int kMaxRun = 1 << 16;
 
-/// At equal depth the earlier polygon stays.
+/// True if the first polygon hides the second; at equal depths, the earlier one does.
 template <typename Stored>
 bool hides(Stored depth, PolygonId id, Stored other_depth, PolygonId other_id) {
   return is_nearer(depth, other_depth) || (depth == other_depth && id < other_id);
@@ -37,8 +37,8 @@ RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Pixel
   double left_z = depth(polygon.first_column), right_z = depth(polygon.last_column);
   const auto is_seen = [&](double z) { return is_drawn(z, front_) && is_before_rear(z); };
   if (!is_seen(left_z) || !is_seen(right_z)) {
-    // Each rounding in a SpanDepth is monotone, so the depths as calculated rise or fall along the row and
-    // cross a limit once.
+    // Each rounding in a SpanDepth is monotone, so calculated depths rise or fall along the row, and cross a
+    // limit once.
     const bool is_rising = left_z <= right_z;
     const int end = span.last_column + 1;
     const auto first_where = [&](auto&& is_true) {
@@ -58,7 +58,7 @@ RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Pixel
   polygon.nearest = format_.store(std::min(left_z, right_z));
   polygon.farthest = format_.store(std::max(left_z, right_z));
   // With X = |left_x| + columns |dx|, the five roundings are off by at most 2^-53 (|slope| (5 X + 3 |x0|) +
-  // |z0|); without a slope, by nothing.
+  // |z0|); without a slope, they are exact.
   const double reach = std::fabs(depth.left_x) + reach_columns_ * std::fabs(depth.dx) + std::fabs(depth.x0);
   polygon.size = std::fabs(depth.z0);
   if (depth.slope != 0) {
@@ -114,8 +114,8 @@ void RowSweep<Depth>::leave(Polygon& polygon) {
   std::erase(contenders_, &polygon);
 }
 
-/// `polygon` begins at `column`. If it is nearer than the visible polygon, it is nearer than all those behind
-/// that one, too.
+/// `polygon` begins at `column`. If it is nearer than the visible polygon, it is nearer than all polygons
+/// behind it, too.
 template <typename Depth>
 void RowSweep<Depth>::compare_with_visible(Polygon& polygon, int column) {
   if (visible_->farthest < polygon.nearest) return;
@@ -135,7 +135,7 @@ void RowSweep<Depth>::compare_with_visible(Polygon& polygon, int column) {
   }
 }
 
-/// Finds the nearest polygon at `column`, and how far it is sure to be nearest.
+/// Finds the nearest polygon at `column`, and the column up to which it is surely nearest.
 template <typename Depth>
 void RowSweep<Depth>::choose_visible(int column) {
   visible_ = nearest_at(column);
@@ -171,19 +171,19 @@ RowPolygon<Depth>* RowSweep<Depth>::nearest_at(int column) {
   return nearest;
 }
 
-/// The first column in [column, end] at which `front` may not be nearer than `back`, as far as both reach.
+/// The first column in [column, end], as far as both reach, where `front` may not be nearer than `back`.
 template <typename Depth>
 int RowSweep<Depth>::end_of_nearer(const Polygon& front, const Polygon& back, int column, int end) const {
   const int last = std::min({end - 1, front.last_column, back.last_column});
   double needed = front.error + back.error;
-  // A later polygon has to be stored as nearer.
+  // A later polygon must be stored as nearer.
   if (front.id > back.id) needed += format_.separation(std::max(front.size, back.size));
   const auto is_nearer_at = [&](int c) { return back.depth(c) - front.depth(c) >= needed; };
   const double distance = back.depth(column) - front.depth(column);
   if (!(distance >= needed)) return column;
   const double last_distance = back.depth(last) - front.depth(last);
   if (last_distance >= needed) return end;
-  // Split at the crossing, which is at the calculated column or one before it.
+  // The crossing is at the calculated column or one before it.
   const double part = (distance - needed) / (distance - last_distance);
   const int crossing = column + static_cast<int>(part > 0 ? part * (last - column) : 0);
   if (is_nearer_at(crossing)) return crossing + 1;

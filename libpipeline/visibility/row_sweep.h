@@ -14,11 +14,11 @@
 
 namespace pipeline {
 
-/// The part of a polygon's span that would be visible between the depth limits if the polygon were alone:
-/// neighboring pixels of one scanline.
+/// The part of a polygon's span between the depth limits, visible if the polygon were alone: neighboring
+/// pixels of one scanline.
 template <typename Depth>
 struct RowPolygon {
-  /// The value of index_in_list of a polygon whose in-out flag is "out": the sweep is not between its edges.
+  /// The index_in_list of a polygon whose in-out flag is "out": the sweep is not between its edges.
   static constexpr std::uint32_t kOut = std::numeric_limits<std::uint32_t>::max();
 
   [[nodiscard]] bool is_empty() const { return first_column > last_column; }
@@ -26,29 +26,26 @@ struct RowPolygon {
   SpanDepth depth = {};
   int first_column = 0;
   int last_column = -1;
-  typename Depth::Stored nearest = {};  // of the stored depths of its pixels
+  typename Depth::Stored nearest = {};  // the least of the stored depths of its pixels
   typename Depth::Stored farthest = {};
-  double size = 0;  // no depth along the row, and nothing it is calculated from, is larger
-  // At least twice the error of a depth against the exact linear function; 0 if depths are exact.
+  double size = 0;  // bounds the depths along the row, and their terms
+  // At least twice a depth's deviation from the exact linear function; 0 if depths are exact.
   double error = 0;
   PolygonId id = 0;
   PixelTag tag = 0;
   std::uint32_t index_in_list = kOut;  // in the active polygon list
 };
 
-/// One scanline of the scan-line algorithm: goes from edge to edge, keeps the list of active polygons (those
-/// whose two edges enclose it), and assigns the pixels between neighboring edges to the nearest of them.
-///
-/// The textbook compares depths once for every interval between two edges, at its left end, and is wrong
-/// where polygons interpenetrate. Here the visible polygon of an interval is compared with the others at both
-/// ends. Along a row depths are linear functions, so where the difference of two exceeds what rounding can
-/// add at both ends, it has the same sign at every pixel between. Where it does not, the interval is split at
-/// the crossing, and the pixels that rounding decides are compared one by one, as by the z-buffer: the
-/// smaller stored depth wins, or the earlier polygon if both are equal.
-///
-/// A polygon stays the visible one for as long as it is sure to be nearest, even across edges of polygons
-/// behind it, and a new polygon is compared with it only (depth coherence), so a scanline takes time for its
-/// edges and its visible pixels, not for every pixel of every layer.
+/// The scan-line algorithm on one scanline: goes from edge to edge, keeps the list of active polygons (whose
+/// edges enclose it), and assigns the pixels between neighboring edges to the nearest. The textbook compares
+/// depths once for every interval between two edges, at its left end, and is wrong where polygons
+/// interpenetrate. Here, the visible polygon of an interval is compared with the others at both ends. Along a
+/// row, depths are linear functions, so if the difference of two exceeds the rounding errors at both ends, it
+/// has the same sign at every pixel between. If not, the interval is split at the crossing, and the pixels
+/// that rounding decides are compared one by one, as by the z-buffer: the smaller stored depth wins, or the
+/// earlier polygon if both are equal. A polygon stays visible as long as it is surely nearest, even across
+/// edges of polygons behind it, and a new polygon is compared only with it (depth coherence). So a scanline
+/// takes time for its edges and its visible pixels, not for every pixel of every layer.
 template <typename Depth>
 class RowSweep {
  public:
@@ -57,8 +54,8 @@ class RowSweep {
   /// The pixels of `span` between the depth limits, with the range and precision of their depths.
   [[nodiscard]] RowPolygon<Depth> polygon(const Span& span, PolygonId id, PixelTag tag) const;
 
-  /// The visible row: `edges`, sorted by column, are the two edges of every polygon that is not empty, each
-  /// with its slot in `polygons`. The row is valid until the next call.
+  /// The visible row, valid until the next call. `edges`, sorted by column, has the two edges of every
+  /// polygon that is not empty, each with its slot in `polygons`.
   VisibleRow sweep(std::span<const ActiveEdge> edges, std::span<RowPolygon<Depth>> polygons);
 
  private:
@@ -95,9 +92,9 @@ class RowSweep {
   // The state of a sweep.
   std::span<Polygon> polygons_;
   std::vector<ActivePolygon> active_;  // the active polygon list
-  Polygon* visible_ = nullptr;         // nearest of all active polygons but the contenders ...
+  Polygon* visible_ = nullptr;         // the nearest active polygon, contenders excepted ...
   int visible_end_ = 0;                // ... from the current column up to this one
-  std::vector<Polygon*> contenders_;   // to be compared with it at every pixel
+  std::vector<Polygon*> contenders_;   // polygons to compare with it at every pixel
   int run_length_ = 1;                 // columns until the contenders are chosen anew
 };
 

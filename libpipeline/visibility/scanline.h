@@ -16,7 +16,7 @@
 namespace pipeline {
 
 /// The polygons that cross the current scanline, each with its rows by the coverage rule (`Rows`) and its
-/// pixels on this one. A polygon keeps its slot until it is removed; then the slot is free for another.
+/// pixels on this scanline. A polygon keeps its slot until it is removed; another may then take the slot.
 template <typename Rows, typename Depth>
 class ActivePolygons {
  public:
@@ -35,7 +35,7 @@ class ActivePolygons {
     return slot;
   }
 
-  /// Finds the pixels of the polygon at `slot` on `row` that could be seen.
+  /// Finds the pixels on `row` where the polygon at `slot` could be seen.
   void update(std::uint32_t slot, int row, const RowSweep<Depth>& sweep) {
     const Polygon& polygon = polygons_[slot];
     const auto span = polygon.rows->span(row);
@@ -72,7 +72,7 @@ class ActivePolygons {
 
 /// The visibility algorithm `scanline`: keeps the triangles and finds, row by row, the nearest at every
 /// pixel. Needs memory for the triangles that reach the screen (92 bytes each, see PolygonTable and
-/// EdgeTable), for those that cross one row, and for one row of pixels; never for the frame. The rows equal
+/// EdgeTable), for the triangles on one row, and for one row of pixels; never for the frame. The rows equal
 /// the z-buffer's to the last bit: both take columns and depths from the same coverage rule, and compare
 /// depths as the same format stores them.
 ///
@@ -83,7 +83,7 @@ class ActivePolygons {
 template <typename Coverage, typename Depth>
 class Scanline final : public Drawing {
  public:
-  /// Every pixel is at the rear limit and has the tag `background`.
+  /// Begins with every pixel at the rear limit, with the tag `background`.
   explicit Scanline(const Viewport& screen, PixelTag background = {})
       : screen_(screen),
         rows_(screen.drawn_rows()),
@@ -124,7 +124,7 @@ class Scanline final : public Drawing {
 
  private:
   Viewport screen_;
-  RowRange rows_;  // those that are drawn
+  RowRange rows_;  // the rows that are drawn
   PixelTag background_;
   Coverage coverage_;
   EdgeTable edge_table_;

@@ -19,7 +19,7 @@ constexpr int kStep = static_cast<int>(kLanes);
 static_assert(kBlockColumns % kStep == 0 &&
               kStep <= static_cast<int>(HierarchicalDepth<DepthF64>::kPadding) + 1);
 
-// The functions `store` of the depth formats; scalar code has no use for them.
+// The functions `store` of the depth formats, on vectors; scalar code does not use them.
 
 template <typename Vector>
 HWY_INLINE Vector store(const DepthF64&, Vector z) {
@@ -42,7 +42,7 @@ HWY_INLINE auto are_nearer(Vector stored, Vector of_pixels) {
   return hn::Lt(stored, of_pixels);
 }
 
-/// The mask of some depths as one of their tags.
+/// A mask of depths, converted to one of their tags.
 template <typename StoredTag, typename StoredMask>
 HWY_INLINE hn::Mask<decltype(kTags)> mask_of_tags(StoredTag depths, StoredMask mask) {
   if constexpr (sizeof(hn::TFromD<StoredTag>) == sizeof(PixelTag)) {
@@ -63,7 +63,7 @@ class SpanLanes {
         depth_(pixels.span.depth),
         is_rising_(depth_(pixels.span.first_column) <= depth_(pixels.span.last_column)) {}
 
-  /// Draws the pixels from the column `first` to before `end`; returns whether any is visible.
+  /// Draws the pixels from the column `first` to before `end`; true if any is visible.
   HWY_INLINE bool fill_columns(int first, int end) const {
     auto* depths = pixels_.depths + first;
     auto* tags = pixels_.tags + first;

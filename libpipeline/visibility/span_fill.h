@@ -10,13 +10,13 @@
 
 namespace pipeline {
 
-/// The length of a block of neighboring pixels of a row; its first column is a multiple of it.
+/// The length of a block of neighboring pixels in a row; a block's first column is a multiple of it.
 constexpr int kBlockColumns = 32;
 
-/// For each block of some rows of a z-buffer, a depth that none of its pixels exceeds. Stored depths only
-/// decrease, so a bound stays valid without updates. A span that is nowhere nearer than the bound within a
-/// block is hidden in the whole block. Source: N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer
-/// visibility", 1993. `Depth` is a depth format.
+/// An upper bound on the depths in each block, for some rows of a z-buffer. Stored depths only decrease, so a
+/// bound stays valid without updates. A span that is nowhere nearer than the bound within a block is hidden
+/// in the whole block. Source: N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", 1993.
+/// `Depth` is a depth format.
 template <typename Depth>
 class HierarchicalDepth {
  public:
@@ -24,11 +24,11 @@ class HierarchicalDepth {
   /// Kernels may read this many bounds past the last block of a row.
   static constexpr std::size_t kPadding = 7;
 
-  /// For rows of `columns` pixels. Allocates at the first call of row().
+  /// Bounds for rows of `columns` pixels; allocated at the first call of row().
   HierarchicalDepth(const RowRange& rows, int columns)
       : rows_(rows), stride_(static_cast<std::size_t>((columns + kBlockColumns - 1) / kBlockColumns)) {}
 
-  /// The bounds of a row, block by block; at first no less than any depth.
+  /// The bounds of a row, block by block; at first, no depth exceeds them.
   [[nodiscard]] Stored* row(int row) {
     if (farthest_.empty()) farthest_.assign(stride_ * row_count(rows_.end) + kPadding, kLargest);
     return &farthest_[stride_ * row_count(row)];
@@ -56,8 +56,8 @@ struct SpanFill {
   const Depth& format;
   int columns;                 // of the row
   Stored* depths;              // of its first pixel
-  PixelTag* tags;              // likewise
-  Stored* farthest = nullptr;  // of its first block (see HierarchicalDepth), updated; may be null
+  PixelTag* tags;              // of its first pixel
+  Stored* farthest = nullptr;  // of its first block, updated (HierarchicalDepth); may be null
 };
 
 /// The blocks of a row that a span reaches, and the blocks that it covers entirely.
@@ -78,11 +78,9 @@ struct SpanBlocks {
 };
 
 // The loop that draws: a pixel gets the span's depth and tag if that depth, as stored, is less than the
-// pixel's own. A kernel is that loop for one kind of processor; all give the same bytes.
-//
-// Every rounding in a SpanDepth is monotone, so depths as they are calculated and stored rise or fall along
-// the row: the nearest in a block is at one of its ends. If that is not nearer than the farthest depth there,
-// the block is skipped.
+// pixel's own. A kernel is this loop for one kind of processor; all give the same bytes.
+// Every rounding in a SpanDepth is monotone, so stored depths, too, rise or fall along the row: the nearest
+// in a block is at one of its ends. If it is not nearer than the block's bound, the block is skipped.
 
 template <typename Depth>
 using FillSpan = void (*)(const SpanFill<Depth>&);

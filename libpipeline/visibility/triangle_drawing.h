@@ -19,12 +19,12 @@
 
 namespace pipeline {
 
-/// A picture cut into bands of neighboring rows, enough for every thread. Bands that are not drawn stay
-/// empty, and each is low enough that its depths and tags stay in a core's cache while many triangles are
-/// drawn into it.
+/// A picture cut into bands of neighboring rows, enough for all threads. Bands outside the drawn rows stay
+/// empty. A band is so low that its depths and tags stay in a core's cache while many triangles are drawn
+/// into it.
 class RowBands {
  public:
-  /// A double and a PixelTag.
+  /// The size of a double and a PixelTag.
   static constexpr int kBytesPerPixel = 12;
 
   explicit RowBands(const Viewport& screen)
@@ -38,17 +38,17 @@ class RowBands {
     return {std::max(band << height_bits_, drawn_.first), std::min((band + 1) << height_bits_, drawn_.end)};
   }
 
-  /// The bands in which a triangle in NDC can have pixels by any coverage rule; there may be one too many
-  /// where a vertex is close to the line of centers of a band's outermost row.
+  /// The bands in which a triangle in NDC can have pixels by any coverage rule; perhaps one too many if a
+  /// vertex is close to the line of centers of a band's outermost row.
   [[nodiscard]] RowRange bands_of(const Triangle& p_ndc) const {
-    // In a window whose size is near the smallest doubles, the division would overflow.
+    // For a window about as small as the smallest doubles, the division has overflowed.
     if (!(rows_per_dy_ <= std::numeric_limits<double>::max())) return all_drawn();
     const double a = p_ndc[0].y, b = p_ndc[1].y, c = p_ndc[2].y;
     const double low = std::min(std::min(a, b), c), high = std::max(std::max(a, b), c);
-    // In rows from the top of the screen, clamped to the screen and one more row.
+    // The unit is rows from the top of the screen, clamped to the screen and one more row.
     const double above = std::clamp((grid_.top_y - high) * rows_per_dy_ - kReach, -1.0, 1.0 * grid_.rows);
     const double below = std::clamp((grid_.top_y - low) * rows_per_dy_ + kReach, -1.0, 1.0 * grid_.rows);
-    // Rounded up and down: a conversion truncates, which rounds a number down unless it is negative.
+    // These are rounded up and down: a conversion truncates, which rounds a nonnegative number down.
     const int first_row = std::max(grid_.rows - static_cast<int>(grid_.rows - above), drawn_.first);
     const int last_row = std::min(static_cast<int>(below + 1) - 1, drawn_.end - 1);
     const int end = (last_row >> height_bits_) + 1, first = first_row >> height_bits_;
@@ -60,7 +60,7 @@ class RowBands {
     return {drawn_.first >> height_bits_, ((drawn_.end - 1) >> height_bits_) + 1};
   }
 
-  // In rows. On the screen, a row number is calculated to within 2^-33.
+  // A margin in rows. On the screen, a row number is calculated to within 2^-33.
   static constexpr double kReach = 0x1p-20;
   static constexpr int kBytesInCache = 1 << 19;
   static constexpr int kMaxCount = 512;
@@ -78,11 +78,11 @@ class RowBands {
   int height_bits_;  // a band has 2^height_bits_ rows
 };
 
-/// Draws a picture band by band: all triangles of several batches that reach one band are drawn before those
-/// of the next band, so that the band's pixels stay in the cache. With several threads, each band is drawn by
-/// one of them while the caller reads on. A pixel belongs to one band, and a band's triangles are drawn in
-/// the order of the stream, so the result does not depend on the number of threads. `Visible` has a class
-/// Drawer(visible, rows) with draw(triangle, tag) and finish(), which touch only those rows.
+/// Draws a picture band by band: for several batches, all triangles that reach one band are drawn before the
+/// next band's, so that the band's pixels stay in the cache. With several threads, one of them draws each
+/// band while the caller reads on. A pixel belongs to one band, and a band's triangles are drawn in the order
+/// of the stream, so the result does not depend on the number of threads. `Visible` has a class
+/// Drawer(visible, rows) with draw(triangle, tag) and finish(), which touch only these rows.
 ///
 /// Source: "sort-middle" in S. Molnar, M. Cox, D. Ellsworth, H. Fuchs, "A sorting classification of parallel
 /// rendering", 1994.
@@ -98,8 +98,7 @@ class BandDrawing {
   BandDrawing(const BandDrawing&) = delete;
   BandDrawing& operator=(const BandDrawing&) = delete;
 
-  /// Swaps the batch in and hands back an empty one to refill. Draws it now or later, at the latest in
-  /// finish().
+  /// Swaps the batch in and hands back an old one to refill. Draws it at the latest in finish().
   void draw(TaggedBatch& batch) {
     is_idle_ = false;
     Round& round = rounds_[filling_];
@@ -107,7 +106,7 @@ class BandDrawing {
     sort_into_bands(round);
     if (round.is_full()) draw_round();
   }
-  /// Draws the batches still waiting.
+  /// Draws all batches that still wait.
   void finish() {
     if (is_idle_) return;
     draw_round();
@@ -127,8 +126,8 @@ class BandDrawing {
   /// Batches drawn together.
   struct Round {
     /// Large triangles, which reach several bands, are collected over many batches, so that more of them are
-    /// drawn while a band's pixels are in the cache. Small triangles are collected over few batches, so that
-    /// they themselves stay in the cache.
+    /// drawn while a band's pixels are in the cache; small ones over few, so that the triangles stay in the
+    /// cache.
     [[nodiscard]] bool is_full() const {
       const bool is_of_small_triangles = entry_count < 2 * triangle_count;
       return batch_count == kMaxBatches || entry_count >= kMaxEntries ||
@@ -136,7 +135,7 @@ class BandDrawing {
     }
 
     std::array<TaggedBatch, kMaxBatches> batches;
-    std::vector<std::vector<Entry>> bands;  // which triangles reach a band
+    std::vector<std::vector<Entry>> bands;  // the triangles that reach each band
     std::size_t batch_count = 0;
     std::size_t triangle_count = 0;
     std::size_t entry_count = 0;
@@ -189,9 +188,8 @@ class BandDrawing {
   ThreadPool& pool_;
 };
 
-/// Draws the triangles of a stream on the threads of a pool, batch by batch. The result is the
-/// same as drawing the triangles one after the other, whatever the number of threads. `Visible` is as for
-/// BandDrawing.
+/// Draws the triangles of a stream on the threads of a pool, batch by batch. The result is as if they were
+/// drawn one after the other, for any number of threads. `Visible` is as for BandDrawing.
 ///
 /// On one thread, batches of small triangles are drawn at once: their pixels are scattered over the picture
 /// anyway, and the triangles themselves are still in the cache. All others are drawn in bands.
@@ -204,9 +202,9 @@ class TriangleDrawing {
     if (pool.size() == 1) picture_.emplace(visible, screen.drawn_rows());
   }
 
-  /// Where to put the next batch, with a tag for each triangle.
+  /// The place for the next batch, with a tag for each triangle.
   [[nodiscard]] TaggedBatch& next() { return next_; }
-  /// Draws that batch now or later, at the latest in finish().
+  /// Draws this batch, at the latest in finish().
   void draw_next() {
     assert(next_.tags.size() == next_.batch.size());
     if (!picture_ || !has_small_triangles(next_.batch)) return bands_.draw(next_);
@@ -215,11 +213,11 @@ class TriangleDrawing {
       picture_->draw(exact_triangle(next_.batch, i), next_.tags[i]);
     picture_->finish();
   }
-  /// Draws the batches still waiting.
+  /// Draws all batches that still wait.
   void finish() { bands_.finish(); }
 
  private:
-  /// Decides by every eighth triangle.
+  /// True if the triangles are small, judged by every eighth.
   [[nodiscard]] bool has_small_triangles(const TriangleBatch& batch) const {
     constexpr double kSmall = 32;  // width and height together, in pixels
     constexpr std::size_t kStep = 8;

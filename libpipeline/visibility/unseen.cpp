@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// How far a fragment's depth may lie outside the triangle's own depths: the rule `nearest` follows the plane
-/// of a triangle up to half a pixel outside it. Infinite where the plane is so steep that rounding matters.
+/// The maximum distance of a fragment's depth from the triangle's own depths: the rule `nearest` follows a
+/// triangle's plane up to half a pixel outside it. Infinite if the plane is so steep that rounding matters.
 double depth_reach(const Triangle& p, const BoundingBox& extent, double dx) {
   if (extent.low.z == extent.high.z) return 0;
   const auto& [a, b, c] = p;
@@ -18,14 +18,14 @@ double depth_reach(const Triangle& p, const BoundingBox& extent, double dx) {
   const double rise = (b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y);
   const double area = std::fabs(forward - backward);
   if (!(area > 0x1p-20 * (std::fabs(forward) + std::fabs(backward)))) return kInfinity;
-  // Twice as far, and more than all roundings.
+  // Twice the distance, and more than all rounding errors.
   return std::fabs(rise) / area * dx + 0x1p-20 * (std::fabs(extent.low.z) + std::fabs(extent.high.z));
 }
 
 }  // namespace
 
-// True if the area in x and y is more than the rounding of its coordinates to doubles, and of the calculation
-// here, can make it.
+// True if the area in x and y exceeds the error of rounding the coordinates to doubles and of this
+// calculation.
 bool has_area(const Triangle& p) {
   const auto& [a, b, c] = p;
   const double forward = (b.x - a.x) * (c.y - a.y);
@@ -38,7 +38,7 @@ bool has_area(const Triangle& p) {
 
 bool may_be_visible(const Triangle& p_ndc, const BoundingBox& extent, const Viewport& screen) {
   const auto& [low, high] = extent;
-  // A pixel more than the window: rounding may move a vertex that touches it.
+  // One pixel more than the window on each side: rounding may move a vertex that touches it.
   const double dx = screen.dx(), dy = screen.dy();
   if (high.x < screen.left - dx || low.x > -screen.left + dx || high.y < screen.bottom - dy ||
       low.y > -screen.bottom + dy)

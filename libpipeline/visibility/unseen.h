@@ -12,19 +12,19 @@
 
 namespace pipeline {
 
-/// Which sides of the depth limits a triangle has fragments on.
+/// The sides of the depth limits on which a triangle has fragments.
 struct FragmentDepths {
   bool before_front = false;
   bool visible = false;
   bool beyond_rear = false;
 };
 
-/// Why a triangle with the box `extent` shows nowhere; never `behind`. Fragments before or beyond a limit
-/// decide only where neither the box nor a missing area does.
+/// The reason why a triangle with the box `extent` shows nowhere; never `behind`. Fragments before or beyond
+/// a limit decide only if neither the box nor a missing area does.
 UnseenPlace unseen_place(const Triangle& p_ndc, const BoundingBox& extent, const FragmentDepths& fragments,
                          const Viewport& screen);
 
-/// False only if the triangle surely shows at no pixel: a quick test by the box `extent` around it.
+/// A quick test by the box `extent` around a triangle: false only if it surely shows at no pixel.
 bool may_be_visible(const Triangle& p_ndc, const BoundingBox& extent, const Viewport& screen);
 
 /// False for a triangle seen edge-on, or whose corners lie on a line.
@@ -40,13 +40,13 @@ class EmptyPicture {
         format_(rules, screen),
         rear_(format_.store(screen.rear)) {}
 
-  /// Looks at the next triangles, unless one before them shows.
+  /// Takes the next triangles, unless an earlier one shows an area.
   void add(const TriangleBatch& p_ndc) {
     for (std::size_t i = 0; i < p_ndc.size() && !shows_area_; ++i) add(exact_triangle(p_ndc, i));
   }
   /// True while no triangle shows.
   [[nodiscard]] bool is_empty() const { return is_empty_; }
-  /// True if none but triangles without area shows.
+  /// True if no triangle with an area shows.
   [[nodiscard]] bool has_no_area() const { return !shows_area_; }
   /// The triangles before the first that shows an area.
   [[nodiscard]] const UnseenPlaces& triangles() const { return triangles_; }
@@ -62,7 +62,7 @@ class EmptyPicture {
     triangles_.add(unseen_place(triangle.p_ndc, extent, found, screen_), extent);
   }
 
-  /// The depths of a triangle's fragments, as far as the first visible one.
+  /// The depths of a triangle's fragments, up to the first visible one.
   [[nodiscard]] FragmentDepths fragments(const ExactTriangle& triangle) const {
     FragmentDepths found;
     coverage_.visit([&](const auto& rule) {

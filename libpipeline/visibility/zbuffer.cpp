@@ -15,7 +15,7 @@ PixelTag select(bool takes_a, PixelTag a, PixelTag b) {
   return (a & mask) | (b & ~mask);
 }
 
-/// Into a row whose first pixel is at `depths` and `tags`. Not inlined, so that its callers are.
+/// Draws into a row whose first pixel is at `depths` and `tags`. Not inlined, so that its callers can be.
 template <typename Depth>
 [[gnu::noinline]] void draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, double front,
                                            typename Depth::Stored* depths, PixelTag* tags) {
@@ -31,7 +31,7 @@ template <typename Depth>
   }
 }
 
-/// In bytes. Filling them takes a hundred times as long as asking whether they are there.
+/// A size in bytes. Filling them takes a hundred times as long as asking whether the system has them.
 constexpr std::size_t kCheckedChunk = std::size_t{16} << 20;
 
 }  // namespace
@@ -51,7 +51,7 @@ ZBuffer<Depth>::ZBuffer(const Viewport& screen, PixelTag background)
 
 template <typename Depth>
 void ZBuffer<Depth>::fill_row(int row) {
-  // Its turn comes once for each chunk, on whatever thread; never in pictures of less than a chunk.
+  // Checks once per chunk, on any thread; never in pictures smaller than a chunk.
   const std::size_t row_size =
       static_cast<std::size_t>(depths_.columns()) * (sizeof(Stored) + sizeof(PixelTag));
   const std::size_t rows_of_chunk = kCheckedChunk / row_size + 1;
@@ -86,7 +86,7 @@ template <typename Depth>
 void ZBuffer<Depth>::draw(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest) {
   // Drawing a shorter span takes less time than calling a kernel.
   constexpr int kShort = 4;
-  // Copies, so that the compiler sees that no pixel written changes them.
+  // Copies: the compiler knows that writing pixels does not change them.
   const Depth format = format_;
   const double front = front_;
   const bool has_epsilon = depth_epsilon_ > 0;
@@ -109,7 +109,7 @@ void ZBuffer<Depth>::draw(std::span<const TaggedSpan> spans, HierarchicalDepth<D
   }
 }
 
-/// Every rounding in a SpanDepth is monotone, so the depths as calculated cross the front limit once.
+/// Every rounding in a SpanDepth is monotone, so calculated depths cross the front limit once.
 template <typename Depth>
 Span ZBuffer<Depth>::part_behind_front(const Span& span) const {
   Span part = span;

@@ -14,20 +14,18 @@
 namespace pipeline {
 
 /// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its tag, 12 bytes
-/// per pixel if depths are doubles. A row is filled with the background when something is first drawn there:
-/// small scenes touch little memory. `Depth` is a depth format. Source: E. Catmull, "A subdivision algorithm
-/// for computer display of curved surfaces", 1974.
+/// if depths are doubles. A row is filled with the background when something is first drawn there, so small
+/// scenes touch little memory. `Depth` is a depth format. Source: E. Catmull, "A subdivision algorithm for
+/// computer display of curved surfaces", 1974.
 template <typename Depth = DepthF64>
 class ZBuffer {
  public:
-  /// A buffer of the screen's rows that are drawn, every pixel at the rear limit and with the tag
-  /// `background`.
+  /// A buffer for the screen's drawn rows, with every pixel at the rear limit and the tag `background`.
   explicit ZBuffer(const Viewport& screen, PixelTag background = {});
 
-  /// Draws a span of the triangle that `tag` stands for. A pixel is written if its depth, as it is stored, is
-  /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
-  /// `farthest`, if there is one, has rows of this buffer; its bounds stay valid even if others draw into
-  /// those rows.
+  /// Draws a span of the triangle with this tag. A pixel is written if its depth is not less than the front
+  /// limit and, as stored, less than the depth there (among equal depths, the first drawn stays). `farthest`,
+  /// if not null, has rows of this buffer; its bounds stay valid even if others draw into these rows.
   void draw(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest = nullptr);
 
   /// Draws several spans, one after the other.
@@ -40,22 +38,22 @@ class ZBuffer {
     __builtin_prefetch(&tags_.row(span.row)[column], 1);
   }
 
-  /// From now on a pixel that shows a triangle is written only if the new depth is less by more than
-  /// `epsilon`, at least 0. The picture then depends on the order of the triangles.
+  /// Lets a pixel that shows a triangle be written only if the new depth is less by more than `epsilon`, at
+  /// least 0. The picture then depends on the order of the triangles.
   void set_depth_epsilon(double epsilon) { depth_epsilon_ = epsilon; }
 
-  /// Bounds for drawing into these rows.
+  /// Depth bounds for drawing into these rows.
   [[nodiscard]] HierarchicalDepth<Depth> hierarchical_depth(const RowRange& rows) const {
     return {rows, depths_.columns()};
   }
 
-  /// Calls `visit(tags)`, which may change them, for every row in which something has been drawn.
+  /// Calls `visit(tags)`, which may change the tags, for every row with something drawn.
   template <typename Visitor>
   void for_each_drawn_row(Visitor&& visit) {
     for (int row = rows_.first; row < rows_.end; ++row)
       if (is_filled_[index_of(row)] != 0) visit(tags_.row(row));
   }
-  /// Calls `visit(VisibleRow)` for every row that is drawn, from the top.
+  /// Calls `visit(VisibleRow)` for every drawn row, from the top.
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {
     const auto columns = static_cast<std::size_t>(depths_.columns());
@@ -67,7 +65,7 @@ class ZBuffer {
         visit(VisibleRow{no_depths, no_tags});
         continue;
       }
-      // Copies of members, which writing to `depths` cannot change: the compiler makes vectors of the loop.
+      // Copies of members, which writing to `depths` cannot change: so the compiler vectorizes the loop.
       const auto depth = [format = format_, rear = rear_, limit = rear_limit_](Stored stored) {
         return stored < rear ? format.depth(stored) : limit;
       };
@@ -80,7 +78,7 @@ class ZBuffer {
   using Stored = typename Depth::Stored;
 
   [[nodiscard]] std::size_t index_of(int row) const { return static_cast<std::size_t>(row - rows_.first); }
-  /// Has to precede any drawing into a row.
+  /// Must precede any drawing into a row.
   void fill_row(int row);
   void draw_in_filled_row(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest);
   [[nodiscard]] Span part_behind_front(const Span& span) const;
@@ -93,10 +91,10 @@ class ZBuffer {
   Stored rear_;
   double depth_epsilon_ = 0;
   PixelTag background_;
-  RowRange rows_;  // those that are drawn
+  RowRange rows_;  // the rows that are drawn
   Raster<Stored> depths_;
   Raster<PixelTag> tags_;
-  // By row; bytes, as threads draw into different rows at the same time.
+  // One byte per row, not bits: threads draw into different rows at the same time.
   std::vector<std::uint8_t> is_filled_;
 };
 
