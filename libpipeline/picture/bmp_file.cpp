@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kHeaderSize = 14 + 40;
 constexpr std::size_t kBlockSize = std::size_t{1} << 16;
 
-/// Bytes of one row in the file; rows start at multiples of four.
+/// The bytes of one row in the file; rows start at multiples of four.
 std::size_t row_size(int columns) {
   return (3 * static_cast<std::size_t>(columns) + 3) / 4 * 4;
 }
@@ -64,7 +64,7 @@ class BmpWriter final : public ImageWriter {
   int rows_;
   std::size_t row_size_;  // bytes, padding included
   bool can_seek_;
-  // Rows not yet written, in the order of the file: filled from its end.
+  // Rows not yet written, in the order of the file, so filled from the end.
   std::vector<char> block_;
   std::size_t buffered_row_count_ = 0;
   std::size_t written_row_count_ = 0;

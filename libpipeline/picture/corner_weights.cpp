@@ -8,11 +8,11 @@
 namespace pipeline {
 namespace {
 
-// Below it, products of doubles lose digits.
+// Below this, products of doubles lose digits.
 constexpr double kLeastDoubt = 0x1p-900;
 
-/// Twice the signed area that p and q make with a pixel's center, which is no double, exact except for one
-/// rounding; times the count of pixels. `are_divided`: by w, so x and y are in NDC.
+/// Twice the signed area of the triangle of p, q and a pixel's center, times the count of pixels, exact but
+/// for one rounding. If `are_divided` by w, x and y are in NDC.
 Ball exact_area(const Vec3& p, const Vec3& q, const PixelGrid& grid, int row, int column, bool are_divided) {
   const double columns = grid.columns, rows = grid.rows;
   const double right = 2.0 * column + 1 - columns,
@@ -28,7 +28,7 @@ Ball exact_area(const Vec3& p, const Vec3& q, const PixelGrid& grid, int row, in
   return are_divided ? area * p.z * q.z : area;
 }
 
-/// A bound on the terms of an area at any pixel, added up.
+/// A bound on the sum of the terms of an area at any pixel.
 double terms(const Vec3& p, const Vec3& q, const PixelGrid& grid) {
   const auto x = [&](const Vec3& v) { return std::fabs(v.x) + grid.half_width * std::fabs(v.z); };
   const auto y = [&](const Vec3& v) { return std::fabs(v.y) + grid.half_height * std::fabs(v.z); };
@@ -57,9 +57,9 @@ CornerWeights::CornerWeights(const PixelGrid& grid, const ClipTriangle& corners,
                : terms(a, b, grid) + terms(b, c, grid) + terms(c, a, grid) + kLeastDoubt;
 }
 
-/// The error of an area is within 2^-48 of its two w times the largest coordinate times the length of an
-/// edge; the sum is at least the area in NDC times the two smaller w. Near the ends of a double's range,
-/// either may overflow or vanish.
+/// True if doubles are enough at every pixel. The error of an area is within 2^-48 times its two w, the
+/// largest coordinate and the length of an edge; the sum is at least the area in NDC times the two smaller w.
+/// Near the ends of a double's range, either may overflow or vanish.
 bool CornerWeights::are_plain(const PixelGrid& grid) const {
   const auto is_usual = [](double x) { return x > 0x1p-300 && x < 0x1p300; };
   const auto& [a, b, c] = corners_;

@@ -8,8 +8,8 @@
 namespace pipeline {
 
 /// Writes one row of z-buffer text: every depth below the rear limit with 6 decimals and a tab, then the end
-/// of the line; an empty line for a row without any. Zero never carries a sign. Writes the `exact` depths in
-/// the place of the others if there are any: doubles have too few digits for depths far beyond 1000.
+/// of the line; an empty line if no depth is. Zero never has a sign. If `exact` is not empty, writes these
+/// depths instead: doubles have too few digits for depths far beyond 1000.
 void write_depth_row(TextWriter& text, std::span<const double> depths, double rear,
                      std::span<const Ball> exact = {});
 

@@ -11,7 +11,7 @@
 namespace pipeline {
 namespace {
 
-/// Formats with rows from the top and red first, by a writer of bytes.
+/// Writes formats with rows from the top and red first, by a writer of bytes.
 template <auto byte_writer, PixelBytes pixels = PixelBytes::rgb8>
 class RgbWriter final : public ImageWriter {
  public:
@@ -54,7 +54,7 @@ void take_any_size(const std::string&, int, int) {}
 
 constexpr ImageFormat kPpm = {".ppm", make<netpbm_writer>, take_any_size};
 constexpr ImageFormat kFormats[] = {{".bmp", bmp_writer, check_bmp_size}, kPpm};
-// With libpng only.
+// Used only with libpng.
 constexpr ImageFormat kPng = {".png", make<png_writer>, take_any_size};
 
 /// ".png" of "png:FILE"; empty without a prefix that names a format.
@@ -66,7 +66,7 @@ std::string prefix_of(const std::string& path) {
   return is_it(kPng) || std::ranges::any_of(kFormats, is_it) ? extension : std::string();
 }
 
-/// The name of the format, as a prefix or at the end.
+/// The extension that names the format, as a prefix or at the end.
 std::string format_extension_of(const std::string& path) {
   const std::string prefix = prefix_of(path);
   if (!prefix.empty()) return prefix;

@@ -9,16 +9,16 @@ namespace pipeline {
 
 // The formats of images, each in a source of its own.
 
-/// An InputError naming `path` if the image does not fit into a BMP, which counts its bytes in 32 bits.
+/// An InputError names `path` if the image does not fit into a BMP, which counts its bytes in 32 bits.
 void check_bmp_size(const std::string& path, int columns, int rows);
 
 /// A Windows bitmap: 24 bits per pixel, rows from the bottom. Blocks of 64 KiB are written at their positions
-/// in the file, so that few rows are in memory; where the file cannot seek (a pipe), the whole image is kept
-/// in memory. Throws like check_bmp_size.
+/// in the file, so that few rows are in memory; if the file cannot seek (a pipe), the whole image is. Throws
+/// like check_bmp_size.
 std::unique_ptr<ImageWriter> bmp_writer(int descriptor, const std::string& path, int columns, int rows);
 
-/// How the pixels of a row become bytes: red, green and blue; these and an alpha (PNG only); or 16 bits of
-/// gray, the high byte first.
+/// The bytes of a pixel: red, green and blue; these and alpha (PNG only); or 16 bits of gray, high byte
+/// first.
 enum class PixelBytes { rgb8, rgba8, gray16 };
 using ByteWriter = RowWriter<unsigned char>;
 
@@ -26,9 +26,9 @@ using ByteWriter = RowWriter<unsigned char>;
 std::unique_ptr<ByteWriter> netpbm_writer(int descriptor, const std::string& path, PixelBytes pixels,
                                           int columns, int rows);
 
-/// True if PNG files can be written: where the library was built with libpng.
+/// True if PNG files can be written: if the library was built with libpng.
 bool can_write_png();
-/// A PNG image, row by row. Only where can_write_png().
+/// A PNG image, row by row; only if can_write_png().
 std::unique_ptr<ByteWriter> png_writer(int descriptor, const std::string& path, PixelBytes pixels,
                                        int columns, int rows);
 

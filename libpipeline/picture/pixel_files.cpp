@@ -21,8 +21,8 @@ bool is_png(const std::string& path) {
 }
 
 std::uint16_t depth_brightness(double depth, const Viewport& screen) {
-  // Halves, so that the difference of two large limits stays finite; but only there, as the half of the
-  // smallest double is 0.
+  // Halves keep the difference of two large limits finite; used only for these, as half of the smallest
+  // double is 0.
   const double scale = std::isfinite(screen.rear - screen.front) ? 1 : 0.5;
   const double rear = scale * screen.rear;
   const double nearness = (rear - scale * depth) / (rear - scale * screen.front);

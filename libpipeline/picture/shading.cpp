@@ -28,7 +28,7 @@ HWY_INLINE Vectors to_eye_from(const Vectors& position, const Lighting& lighting
           hn::IfThenElseZero(has_direction, to_eye.z)};
 }
 
-/// A factor of 0 weakens nothing, not even at a distance that overflows a double.
+/// The divisor at a distance. A factor of 0 has no effect, even at a distance that overflows a double.
 HWY_INLINE Doubles weakening_at(Doubles distance, const Attenuation& a) {
   Doubles weakening = all(a.constant);
   if (a.linear != 0) weakening = weakening + all(a.linear) * distance;
@@ -36,7 +36,7 @@ HWY_INLINE Doubles weakening_at(Doubles distance, const Attenuation& a) {
   return weakening;
 }
 
-/// By repeated squaring, so that it does not depend on the system's library; 1 to the power 0.
+/// The power by repeated squaring, so that it does not depend on the system's library; 1 for exponent 0.
 HWY_INLINE Doubles whole_power(Doubles base, std::uint64_t exponent) {
   if (exponent == 0) return all(1);
   for (int i = std::countr_zero(exponent); i > 0; --i) base = base * base;
@@ -54,8 +54,8 @@ struct PointLanes {
   Vectors color;
 };
 
-/// `arriving(light)` is the part of a light's intensity that reaches the points; called only for lights in
-/// front of one.
+/// The color of lit points. `arriving(light)` is the intensity that reaches them; it is called only for
+/// lights in front of at least one.
 template <typename Arriving>
 HWY_INLINE Vectors lit(const PointLanes& points, const Lighting& lighting, const Material& material,
                        const Vectors& to_eye, const Arriving& arriving) {
@@ -84,7 +84,7 @@ HWY_INLINE Vectors lit(const PointLanes& points, const Lighting& lighting, const
 
 static_assert(kLanes <= kMaxLanesShaded);
 
-// Doubles miss a half by far less than this, so that halves go up.
+// Halves go up: errors of doubles are far below 2^-20.
 constexpr double kAlmostHalf = 0.5 + 0x1p-20;
 
 // L6; NaN counts as 0
@@ -104,12 +104,12 @@ HWY_INLINE void store_rounded(const Vectors& color, Color* colors) {
   std::memcpy(static_cast<void*>(colors), rgb.data(), sizeof rgb);
 }
 
-/// Those of the corners in x, y, z, for kLanes pixels from the `first` of the run; L3.
+/// The weights of the corners, in x, y, z, for kLanes pixels from the run's pixel `first` on; L3.
 HWY_INLINE Vectors corner_weights(const PixelRun& run, int first) {
   const auto& [a, b, c] = run.weights.scaled();
   const Doubles x = all(run.grid.left_x) + hn::Iota(kDoubles, run.column + first) * all(run.grid.dx);
   const Doubles y = all(run.grid.y_of(run.row)), zero = hn::Zero(kDoubles);
-  // The corners, from a pixel's center, times their w; and twice the areas that two of them make with it.
+  // The corners relative to a pixel's center, times their w; then twice the areas of center and two corners.
   const Vectors w = all(Vec3{a.z, b.z, c.z});
   const Vectors right = all(Vec3{a.x, b.x, c.x}) - w * x, up = all(Vec3{a.y, b.y, c.y}) - w * y;
   const Vectors areas = {right.y * up.z - up.y * right.z, right.z * up.x - up.z * right.x,

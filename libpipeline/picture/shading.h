@@ -14,11 +14,10 @@
 
 namespace pipeline {
 
-/// Where a surface is lit: nowhere, once per triangle, at its vertices, or at every pixel.
+/// The points where a surface is lit: none, one per triangle, its vertices, or every pixel.
 enum class ShadingModel { none, flat, gouraud, phong };
 
-/// The lights of a scene. Positions are in view space: the eye is the origin and looks down
-/// -z.
+/// The lights of a scene, in view space: the eye is the origin and looks down -z.
 struct Lighting {
   Vec3 ambient;
   Attenuation attenuation;
@@ -34,7 +33,7 @@ struct SurfacePoint {
   Vec3 color;
 };
 
-/// The color the eye sees on a surface of this material, with channels not yet rounded or clamped:
+/// The color that the eye sees on a surface of this material, with channels not yet rounded or clamped:
 ///   color (ka ambient + sum att L kd n.l) + 255 ks sum att L max(0, n.h)^shininess
 /// with both sums over the lights in front of the surface, n.l > 0, as in OpenGL. n is the normal turned
 /// toward the eye, l the direction of a light, h halfway between l and the eye's direction. A normal of 0
@@ -42,36 +41,36 @@ struct SurfacePoint {
 /// reflection for computer synthesized pictures", 1977.
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material = {});
 
-/// The part of a light, by its number, that reaches a surface: red, green, blue, each from 0 to 1.
+/// The part of light number `light` that reaches a surface: red, green, blue, each from 0 to 1.
 using LightPart = std::function<Vec3(std::size_t light)>;
 
-/// The same as seen from any direction, a vector of length 1, with a part of each light. `part` is called
+/// lit_color as seen from the direction `to_eye`, of length 1, with a part of each light. `part` is called
 /// only for lights in front of the surface.
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material,
                const Vec3& to_eye, const LightPart& part);
 
-/// Each channel clamped to 0 to 255.
+/// The color with each channel clamped to 0 to 255.
 Vec3 clamped_color(const Vec3& color);
 
-/// Each channel clamped to 0 to 255 and rounded, halves up: also what is less than 2^-20 below one.
+/// Each channel clamped to 0 to 255 and rounded; halves, or up to 2^-20 below, go up.
 Color rounded_color(const Vec3& color);
 
-/// Neighboring pixels of a row that show the same triangle, and what of it is interpolated between its
-/// corners, perspective-correctly: their colors or, with a material, what is lit at each pixel.
+/// Neighboring pixels of a row that show the same triangle. The corners' colors are interpolated,
+/// perspective-correctly; with a material, all attributes are, and each pixel is lit.
 struct PixelRun {
   const CornerWeights& weights;
   const std::array<SurfacePoint, 3>& corners;
   const Material* material;
   const PixelGrid& grid;
   int row;
-  int column;  // of the first
+  int column;  // of the first pixel
   int count;
 };
 
-/// No kernel shades more pixels at a time.
+/// The maximum number of pixels that a kernel shades at a time.
 constexpr std::size_t kMaxLanesShaded = 8;
 
-/// Writes the colors of a run's pixels, and up to kMaxLanesShaded - 1 more. Every kernel writes the same.
+/// Writes the colors of a run's pixels, and up to kMaxLanesShaded - 1 more. All kernels write the same.
 using RunShader = void (*)(const PixelRun& run, const Lighting& lighting, Color* colors);
 
 extern const KernelTable<RunShader> kRunShaders;

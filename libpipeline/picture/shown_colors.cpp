@@ -10,7 +10,7 @@ double greatest_of(const Vec3& channels) {
   return std::max({channels.x, channels.y, channels.z});
 }
 
-/// By at most one step in a channel.
+/// True if colors differ by at most one step in each channel.
 bool are_alike(Color a, Color b) {
   const auto alike = [](int p, int q) { return std::abs(p - q) <= 1; };
   return alike(a.red(), b.red()) && alike(a.green(), b.green()) && alike(a.blue(), b.blue()) &&

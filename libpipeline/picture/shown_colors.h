@@ -24,16 +24,16 @@ constexpr bool looks_colored(Color color) {
   return ((beyond | rgb) & (0x80 * kChannels)) != 0 && rgb < 0xffffff;
 }
 
-/// Why a surface looks black.
+/// The reason why a surface looks black.
 enum class Darkness {
-  no_color,          // its channels are 0
-  unit_color,        // at most 1
-  small_color,       // or hardly more
+  no_color,          // all channels of its color are 0
+  unit_color,        // no channel exceeds 1
+  small_color,       // its channels are small
   sends_rays,        // mirrors and glass, which show a black background
-  cut_rays,          // likewise, but their rays are cut
-  no_reflectance,    // of the material
+  cut_rays,          // mirrors and glass whose rays are cut
+  no_reflectance,    // the material has no diffuse or specular one
   highlights_alone,  // the material is not diffuse
-  no_intensity,      // of any light
+  no_intensity,      // every light has 0
   averted,           // lights are on the other side
   in_shadow,
   weak_light,
@@ -42,13 +42,13 @@ enum class Darkness {
 };
 constexpr std::size_t kDarknessCount = static_cast<std::size_t>(Darkness::grazing_light) + 1;
 
-/// What is known of a surface that looks black.
+/// A surface that looks black, and its light.
 struct DarkSurface {
-  /// The greatest channel of its color; none where only what it mirrors or lets through counts.
+  /// The greatest channel of its color; none if it only mirrors light or lets it through.
   std::optional<double> greatest_channel;
   Material material = {};
-  double light_in_front = 0;  // the greatest intensity of lights in front of it,
-  double light_arriving = 0;  // and of those less what the way to it takes
+  double light_in_front = 0;  // the greatest intensity of the lights in front of it,
+  double light_arriving = 0;  // and of their light that arrives at it
   bool has_cut_rays = false;
 };
 
@@ -56,13 +56,13 @@ struct DarkSurface {
 struct ShownColors {
   struct Dark {
     std::uint64_t count = 0;  // of pixels
-    double greatest = 0;      // channel of the colors, or intensity of the lights in front, if these are why
+    double greatest = 0;      // for small_color, of the channels; else, of the light that arrives
   };
 
-  /// Less of the pixels that are drawn is hardly anything.
+  /// Below this share of pixels drawn, hardly any shows.
   static constexpr double kVisibleShare = 0.03;
 
-  /// Adds the color of a surface at a pixel. True if it looks black: `add` is to get the reason.
+  /// Adds the color of a surface at a pixel. True if it looks black: the next `add` is for the reason.
   bool add(Color color, Color background, bool is_lit);
   void add(const DarkSurface& surface, std::uint64_t pixel_count, const Lighting& lighting, bool is_lit);
   void add(const ShownColors& others);
@@ -70,11 +70,11 @@ struct ShownColors {
   [[nodiscard]] std::uint64_t count() const { return visible + as_background + white + dark_count(); }
 
   std::uint64_t visible = 0, as_background = 0;
-  std::uint64_t white = 0;                     // though lit
+  std::uint64_t white = 0;                     // white though lit
   std::array<Dark, kDarknessCount> dark = {};  // by Darkness
   std::optional<Color> first;
-  bool is_varied = false;    // some color is not the first
-  bool has_surface = false;  // counted or not
+  bool is_varied = false;    // some color differs from the first
+  bool has_surface = false;  // even if not counted
 };
 
 }  // namespace pipeline

@@ -34,7 +34,7 @@ std::optional<std::span<const Color>> Downsampler::add(std::span<const Color> sa
   if (is_translucent) {
     for (std::size_t i = 0; i < samples.size(); ++i) means_[i / count_].add(samples[i]);
   } else {
-    // By columns of samples, which compilers do on vectors.
+    // Sums by columns of samples: compilers vectorize this.
     for (std::size_t i = 0; i < samples.size(); ++i) {
       sums_[i] += samples[i].rgb() & kRedAndBlue;
       sums_[greens + i] += samples[i].green();

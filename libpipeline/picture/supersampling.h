@@ -10,16 +10,16 @@
 
 namespace pipeline {
 
-/// The maximum number of samples along each side of a pixel: the exact coverage rule has room for these on
-/// the largest screen.
+/// The maximum number of samples along each side of a pixel; the exact coverage rule has room for them on the
+/// largest screen.
 constexpr int kMaxSamples = 16;
 
 /// The screen whose pixels are the samples of `screen`: `count` x `count` per pixel, in a regular grid.
 Viewport sample_screen(const Viewport& screen, int count);
 
 /// The mean of colors, each channel rounded to the nearest integer, halves up. Colors that are not opaque
-/// must be equal. Alpha is averaged likewise; the other channels are weighted by alpha, and where all are
-/// invisible, the color is kept.
+/// must be equal. Alpha is averaged likewise; the other channels are weighted by alpha. If all colors are
+/// invisible, the mean has their color.
 class ColorMean {
  public:
   void add(Color color) {
@@ -64,20 +64,20 @@ class ColorMean {
 /// Turns rows of samples into rows of pixels: each is the ColorMean of its samples.
 class Downsampler {
  public:
-  /// For rows of `columns` pixels with `count` x `count` samples each. Samples have the color of the
-  /// background, or are opaque.
+  /// For rows of `columns` pixels with `count` x `count` samples each. A sample has the background's color or
+  /// is opaque.
   Downsampler(int columns, int count, Color background = {});
 
-  /// Takes the next row of samples; returns a row of pixels, valid until the next call, if that completes
-  /// one.
+  /// Takes the next row of samples; if it completes a row of pixels, returns that row, valid until the next
+  /// call.
   std::optional<std::span<const Color>> add(std::span<const Color> samples);
 
  private:
   std::size_t count_;
   std::size_t rows_taken_ = 0;
-  // For each column of samples, red and blue, in the 16 bits that 16 x 16 samples need; then all of green.
+  // By column of samples, the sums of red and blue, 16 bits each, enough for 16 x 16 samples; then of green.
   std::vector<std::uint32_t> sums_;
-  std::vector<ColorMean> means_;  // in place of sums, unless all samples are opaque
+  std::vector<ColorMean> means_;  // used instead of sums unless all samples are opaque
   std::vector<Color> row_;
 };
 

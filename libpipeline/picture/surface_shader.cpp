@@ -9,7 +9,7 @@
 namespace pipeline {
 namespace {
 
-// Surfaces ready to be shaded: 150 KiB.
+// The count of surfaces ready to be shaded; they take 150 KiB.
 constexpr std::size_t kMaxCached = 512;
 
 SurfacePoint middle(const std::array<SurfacePoint, 3>& p) {
@@ -103,7 +103,7 @@ void SurfaceShader::light_corners(Surface& surface) const {
 
 std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> ids, int number) {
   Worker& worker = workers_[static_cast<std::size_t>(number)];
-  worker.row.resize(ids.size() + kMaxLanesShaded);  // the last run may write beyond it
+  worker.row.resize(ids.size() + kMaxLanesShaded);  // the last run may write beyond the row
   if (worker.cache.empty()) worker.cache.resize(std::min(std::bit_ceil(ids.size()), kMaxCached));
   const std::size_t first = first_surface(ids);
   std::fill_n(worker.row.begin(), first, setup_.background);
@@ -111,7 +111,7 @@ std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> 
   const bool is_looking =
       !worker.shown.is_varied ||
       (row % row_stride() == 0 && static_cast<double>(worker.shown.visible) < enough_visible());
-  // Neighbors mostly show the same triangle, which is looked up once.
+  // Neighbors mostly show the same triangle, so it is looked up once.
   for (std::size_t column = first, end; column < ids.size(); column = end) {
     end = column + 1;
     while (end < ids.size() && ids[end] == ids[column]) ++end;
@@ -143,7 +143,7 @@ void SurfaceShader::look_at_run(SurfaceId id, std::span<const Color> colors, Wor
 ShownColors SurfaceShader::shown() const {
   ShownColors all;
   for (const Worker& worker : workers_) all.add(worker.shown);
-  // Where enough shows, nobody asks why the others are black.
+  // If enough is visible, no reasons for black pixels are needed.
   if (static_cast<double>(all.visible) >= enough_visible()) return all;
   Worker alone = {std::vector<CachedSurface>(1), {}, {}, {}, {}};
   for (const Worker& worker : workers_)
@@ -165,7 +165,7 @@ DarkSurface SurfaceShader::dark_surface(const KeptTriangle& kept, const Surface&
 
 bool SurfaceShader::is_plane() const {
   constexpr double kFlat = 1e-4;  // more than the decimals of a text lose
-  Vec3 normal;                    // of length 1, once there is one
+  Vec3 normal;                    // of length 1 once it is set
   double offset = 0;
   for (std::size_t id = 0; id < triangles_.size(); ++id) {
     const auto has_seen = [id](const Worker& worker) { return id < worker.seen.size() && worker.seen[id]; };
@@ -183,8 +183,8 @@ bool SurfaceShader::is_plane() const {
   return true;
 }
 
-/// The greatest intensity of the lights in front of a surface, where it is lit once, or at a corner: those
-/// that would light it if they were white and no distance weakened them.
+/// The greatest intensity of the lights in front of a surface, at its one lit point or at a corner: of all
+/// that would light a white surface there, without attenuation.
 double SurfaceShader::light_in_front_of(const Surface& surface) const {
   std::array<SurfacePoint, 3> points = surface.corners;
   if (setup_.model == ShadingModel::flat) points.fill(middle(points));

@@ -18,23 +18,23 @@
 
 namespace pipeline {
 
-/// Gives pixels their colors once the triangle that each one shows is known: keeps the triangles of a scene
-/// with colors or lights, each under an id by which the visibility algorithm refers to it. So hidden surfaces
-/// are never lit or shaded. Attributes are interpolated between vertices perspective-correctly. Flat and
-/// gouraud shading light each triangle that is seen, a clipped one as it was before the cut; phong shading
-/// lights visible pixels. Gouraud shading clamps the vertices' colors before it interpolates them, as OpenGL
-/// does. Without vertex normals, all models use the triangle's.
+/// Colors pixels once the triangle that each shows is known: keeps the triangles of a scene with colors or
+/// lights, each under an id for the visibility algorithm. So hidden surfaces are never lit or shaded.
+/// Attributes are interpolated between vertices perspective-correctly. Flat and gouraud shading light each
+/// visible triangle, a clipped one as before the cut; phong shading lights visible pixels. Gouraud shading
+/// clamps the vertices' colors before it interpolates them, as OpenGL does. Without vertex normals, all
+/// models use the triangle's normal.
 class SurfaceShader {
  public:
   using SurfaceId = KeptIds::Id;
   /// The id of a pixel without a triangle.
   static constexpr SurfaceId kNoSurface = KeptIds::kNoTriangle;
 
-  /// How a scene is lit. Every model but `none` needs at least one material, and `view_from_clip`.
+  /// The shading and its data. Every model but `none` needs at least one material, and `view_from_clip`.
   struct Setup {
     ShadingModel model = ShadingModel::none;
     Lighting lighting;
-    std::vector<Material> materials;  // by their numbers
+    std::vector<Material> materials;  // indexed by their numbers
     std::optional<ViewFromClip> view_from_clip;
     Color background;
   };
@@ -42,43 +42,43 @@ class SurfaceShader {
   /// A triangle ready to be shaded.
   struct Surface {
     CornerWeights weights;
-    // In view space; the colors are lit already except for phong shading.
+    // In view space; the colors are already lit except for phong shading.
     std::array<SurfacePoint, 3> corners;
     std::uint32_t material = 0;
   };
 
   SurfaceShader(const Viewport& screen, Setup setup) : grid_(screen), setup_(std::move(setup)) {}
 
-  /// Keeps a triangle of a batch in NDC and returns its id; `own_color` is its color if it carries none.
+  /// Keeps a triangle of a batch in NDC and returns its id; `own_color` is its color if the batch has none.
   SurfaceId add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
-  /// The count of triangles kept; their ids are less.
+  /// The count of kept triangles, which is above all ids.
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
-  /// Drops the triangles that are not kept; the others have new ids from now on.
+  /// Drops all other triangles, and gives the kept ones their new ids.
   void keep(const KeptIds& kept);
-  /// Makes room for the workers of a pool; at first there is one.
+  /// Makes room for the workers of a pool; at first, there is one.
   void set_workers(int count) { workers_.resize(static_cast<std::size_t>(count)); }
-  /// The colors of a row of the image, by the ids seen in it. Valid until the worker's next call; workers may
-  /// call it at the same time.
+  /// The colors of a row of the image whose pixels show these ids; valid until the worker's next call.
+  /// Workers may call it at the same time.
   std::span<const Color> shade(int row, std::span<const SurfaceId> ids, int worker = 0);
 
-  // Without keeping triangles, on any number of threads at a time:
-  /// A triangle of a batch in NDC; `own_color` is its color if it carries none.
+  // The next three keep no triangles, and may be called on any number of threads at a time.
+  /// The surface of a triangle of a batch in NDC; `own_color` is its color if the batch has none.
   [[nodiscard]] Surface surface_of(const TriangleBatch& p_ndc, std::size_t index, Color own_color) const {
     const AttributeArrays& attributes = p_ndc.attributes;
     return made_surface(unclipped(p_ndc, index, own_color), !attributes.normals.empty(),
                         attributes.materials.empty() ? 0 : attributes.materials[index]);
   }
-  /// Its color at the center of a pixel.
+  /// The color of a surface at the center of a pixel.
   [[nodiscard]] Color color_at(const Surface& surface, int row, int column) const;
-  /// Why its surface may look black.
+  /// The data that explain why the triangle's surface looks black.
   [[nodiscard]] DarkSurface dark_surface(const TriangleBatch& p_ndc, std::size_t index, Color own_color,
                                          const Surface& surface) const {
     return dark_surface(unclipped(p_ndc, index, own_color), surface);
   }
 
-  /// The colors of the pixels shaded so far; or of some, once they show enough.
+  /// Statistics of the pixels shaded so far, or of some of them once these show enough.
   [[nodiscard]] ShownColors shown() const;
-  /// True if the corners of all triangles seen, while they showed one color, lie in one plane.
+  /// True if the triangles seen lie in one plane; only kept as long as they show one color.
   [[nodiscard]] bool is_plane() const;
   [[nodiscard]] bool is_lit() const { return setup_.model != ShadingModel::none; }
   [[nodiscard]] const Setup& setup() const { return setup_; }
@@ -87,18 +87,18 @@ class SurfaceShader {
  private:
   struct KeptTriangle {
     ClipTriangle corners;     // positions in NDC if they are divided by w, else in clip space
-    bool is_divided = false;  // all but pieces, whose corners may lie behind the eye
+    bool is_divided = false;  // false for pieces, whose corners may lie behind the eye
   };
   struct CachedSurface {
     SurfaceId id = kNoSurface;
     Surface surface;
   };
   struct Worker {
-    std::vector<CachedSurface> cache;  // each id has one entry; those of a row are mostly seen in the next
+    std::vector<CachedSurface> cache;  // an id has one possible entry; the next row mostly shows the same ids
     std::vector<Color> row;
-    ShownColors shown;                       // without the pixels that look black
-    std::vector<std::uint32_t> dark_pixels;  // the pixels of an id; empty if there are none
-    std::vector<bool> seen;                  // by id, while all have one color
+    ShownColors shown;                       // excludes pixels that look black
+    std::vector<std::uint32_t> dark_pixels;  // their count for each id; empty if there are none
+    std::vector<bool> seen;                  // by id, as long as all have one color
   };
 
   [[nodiscard]] KeptTriangle unclipped(const TriangleBatch& p_ndc, std::size_t index, Color own_color) const;
@@ -110,9 +110,9 @@ class SurfaceShader {
   }
   void light_corners(Surface& surface) const;
   void look_at_run(SurfaceId id, std::span<const Color> colors, Worker& worker) const;
-  /// Of a high picture, the statistics are of every fourth row.
+  /// In a high picture, statistics are made of every fourth row.
   [[nodiscard]] int row_stride() const { return grid_.rows > 256 ? 4 : 1; }
-  /// So many pixels that the others need no look.
+  /// With this many visible pixels, the others no longer matter.
   [[nodiscard]] double enough_visible() const {
     return ShownColors::kVisibleShare * grid_.columns * (grid_.rows / row_stride());
   }
@@ -124,7 +124,7 @@ class SurfaceShader {
   PixelGrid grid_;
   Setup setup_;
   ChunkedArray<KeptTriangle> triangles_;
-  ChunkedArray<std::uint32_t> materials_;  // of the triangles; empty if there is one for all
+  ChunkedArray<std::uint32_t> materials_;  // of the triangles; empty if all have the same
   bool has_normals_ = false;
   std::vector<Worker> workers_ = std::vector<Worker>(1);
 };
