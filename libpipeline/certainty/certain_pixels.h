@@ -14,15 +14,15 @@
 
 namespace pipeline {
 
-/// The pixels whose triangle, by rule `center`, is certain: one triangle surely covers the center, and no
-/// other may be as near there, wherever the vertices are within the bounds of a projected text. The
-/// background counts as a triangle that covers all centers at the rear limit.
+/// The pixels whose triangle, by the rule `center`, is certain: wherever the vertices lie within the bounds
+/// of a projected text, one triangle covers the center, and no other is as near there. The background counts
+/// as a triangle that covers all centers at the rear limit.
 class CertainPixels {
  public:
   static constexpr std::int64_t kBackground = -1;
-  static constexpr std::size_t kMaxLines = 100000;  // of the report
+  static constexpr std::size_t kMaxLines = 100000;  // in the report
 
-  /// `projected` is the header's, a Frustum or an Orthographic, and `bounds` has both of its parts.
+  /// `projected` comes from the header, a Frustum or an Orthographic; `bounds` has both of its parts.
   CertainPixels(const Viewport& screen, const Bounds& bounds, const Projection& projected);
 
   /// Takes the next triangles. Pieces stand for the triangle that they were cut from.
@@ -35,9 +35,9 @@ class CertainPixels {
  private:
   /// The depths of the triangles that may cover a pixel's center.
   struct Pixel {
-    double farthest;      // bounds the nearest depth of those that surely cover it
-    std::int64_t number;  // of the nearest of these
-    // The two smallest lower bounds of those that may cover it.
+    double farthest;      // bounds the nearest depth of triangles that surely cover it
+    std::int64_t number;  // of the nearest triangle that surely covers it
+    // The two smallest lower bounds on depths of triangles that may cover it.
     double nearest, second_nearest = std::numeric_limits<double>::infinity();
   };
 

@@ -7,19 +7,14 @@
 
 // The proof, in homogeneous pixels (column * w, row * w, w): a center is d = (column, row, 1), the edges are
 // planes n_i = p_j x p_k through the eye, their sum is `plane`, and n_0 . p_0 is `volume`, above 0 (M. Olano
-// and T. Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997).
-//
-// Possible. A true point that is seen at d is w' d. The point p of the same weights differs from it by what
-// its corners were moved: by `error` in view space, and by printing. So |n . (p - w' d)| <= w' margin(n) for
-// any plane n, as w' is at least least_w. Since n_i . p is from 0 to volume, n_i . d >= -margin(n_i).
-//
-// Sure. Move the triangle continuously to the true one. It stops covering d only when an edge meets d. There,
-// n_i . p = 0 for the edge as it was, and so |n_i . d| <= margin(n_i).
-//
-// Depths. From plane . p = volume follows 1 / w' = (plane . d + printed) / (volume - moved), where `moved` is
-// due to `error` alone, since what printing moved is a part of w'.
-//
-// Rounding. Nothing here takes more than 30 roundings of numbers that are at most the sum of the |terms|.
+// and T. Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997). Possible. A true point seen
+// at d is w' d. The point p of the same weights differs from it by the moves of the corners: `error` in view
+// space, and printing. So |n . (p - w' d)| <= w' margin(n) for any plane n, as w' is at least least_w. Since
+// n_i . p is from 0 to volume, n_i . d >= -margin(n_i). Sure. Move the triangle continuously to the true one.
+// The triangle stops covering d only when an edge meets d. There, n_i . p = 0 for the original edge, so |n_i
+// . d| <= margin(n_i). Depths. From plane . p = volume follows 1 / w' = (plane . d + printed) / (volume -
+// moved), where `moved` is due to `error` alone: printing moves points in proportion to w'. Rounding. No
+// value here takes more than 30 roundings, of numbers that are at most the sum of the |terms|.
 
 namespace pipeline {
 namespace {
@@ -27,12 +22,12 @@ namespace {
 using Linear = UncertainTriangle::Linear;
 
 constexpr double kInfinity = UncertainTriangle::kInfinity;
-constexpr double kLost = 0x1p-48;      // more than sums and products here lose, in parts of their |terms|
-constexpr double kUnderflow = 1e-280;  // more than products lose that are too small for a double
-constexpr double kMost = 1e60;         // of numbers whose products are finite
+constexpr double kLost = 0x1p-48;      // more than sums and products here lose, relative to their |terms|
+constexpr double kUnderflow = 1e-280;  // more than products too small for a double lose
+constexpr double kMost = 1e60;         // a limit for numbers whose products must be finite
 constexpr double kUp = ErrorBound::kRoundUp;
 
-/// The pixels of an axis with centers from `low` to `high`, out of `count`.
+/// The pixels of an axis, of `count`, with centers from `low` to `high`.
 RowRange pixels_between(double low, double high, int count) {
   return {count - static_cast<int>(count - std::clamp<double>(low, 0, count)),
           static_cast<int>(std::clamp<double>(high, -1, count - 1) + 1)};
@@ -45,12 +40,12 @@ Vec3 magnitudes(const Vec3& v) {
 }  // namespace
 
 struct UncertainView::Corners {
-  /// How far true points may be off a plane, without the rounding of printing.
+  /// A bound on the distance of true points from a plane, without the rounding of printing.
   [[nodiscard]] double moved(const Linear& plane) const {
     return dot(magnitudes(plane), by_axes) +
            by_w * (std::fabs(dot(plane, eye)) + kLost * dot(magnitudes(plane), magnitudes(eye)));
   }
-  /// How far printing and rounding moved them off it, per w of theirs, if that is at least `w`.
+  /// A bound on their distance due to printing and rounding, per w of a point, if that is at least `w`.
   [[nodiscard]] double printed_off(const Linear& plane, double w) const {
     return dot(magnitudes(plane), sum(printed_per_w, scaled(printed, 1 / w)));
   }
@@ -60,10 +55,10 @@ struct UncertainView::Corners {
 
   Triangle p;                       // in homogeneous pixels
   Vec3 eye = {0, 0, 1};             // the pixel straight in front of the eye
-  std::array<double, 3> distances;  // in front of it
+  std::array<double, 3> distances;  // of the corners in front of the eye
   double largest = 0;               // of all |numbers|
   double distance_error = 0;
-  Vec3 by_axes = {};  // how far `error` in x and y of view space moves p, and in w
+  Vec3 by_axes = {};  // the move of p by `error` in x and y of view space, and in w
   double by_w = 0;
   Vec3 printed = {}, printed_per_w = {};
   double nearest_w = 1, farthest_w = 1;  // of the true triangle
@@ -71,7 +66,7 @@ struct UncertainView::Corners {
 };
 
 struct UncertainView::Edges {
-  /// `extent` has the largest column and row, and 1.
+  /// `extent` is the largest column, the largest row, and 1.
   Edges(const Triangle& p, const Vec3& extent) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 &a = p[(i + 1) % 3], &b = p[(i + 2) % 3], c = magnitudes(a), d = magnitudes(b);
@@ -87,7 +82,7 @@ struct UncertainView::Edges {
   }
 
   std::array<Linear, 3> planes;
-  std::array<double, 3> lost;  // by rounding, of their values
+  std::array<double, 3> lost;  // by rounding, of the planes' values
   double volume, lost_volume;
 };
 
@@ -107,7 +102,7 @@ UncertainView::UncertainView(const Viewport& screen, const Bounds& bounds, const
   else
     set(std::get<Orthographic>(projected));
   front_ = depths_at(screen.front);
-  front_[1] = std::max(front_[1], is_perspective_ ? -1 / near_ : near_);  // what is nearer may be cut
+  front_[1] = std::max(front_[1], is_perspective_ ? -1 / near_ : near_);  // nearer points may be cut
   if (!is_perspective_) return;
   // Triangles that come nearer than near / 1024 are cut at the near plane.
   least_shown_w_ = std::max(near_ / 1024, front_[0] < 0 ? -1 / front_[0] : kInfinity) / kUp;
@@ -150,7 +145,7 @@ UncertainView::Corners UncertainView::corners(const TriangleBatch& p_ndc, std::s
   c.largest = std::max({c.largest, largest_on_screen, error});
   if (!is_perspective_) return c;
   c.by_w = error * kUp;
-  c.printed = sum(c.printed, scaled(c.printed_per_w, error));  // their own w is that much more
+  c.printed = sum(c.printed, scaled(c.printed_per_w, error));  // their own w is larger by as much
   const auto [least, greatest] = std::ranges::minmax(c.distances);
   c.nearest_w = least - error;
   c.farthest_w = greatest + error;
@@ -158,7 +153,7 @@ UncertainView::Corners UncertainView::corners(const TriangleBatch& p_ndc, std::s
   return c;
 }
 
-/// Brings corners from clip space to homogeneous pixels, and returns the largest terms of the latter.
+/// Brings corners from clip space to homogeneous pixels, and returns the largest terms of these.
 double UncertainView::place_on_screen(Corners& c, double printed_in_clip, double printed_in_ndc) const {
   double largest = 0;
   for (const Axis& axis : axes_) {
@@ -179,10 +174,10 @@ double UncertainView::place_on_screen(Corners& c, double printed_in_clip, double
   return largest;
 }
 
-/// Narrows the columns and rows, and counts the corners' from the first ones.
+/// Narrows the columns and rows, and makes the corners' positions count from the first ones.
 void UncertainView::set_box(UncertainTriangle& triangle, Corners& corners) const {
   for (const Axis& axis : axes_) {
-    if (!(corners.nearest_w > 1 / kMost)) break;  // for then some have no place on the screen
+    if (!(corners.nearest_w > 1 / kMost)) break;  // otherwise some have no place on the screen
     double low = kInfinity, high = -kInfinity;
     for (const Vec3& p : corners.p) {
       const double position = p.*axis.of / p.z;
@@ -231,7 +226,7 @@ void UncertainView::set_depths(UncertainTriangle& triangle, const Corners& c, co
 UncertainTriangle UncertainView::triangle(const TriangleBatch& p_ndc, std::size_t index) const {
   UncertainTriangle triangle = {.columns = {0, axes_[0].count}, .rows = {0, axes_[1].count}};
   Corners c = corners(p_ndc, index);
-  if (!(c.largest < kMost)) {  // it may be anywhere
+  if (!(c.largest < kMost)) {  // the triangle may be anywhere
     triangle.add({{}, -kInfinity, kInfinity});
     return triangle;
   }

@@ -13,25 +13,25 @@
 
 namespace pipeline {
 
-/// The pixels whose centers a true triangle may cover, those whose centers it surely covers, and bounds on
-/// its depth there. Depths are distances in front of the eye for an orthographic projection, and
-/// -1 / distance in perspective: both are linear on the screen.
+/// The pixels whose centers a true triangle may cover or surely covers, and bounds on its depth there. Depths
+/// are distances in front of the eye for an orthographic projection, and -1 / distance in perspective: both
+/// are linear on the screen.
 struct UncertainTriangle {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  /// x * column + y * row + z, a function of the column and row counted from the first ones.
+  /// x * column + y * row + z, with column and row counted from the first ones.
   using Linear = Vec3;
 
-  /// A center may be covered only where all sides are at least their first limit, and surely is where all
-  /// are above the second one.
+  /// A center can be covered only if all sides are at least `possible_from` there, and surely is if all are
+  /// above `sure_from`.
   struct Side {
     Linear inside;
     double possible_from, sure_from;
   };
 
-  /// A row of it. Columns are counted from the first one.
+  /// A row of the triangle. Columns are counted from the first one.
   struct Row {
-    RowRange possible, sure;             // columns; the sure ones are possible, too
-    double nearest_at_0, farthest_at_0;  // bounds on depths at column 0, if not beyond those of all
+    RowRange possible, sure;             // columns; sure ones are also possible
+    double nearest_at_0, farthest_at_0;  // bounds at column 0, unless those on all depths are closer
   };
 
   void add(const Side& side) { sides[side_count++] = side; }
@@ -43,7 +43,7 @@ struct UncertainTriangle {
     return std::min(on.farthest_at_0 + farthest_plane.x * column, greatest);
   }
 
-  RowRange columns, rows;  // with all the centers that may be covered
+  RowRange columns, rows;  // with all centers that may be covered
   std::array<Side, 5> sides = {};
   std::size_t side_count = 0;
   Linear nearest_plane = {0, 0, -kInfinity}, farthest_plane = {0, 0, kInfinity};
@@ -53,14 +53,14 @@ struct UncertainTriangle {
 /// The window onto a projected text with bounds.
 class UncertainView {
  public:
-  /// `projected` is the header's, a Frustum or an Orthographic, and `bounds` has both of its parts.
+  /// `projected` comes from the header, a Frustum or an Orthographic; `bounds` has both of its parts.
   UncertainView(const Viewport& screen, const Bounds& bounds, const Projection& projected);
 
-  /// The visible part of the triangle of this index, for a piece of the triangle that it was cut from.
+  /// The visible part of the triangle with this index; for a piece, of the uncut triangle.
   [[nodiscard]] UncertainTriangle triangle(const TriangleBatch& p_ndc, std::size_t index) const;
-  /// Bounds on the depth of an NDC depth.
+  /// Bounds on the depth (see UncertainTriangle) of a depth in NDC.
   [[nodiscard]] std::array<double, 2> depths_at(double z) const;
-  /// The depths before which nothing is seen, and beyond which nothing is cut.
+  /// The depth before which nothing is seen, and the depth beyond which nothing is cut.
   [[nodiscard]] const std::array<double, 2>& front() const { return front_; }
 
  private:
