@@ -20,7 +20,7 @@ float above(double value) {
   return -below(-value);
 }
 
-/// Finite: boxes of triangles beyond the range of floats are infinite.
+/// The middle, made finite: boxes of triangles beyond the range of floats are infinite.
 double center(const FloatBox& box, std::size_t axis) {
   const double low = std::max(box.low[axis], -kLargest), high = std::min(box.high[axis], kLargest);
   return (low + high) / 2;
@@ -48,13 +48,13 @@ double FloatBox::half_area() const {
   return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
 }
 
-/// Cuts runs of the list in two, until they are leaves.
+/// Cuts runs of the list in two until they are leaves.
 struct Bvh::Builder {
   struct Range {
     std::size_t begin, end;
     [[nodiscard]] std::size_t size() const { return end - begin; }
   };
-  /// A run that a task cuts further, and the place of its root.
+  /// A run for a task to cut further, and the place of its root.
   struct Part {
     Range range;
     FloatBox box;
@@ -62,7 +62,7 @@ struct Bvh::Builder {
     std::uint32_t* root;
   };
   static constexpr std::size_t kBins = 16;
-  // Cuts by area may be as lopsided as the boxes are; below this depth runs are cut in the middle.
+  // Cuts by area may be as lopsided as the boxes; below this depth, runs are cut in the middle.
   static constexpr std::size_t kMaxDepthByArea = 64;
 
   Builder(std::vector<Primitive>& list, Node* room) : primitives(list), nodes(room) {}
@@ -76,11 +76,11 @@ struct Bvh::Builder {
     return kLeaf | static_cast<std::uint32_t>((range.size() - 1) << kFirstBits | range.begin);
   }
 
-  /// Where a run is cut: before the bin `first_right` of an axis.
+  /// The place to cut a run: before the bin `first_right` of an axis.
   struct Cut {
     std::size_t axis = 0;
     std::size_t first_right = 0;
-    double cost = std::numeric_limits<double>::infinity();  // area times count, of both sides
+    double cost = std::numeric_limits<double>::infinity();  // area times count, summed over both sides
   };
   struct Bins {
     double begin = 0, per_unit = 0;
@@ -89,7 +89,7 @@ struct Bvh::Builder {
     }
   };
 
-  /// The bins of the centers of a run, by axis; no axis where all are in one place.
+  /// The bins for the centers of a run, by axis; none for an axis on which all centers are equal.
   [[nodiscard]] std::array<std::optional<Bins>, 3> bins_of(const Range& range) const {
     std::array<double, 3> low, high;
     low.fill(HUGE_VAL);
@@ -144,7 +144,7 @@ struct Bvh::Builder {
     return best;
   }
 
-  /// The end of the left part of a run; its begin if it had better be a leaf.
+  /// The end of the left part of a run; the run's begin if it should be a leaf.
   std::size_t cut(const Range& range, const FloatBox& box, std::size_t depth) {
     constexpr double kCostOfNode = 1;  // in tests of a primitive
     const std::size_t middle = range.begin + range.size() / 2;
@@ -203,7 +203,7 @@ Bvh::Bvh(std::vector<Primitive> primitives, ThreadPool& pool) {
   nodes_ = std::make_unique_for_overwrite<Node[]>(primitives.size());
   Builder builder(primitives, nodes_.get());
   const Builder::Range all = {0, primitives.size()};
-  // Small enough that threads share the work, large enough that a part is worth a task.
+  // Parts are so small that threads share the work, but large enough to be worth a task.
   constexpr std::size_t kMinPart = 1024;
   const auto threads = static_cast<std::size_t>(pool.size());
   const std::size_t part_size = threads == 1 ? 0 : std::max(kMinPart, all.size() / (8 * threads));

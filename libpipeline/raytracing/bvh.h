@@ -14,7 +14,7 @@
 
 namespace pipeline {
 
-/// Two doubles, on which most processors calculate at once.
+/// Two doubles, which most processors handle at once.
 typedef double TwoDoubles __attribute__((vector_size(16)));
 
 /// A box around a primitive, rounded outward.
@@ -24,7 +24,7 @@ struct FloatBox {
   FloatBox(const BoundingBox& box, double padding);
 
   void add(const FloatBox& box);
-  /// Half of the surface's area; 0 if the box is empty.
+  /// Half of the surface area; 0 if the box is empty.
   [[nodiscard]] double half_area() const;
 
   std::array<float, 3> low = {kInfinity, kInfinity, kInfinity};
@@ -34,10 +34,9 @@ struct FloatBox {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 };
 
-/// A bounding volume hierarchy: finds the primitives near a ray, the nearer boxes first. Built top-down by
-/// the surface area heuristic, in bins (I. Wald, "On fast construction of SAH-based bounding volume
-/// hierarchies", 2007). It takes at most 60 bytes a primitive, mostly about 40, and while it is built
-/// another 28.
+/// A bounding volume hierarchy: finds the primitives near a ray, nearer boxes first. Built top-down by the
+/// surface area heuristic, in bins (I. Wald, "On fast construction of SAH-based bounding volume hierarchies",
+/// 2007). It takes at most 60 bytes per primitive, mostly about 40, and another 28 while it is built.
 class Bvh {
  public:
   /// An entry of the list that the hierarchy is built from.
@@ -48,7 +47,7 @@ class Bvh {
   static constexpr std::size_t kMaxPrimitives = std::size_t{1} << 28;
 
   Bvh() = default;
-  /// At most kMaxPrimitives. The pool may have no other work. The number of threads changes nothing but the
+  /// Takes at most kMaxPrimitives. The pool must have no other work. The number of threads changes only the
   /// order of the nodes in memory.
   Bvh(std::vector<Primitive> primitives, ThreadPool& pool);
 
@@ -56,36 +55,36 @@ class Bvh {
   [[nodiscard]] std::size_t node_count() const { return node_count_; }
 
   /// Calls `test(id)` for all primitives whose boxes the ray enters at a distance of at most `limit`, which
-  /// tests may lower. Calculates as if the sides of boxes were off by 2^-51 of their coordinates, if the ray
-  /// begins at the origin or is parallel to an axis: their padding has to cover that.
+  /// tests may lower. For rays from the origin or parallel to an axis, rounding acts as if the sides of boxes
+  /// were off by 2^-51 of their coordinates: the padding must cover this.
   template <typename Test>
   void for_each_candidate(const Ray& ray, double first, const double& limit, Test&& test) const;
 
  private:
-  // A leaf is a run of primitives in `ids_`, as a number: a mark, the count less 1, and where they begin.
+  // A leaf is a run of primitives in `ids_`, as one number: a mark, their count - 1, and their beginning.
   static constexpr std::uint32_t kLeaf = std::uint32_t{1} << 31;
   static constexpr int kFirstBits = 28;
   static constexpr std::uint32_t kFirstMask = (std::uint32_t{1} << kFirstBits) - 1;
   static constexpr std::size_t kMaxLeaf = 8;
-  static constexpr std::size_t kMaxDepth = 120;  // 64 for the cuts by area, and those in the middle
+  static constexpr std::size_t kMaxDepth = 120;  // 64 for cuts by area, and then cuts in the middle
 
   struct Node {
-    // By axis, then low and high, then child: both children are tested at a time.
+    // Indexed by axis, then low and high, then child: both children are tested at once.
     std::array<std::array<std::array<float, 2>, 2>, 3> sides;
     std::array<std::uint32_t, 2> children;  // nodes or leaves
   };
   struct Builder;
-  /// A ray, as it passes boxes.
+  /// A ray prepared for the test of boxes.
   struct BoxRay {
     explicit BoxRay(const Ray& ray);
-    /// Which children of a node it enters, 1 and 2 or both, between two distances; `entry` gets where.
+    /// The children of a node that it enters between two distances, bits 1 and 2; sets `entry`.
     unsigned entered(const Node& node, double first, double limit, TwoDoubles& entry) const;
 
     std::array<TwoDoubles, 3> origin, inverse;  // by axis, twice
-    std::array<std::size_t, 3> entrance;        // the side where it enters a box
+    std::array<std::size_t, 3> entrance;        // the side through which it enters a box
   };
 
-  std::unique_ptr<Node[]> nodes_;  // room for the most there may be, of which the rest is never touched
+  std::unique_ptr<Node[]> nodes_;  // room for the maximum count; unused nodes are never touched
   std::size_t node_count_ = 0;
   std::vector<std::uint32_t> ids_;
   std::uint32_t root_ = 0;
@@ -110,7 +109,7 @@ inline unsigned Bvh::BoxRay::entered(const Node& node, double first, double limi
       return (TwoDoubles{of_one, of_other} - origin[axis]) * inverse[axis];
     };
     const TwoDoubles in = distance(entrance[axis]), out = distance(1 - entrance[axis]);
-    // 0 times infinity, on a side of a box, leaves them as they are.
+    // NaN, from 0 times infinity on a side of a box, leaves both unchanged.
     entry = in > entry ? in : entry;
     leave = out < leave ? out : leave;
   }

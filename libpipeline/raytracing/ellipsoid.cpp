@@ -45,7 +45,7 @@ std::optional<Ellipsoid> Ellipsoid::from(const SpherePoints& points) {
   const std::array<Row, 3> cofactors = {cross(axes[1], axes[2]), cross(axes[2], axes[0]),
                                         cross(axes[0], axes[1])};
   const DoubleDouble determinant = dot(axes[0], cofactors[0]);
-  // Each of the axes is shorter than 2 sqrt(3), so the products add up to less than 2^9.
+  // Each axis is shorter than 2 sqrt(3), so the products add up to less than 2^9.
   constexpr double kRoundedAway = 0x1p-90;
   if (!(std::fabs(determinant.hi) > kRoundedAway)) return std::nullopt;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -63,9 +63,9 @@ std::optional<Ellipsoid> Ellipsoid::from(const SpherePoints& points) {
   return ellipsoid;
 }
 
-/// Decides in doubles what is clear: the discriminant is negative by more than its error. In absolute values,
-/// the origin is at most `far` and the direction at most `wide`; each of their coordinates is within 2^-49 of
-/// these, and the discriminant within 2^-44 of their products.
+/// True if, in doubles, the discriminant is negative by more than its error. In sums of absolute values, the
+/// origin is at most `far` and the direction at most `wide`: coordinates are off by at most 2^-49 of these,
+/// and the discriminant by 2^-44 of their products.
 bool Ellipsoid::is_surely_missed(const Ray& ray) const {
   const Vec3 from_center = difference(ray.origin, center_);
   double ff = 0, fg = 0, gg = 0, far = 0, wide = 0;
@@ -96,8 +96,8 @@ Ellipsoid::UnitRay Ellipsoid::in_unit_space(const Ray& ray) const {
   return unit;
 }
 
-/// The root of larger size is (-f.g -+ root) / g.g without cancellation, the other is
-/// (f.f - 1) / (g.g times that one).
+/// The larger root in size is (-f.g -+ root) / g.g without cancellation; the other is (f.f - 1) / (g.g times
+/// the larger).
 Ellipsoid::Meetings Ellipsoid::meetings(const Ray& ray) const {
   if (is_surely_missed(ray)) return {};
   const auto [f, g] = in_unit_space(ray);
@@ -122,7 +122,7 @@ Ellipsoid::Meetings Ellipsoid::meetings_from_surface(const Ray& ray) const {
   if (!(inward.hi > 0)) return {};
   const DoubleDouble gg = dot(g, g);
   const DoubleDouble discriminant = inward * inward - gg * (dot(f, f) + DoubleDouble{-1});
-  // The start may be so far off that the line misses the surface: it touches it.
+  // The start may be so far off that the line misses the surface: then it counts as touching.
   const DoubleDouble root = discriminant.hi > 0 ? sqrt(discriminant) : DoubleDouble{};
   const double t = ((inward + root) / gg).hi;
   if (!std::isfinite(t)) return {};

@@ -14,37 +14,35 @@ namespace pipeline {
 
 /// The image of a sphere under an affine map: the points c + u a + v b + w d with u^2 + v^2 + w^2 = 1, where
 /// c is the center and a, b, d are the half axes, which need not be perpendicular.
-///
 /// A ray is mapped to the space of u, v and w, where the surface is the unit sphere, and the quadratic
-/// equation for the distance is solved there in pairs of doubles: in doubles, f.f - 1 cancels for a ray that
-/// begins near the surface of a large sphere, and the distance is off by 3e-9 of itself at a radius of 1e8.
-/// Here it is within 2^-50 of itself for rays that begin within 2^40 radii of the center, unless they graze
-/// the surface.
+/// equation for the distance is solved in pairs of doubles: in doubles, f.f - 1 cancels for a ray that begins
+/// near the surface of a large sphere, and the distance has a relative error of 3e-9 at a radius of 1e8.
+/// Here, the error is within 2^-50 for rays that begin within 2^40 radii of the center, unless they graze the
+/// surface.
 class Ellipsoid {
  public:
-  /// None if the points lie in a plane, as far as pairs of doubles can tell.
+  /// The ellipsoid of these points; none if they lie in a plane, as far as pairs of doubles can tell.
   static std::optional<Ellipsoid> from(const SpherePoints& points);
 
   struct Meeting {
     double t;       // of the ray
     bool is_front;  // the ray comes from outside
   };
-  /// Up to two, by increasing t, which may be negative.
+  /// Up to two meetings, by increasing t, which may be negative.
   struct Meetings {
     std::array<Meeting, 2> list;
     std::size_t count = 0;
     [[nodiscard]] const Meeting* begin() const { return list.data(); }
     [[nodiscard]] const Meeting* end() const { return list.data() + count; }
   };
-  /// Where the line of a ray meets the surface.
+  /// The meetings of the line of a ray with the surface.
   [[nodiscard]] Meetings meetings(const Ray& ray) const;
-  /// The same for a ray that begins on the surface, up to rounding: where it leaves through the other side,
-  /// if it goes inward.
+  /// For a ray that begins on the surface, up to rounding: its exit on the other side, if it goes inward.
   [[nodiscard]] Meetings meetings_from_surface(const Ray& ray) const;
 
-  /// The normal at a point of the surface: outward, of length 1.
+  /// The outward normal, of length 1, at a point of the surface.
   [[nodiscard]] Vec3 normal(const Vec3& point) const;
-  /// The box around it, up to rounding: 2^-50 of the largest coordinate of a point that it is made from.
+  /// The box around it, up to rounding by 2^-50 of the largest coordinate of its SpherePoints.
   [[nodiscard]] BoundingBox box() const;
 
  private:

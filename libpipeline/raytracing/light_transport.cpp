@@ -22,8 +22,8 @@ double length(const Vec3& v) {
   return dot(v, unit_vector(v));
 }
 
-/// The normal that turns rays, of length 1 and on the side of the ray: the one for light, unless the ray, or
-/// what becomes of it, would be on the wrong side of the face.
+/// The unit normal, on the ray's side, for mirroring and refracting: that for light, unless a ray, old or
+/// new, would be on the wrong side of the face.
 struct Turning {
   Vec3 normal;
   double cosine;
@@ -131,7 +131,7 @@ Vec3 LightTransport::follow(RayKind kind, const SurfaceRay& ray, const Path& pat
   return scaled(hit ? color_of(*hit, ray.ray, next) : setup_.background, share);
 }
 
-/// As SurfaceShader lights it, but with the light that arrives here. For secondary rays, the eye lies
+/// The color as SurfaceShader lights it, but with the light that arrives. For secondary rays, the eye lies
 /// straight back from the start, by the path's length.
 Vec3 LightTransport::local_color(const SurfaceHit& hit, const Ray& ray, const Path& path) {
   dark_.material = material(hit);
@@ -189,12 +189,12 @@ Vec3 LightTransport::part_through(const SurfaceHit& hit, const Vec3& light) {
   double last = 0;
   for (const SurfaceCaster::Crossing& crossing : crossings_) {
     const Material& m = setup_.materials[crossing.material];
-    // Both sides use the angle as if it were outside: no total reflection keeps light in a solid.
+    // Both sides use the angle as on the outside, so no total reflection keeps light in a solid.
     part = scaled(part, (1 - m.alpha) * (1 - fresnel_reflectance(1 / m.index, crossing.cosine)));
     if (!crossing.is_front) part = product(part, passed(m, (crossing.t - last) * whole_length));
     last = crossing.t;
   }
-  // The light is inside the body entered last.
+  // The light is inside the last body entered.
   if (!crossings_.empty() && crossings_.back().is_front)
     part = product(part, passed(setup_.materials[crossings_.back().material], (1 - last) * whole_length));
   return part;

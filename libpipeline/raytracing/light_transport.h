@@ -13,54 +13,54 @@
 
 namespace pipeline {
 
-/// How light travels in a scene, and when its rays end.
+/// The rules by which light travels in a scene, and by which rays end.
 struct LightTransportSetup {
   ShadingModel model = ShadingModel::none;  // `none`: a surface shows its own color
   Lighting lighting;
   std::vector<Material> materials;  // by their numbers
   Vec3 background;                  // channels from 0 to 255
   bool has_shadows = true;
-  bool recurses = true;  // otherwise nothing is mirrored, and nothing is clear
-  /// A ray that would bring less than this part of a pixel's color is not cast: half a level, unless chosen.
+  bool recurses = true;  // otherwise nothing mirrors or is clear
+  /// A ray that would bring less than this part of a pixel's color is not cast; by default, half a level.
   double min_contribution = 1.0 / 510;
-  int max_depth = 32;  // how often a ray may be mirrored or refracted
+  int max_depth = 32;  // the maximum count of reflections and refractions on a path
 };
 
 /// The color that rays bring, by T. Whitted's recursion ("An improved illumination model for shaded display",
 /// 1980):
 ///   alpha ((1 - R) local + R mirror) + (1 - alpha) (F mirror + (1 - F) refracted)
-/// with the material's reflectance R, and F by Fresnel's equations. `local` is what lit_color makes of the
-/// lights, of each the part that comes through: nothing through an opaque surface, and of what is clear (1 -
-/// alpha) (1 - F) at each surface and exp(-absorption times length) inside, on a straight line. A way that
-/// ends on the back of a surface was inside its material, and is weakened like that. Colors are linear sums
-/// of channels from 0 to 255, not clamped.
+/// with the material's reflectance R, and F by Fresnel's equations. `local` is lit_color with the part of
+/// each light that arrives on a straight line: nothing passes an opaque surface; a clear one passes (1 -
+/// alpha) (1 - F), and its inside exp(-absorption times length). A ray that hits the back of a surface came
+/// through its material, which weakens it in the same way. Colors are linear sums of channels from 0 to 255,
+/// not clamped.
 class LightTransport {
  public:
-  /// A hierarchy for any ray, of triangles that keep what `project` drops. For one thread.
+  /// Needs a hierarchy for any ray, and triangles that include those that `project` drops. For one thread.
   LightTransport(const TracedTriangles& triangles, const Bvh& bvh, const LightTransportSetup& setup)
       : setup_(setup), caster_(triangles, bvh) {}
 
-  /// How many rays there were, besides the primary ones.
+  /// The count of rays other than primary ones.
   struct RayCounts {
     std::uint64_t shadow = 0;
     std::uint64_t mirrored = 0;
     std::uint64_t refracted = 0;
-    std::uint64_t cut = 0;          // not cast, as they would have brought too little or were too deep
-    double largest_cut_weight = 0;  // the sum of the weights of those cut, at the primary ray with most
+    std::uint64_t cut = 0;          // not cast: they would have brought too little or were too deep
+    double largest_cut_weight = 0;  // the largest sum of cut weights for one primary ray
 
     void add(const RayCounts& other);
   };
 
-  /// The radiance of a primary ray from the surface that it is known to see.
+  /// The radiance of a primary ray from the surface that it sees, already found.
   [[nodiscard]] Vec3 radiance(SurfaceId seen, const Ray& ray);
   [[nodiscard]] const RayCounts& counts() const { return counts_; }
-  /// Why the radiance returned last may be black.
+  /// The data that explain why the last radiance may be black.
   [[nodiscard]] const DarkSurface& dark_surface() const { return dark_; }
-  /// From now on, adds every ray to a log.
+  /// Logs every later ray.
   void log_to(RayLog& log) { log_ = &log; }
 
  private:
-  /// A ray that is traced, and how much it can contribute to the pixel.
+  /// The history of a ray: its weight is the largest part of the pixel's color that it can bring.
   struct Path {
     double weight;
     int depth;

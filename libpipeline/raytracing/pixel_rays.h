@@ -16,11 +16,10 @@ struct Ray {
   Vec3 direction;
 };
 
-/// The primary rays of a screen: from the eye, or parallel, through the centers of its pixels.
-///
-/// In x and y of view space, at the distance w, a ray is within 2^-49 reach w of the exact one (2^-49 reach,
-/// if parallel): 2^-50 of the window for the center (tests/proofs/pixel_center.g), and a rounding each for
-/// the two entries of the matrix, their sum and their quotient.
+/// The primary rays of a screen: through the centers of its pixels, from the eye or parallel.
+/// In x and y of view space, at the distance w, a ray is within 2^-49 reach w of the exact one (2^-49 reach
+/// if parallel): 2^-50 of the window for the center (tests/proofs/pixel_center.g), and one rounding each for
+/// the two entries of the matrix, the sum and the quotient.
 class PixelRays {
  public:
   PixelRays(const ProjectionTransform& projection, const Viewport& screen)
@@ -39,8 +38,8 @@ class PixelRays {
     return {{(x - x_offset_) / x_scale_, (y - y_offset_) / y_scale_, 0}, {0, 0, -1}};
   }
   [[nodiscard]] bool is_perspective() const { return is_perspective_; }
-  /// A bound on |x| + |y| of the window and of the frustum's axis, in view space: at the distance 1, or
-  /// anywhere if parallel.
+  /// A bound on |x| + |y| of the window and the frustum's axis, in view space: at distance 1, or anywhere if
+  /// parallel.
   [[nodiscard]] double reach() const { return reach_; }
 
  private:
@@ -68,7 +67,7 @@ class NdcDepth {
   [[nodiscard]] double at(double distance) const {
     return is_perspective_ ? a_ - b_ / distance : a_ + b_ * distance;
   }
-  /// A distance that no point of a depth up to `depth` exceeds, if the depths of `zbuf` are within
+  /// An upper bound on the distances of points with depths up to `depth`, if the depths of `zbuf` are within
   /// `largest_depth` * 2^-49 of the exact ones.
   [[nodiscard]] double distance_up_to(double depth, double largest_depth) const {
     const double bound = depth + kCalculated * (std::fabs(a_) + std::fabs(depth) + largest_depth);
@@ -77,7 +76,7 @@ class NdcDepth {
       return distance + kCalculated * (std::fabs(distance) + std::fabs(a_ / b_));
     }
     const double part = a_ - bound;
-    // Not greater: also if it is not a number.
+    // The else branch also takes NaN.
     return part > 0 ? b_ / part * (1 + kCalculated) : std::numeric_limits<double>::infinity();
   }
 

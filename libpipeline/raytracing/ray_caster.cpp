@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-/// The nearest point a primary ray may have: parallel rays begin behind the eye plane, too.
+/// The distance where primary rays begin: parallel rays also begin behind the eye plane.
 double first_distance(const PixelRays& rays) {
   return rays.is_perspective() ? 0 : -std::numeric_limits<double>::infinity();
 }
@@ -17,7 +17,7 @@ double first_distance(const PixelRays& rays) {
 
 std::vector<Bvh::Primitive> boxes_of(const TracedTriangles& triangles, const PixelRays& rays,
                                      RaysOfBoxes of) {
-  // A bound on the largest of the rounded numbers, for one triangle.
+  // A bound on the rounded numbers for one triangle.
   const auto most = [&](const BoundingBox& box) {
     const auto largest = [&](double Vec3::*axis) {
       return std::max(std::fabs(box.low.*axis), std::fabs(box.high.*axis));
@@ -58,7 +58,7 @@ std::optional<RayCaster::Seen> RayCaster::cast(int row, int column) {
   return nearest;
 }
 
-/// The triangle, if it may be seen here: its fragment is within the limits.
+/// The triangle, if its fragment here exists and is within the depth limits.
 std::optional<RayCaster::Seen> RayCaster::triangle_at(TracedTriangles::Id id, int row, int column) {
   if (!may_cover(id, row, column)) return std::nullopt;
   const std::optional<Span>& span = span_of(id, row);
@@ -75,7 +75,7 @@ bool RayCaster::may_cover(TracedTriangles::Id id, int row, int column) const {
          y <= high.y + pixels_.dy;
 }
 
-/// The sphere's nearer side, if that is within the limits, else the farther one: the front limit may cut a
+/// The sphere's nearer side if it is within the depth limits, else the farther one: the front limit may cut a
 /// sphere open.
 std::optional<RayCaster::Seen> RayCaster::sphere_at(TracedTriangles::Id id, const Ray& ray) const {
   const double first = first_distance(rays_);

@@ -13,34 +13,32 @@
 
 namespace pipeline {
 
-/// Which rays the boxes of a hierarchy are wide enough for.
+/// The rays for which the boxes of a hierarchy are wide enough.
 enum class RaysOfBoxes {
   primary,
-  any  // that starts between the least and the greatest coordinates of the scene
+  any  // any that starts within the bounding box of the scene
 };
 
-/// The boxes of all triangles and spheres, for rays through a window: wide enough for the errors of their
-/// rays, for the digits of `project --digits exact`, and for the entries and exits of boxes. For any ray,
-/// too: the entry into a box is rounded by 2^-51 of the distance from the ray's start to the side, and a
-/// corner as SurfaceTriangleTest sees it by 2^-51 of its distance from there; the scene's largest coordinates
-/// bound both.
+/// The boxes of all triangles and spheres, for rays through a window: wide enough for the rays' errors, for
+/// the digits of `project --digits exact`, and for the rounding of entries and exits. For any ray, they also
+/// cover an error of 2^-51 of the distance from the ray's start, for the side of a box as for a corner in
+/// SurfaceTriangleTest; the scene's largest coordinates bound both distances.
 std::vector<Bvh::Primitive> boxes_of(const TracedTriangles& triangles, const PixelRays& rays,
                                      RaysOfBoxes of = RaysOfBoxes::primary);
 
-/// Casts primary rays: finds the triangle that a pixel shows by the search of a ray tracer. Which of the
-/// triangles near a ray cover the pixel, and how deep, it asks the coverage rule `center`, as `zbuf` does for
-/// the text that `project --digits exact` writes. So it finds the same triangle and the same depth. For one
-/// thread.
+/// Casts primary rays: searches for a pixel's visible triangle like a ray tracer. For triangles near the ray,
+/// the coverage rule `center` decides whether they cover the pixel, and at which depth, as in `zbuf` for the
+/// text of `project --digits exact`. So both find the same triangle and depth. For one thread.
 class RayCaster {
  public:
-  /// The visible triangle and its depth; or a sphere, with the depth of the ray's hit and an id that says
-  /// which side is seen (TracedTriangles::kFromWithin).
+  /// The visible triangle and its depth; or a sphere, with the depth of the ray's hit and the visible side in
+  /// its id (TracedTriangles::kFromWithin).
   struct Seen {
     TracedTriangles::Id id;
     double depth;
   };
 
-  /// Caches each triangle's spans on `row_count` rows.
+  /// Caches the spans of each cached triangle on `row_count` rows.
   RayCaster(const TracedTriangles& triangles, const Bvh& bvh, const ProjectionTransform& projection,
             const Viewport& screen, int row_count = 1)
       : triangles_(triangles),
@@ -54,8 +52,8 @@ class RayCaster {
         cache_(kCached),
         spans_(kCached * static_cast<std::size_t>(row_count)) {}
 
-  /// The triangle seen at a pixel, between the depth limits; none if there is none. Of equal depths the
-  /// earlier triangle is seen.
+  /// The triangle seen at a pixel between the depth limits, if any. Among equal depths, the earlier triangle
+  /// is seen.
   [[nodiscard]] std::optional<Seen> cast(int row, int column);
 
  private:
@@ -87,7 +85,7 @@ class RayCaster {
   ExactGrid grid_;
   int row_count_;
   std::vector<CachedRows> cache_;
-  std::vector<CachedSpan> spans_;  // of each triangle in the cache, row_count_
+  std::vector<CachedSpan> spans_;  // row_count_ for each cached triangle
 };
 
 }  // namespace pipeline

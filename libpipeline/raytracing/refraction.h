@@ -26,7 +26,7 @@ inline Vec3 mirrored(const Vec3& direction, const Vec3& normal) {
   return sum(direction, scaled(normal, -2 * dot(direction, normal)));
 }
 
-/// By Snell's law; `ratio` as above. None if all light is reflected.
+/// The refracted direction by Snell's law; `ratio` as above. None if all light is reflected.
 inline std::optional<Vec3> refracted(const Vec3& direction, const Vec3& normal, double ratio) {
   if (ratio == 1) return direction;
   const double cosine = -dot(direction, normal);
@@ -35,10 +35,10 @@ inline std::optional<Vec3> refracted(const Vec3& direction, const Vec3& normal, 
   return unit_vector(sum(scaled(direction, ratio), scaled(normal, ratio * cosine - std::sqrt(square))));
 }
 
-/// e to the power -x, for x of at least 0, on every system with the same last bit: 1 for 0, and 0 where a
-/// double has no more room. Of x, whole multiples of log 2 become a power of two; the rest r, |r| <= 0.35,
-/// goes into the first 14 terms of the series, whose sum is off by less than 2^-52 (the next term is below
-/// 0.35^14 / 14! = 2^-57). All in all, the relative error is below 2^-50.
+/// e to the power -x for x >= 0, the same on every system to the last bit: 1 for 0, and 0 if it is too small
+/// for a double. The whole multiples of log 2 in x become a power of two; the rest r, |r| <= 0.35, goes into
+/// the first 14 terms of the series, whose sum is off by less than 2^-52 (the next term is below 0.35^14 /
+/// 14! = 2^-57). All in all, the relative error is below 2^-50.
 inline double decay(double x) {
   if (!(x < 745.2)) return 0;
   // log 2 in two parts; the first has so few digits that its products with whole numbers are exact.

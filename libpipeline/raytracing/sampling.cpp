@@ -6,7 +6,7 @@ namespace pipeline {
 namespace {
 
 /// The numbers of the generator SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number
-/// generators", 2014), by their place in its sequence.
+/// generators", 2014), by their index in its sequence.
 std::uint64_t random_bits(std::uint64_t place) {
   constexpr std::uint64_t kSeed = 1;
   std::uint64_t bits = kSeed + (place + 1) * 0x9e3779b97f4a7c15u;
@@ -30,7 +30,7 @@ SamplePlaces::SamplePlaces(const Viewport& pixels, int count, bool are_random)
 SamplePlaces::Place SamplePlaces::of(int row, int column, int sample) const {
   const Place cell = {row * count_ + sample / count_, column * count_ + sample % count_};
   if (places_ == 1) return cell;
-  // A number of its own for each sample: rows and columns have 16 bits, samples 8.
+  // A distinct number for each sample: rows and columns have 16 bits, samples 8.
   const std::uint64_t bits =
       random_bits(static_cast<std::uint64_t>(row) << 24 | static_cast<std::uint64_t>(column) << 8 |
                   static_cast<std::uint64_t>(sample));

@@ -10,12 +10,12 @@
 
 namespace pipeline {
 
-/// Where the rays of a pixel go.
+/// The points of a pixel through which its rays go.
 enum class Sampling {
-  basic,     // one through its center
-  regular,   // one through the center of each of N x N cells
-  jittered,  // one through a random point of each cell
-  adaptive   // as jittered, first through five cells; through the others only where those differ
+  basic,     // its center
+  regular,   // the center of each of N x N cells
+  jittered,  // a random point of each cell
+  adaptive   // as jittered, first in five cells; in the others only if those differ
 };
 
 /// True if samples are at random points of their cells.
@@ -23,15 +23,12 @@ constexpr bool is_random(Sampling sampling) {
   return sampling == Sampling::jittered || sampling == Sampling::adaptive;
 }
 
-/// The places of samples: pixels of a finer screen, so that the centers of its pixels are decided exactly by
-/// the picture's own rule. A regular sample is the only pixel of its cell, a jittered one any
-/// of 256 x 256.
-///
-/// Which one depends on the pixel and the sample's number alone, by a hash of them: no order and no thread
-/// shows.
+/// The places of samples: pixels of a finer screen, so that the picture's own rule decides their centers
+/// exactly. A regular sample is the only fine pixel of its cell, a jittered one any of 256 x 256.
+/// Which one is a hash of the pixel and the sample's number alone: order and threads have no influence.
 class SamplePlaces {
  public:
-  /// The places in a cell, along each side, that a jittered sample may have.
+  /// The count of places for a jittered sample along each side of a cell.
   static constexpr int kJitterPlaces = 256;
 
   struct Place {
@@ -39,7 +36,7 @@ class SamplePlaces {
     friend bool operator==(const Place&, const Place&) = default;
   };
 
-  /// For `count` x `count` samples in each pixel of `pixels`, numbered row by row, at random points of their
+  /// For `count` x `count` samples, numbered row by row, in each pixel of `pixels`, at random points of their
   /// cells or in the middle.
   SamplePlaces(const Viewport& pixels, int count, bool are_random);
 
@@ -50,17 +47,17 @@ class SamplePlaces {
  private:
   Viewport screen_;
   int count_;
-  int places_;  // in a cell, along each side
+  int places_;  // along each side of a cell
 };
 
-/// The numbers of a pixel's samples in the order in which adaptive sampling takes them: the corner cells and
-/// the one in the middle come first.
+/// The numbers of a pixel's samples in the order of adaptive sampling: the corner cells and the middle cell
+/// come first.
 class SampleOrder {
  public:
   explicit SampleOrder(int count);
 
   [[nodiscard]] const std::vector<int>& samples() const { return samples_; }
-  /// How many come first.
+  /// The count of samples that come first.
   [[nodiscard]] std::size_t first_count() const { return first_count_; }
 
  private:
@@ -68,7 +65,7 @@ class SampleOrder {
   std::size_t first_count_;
 };
 
-/// How far colors differ.
+/// The spread of colors.
 class ColorRange {
  public:
   void add(Color color) {
@@ -78,7 +75,7 @@ class ColorRange {
       greatest_[i] = std::max(greatest_[i], channels[i]);
     }
   }
-  /// The largest difference between two of them in a channel, or in alpha; at least one color.
+  /// The largest difference between two colors in a channel or in alpha; needs at least one color.
   [[nodiscard]] int range() const {
     int range = 0;
     for (std::size_t i = 0; i < least_.size(); ++i) range = std::max(range, greatest_[i] - least_[i]);

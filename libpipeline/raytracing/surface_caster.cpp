@@ -19,8 +19,8 @@ std::size_t longest_axis(const Vec3& v) {
   return x >= y ? 0 : 1;
 }
 
-/// A bound on the error, in each coordinate, of the point of a sphere at t of a ray: the errors of t, of
-/// its product and of the sum.
+/// A bound on the error, in each coordinate, of a ray's point at t on a sphere: the errors of t, of the
+/// product and of the sum.
 double error_of_point(const Ray& ray, double t) {
   return 0x1p-50 * (largest_in(ray.origin) + std::fabs(t) * largest_in(ray.direction));
 }
@@ -72,8 +72,8 @@ SurfaceTriangleTest::Meeting SurfaceTriangleTest::known(const Triangle& p_view) 
   return meeting(edges(p_view));
 }
 
-/// By the distance of the start from the plane, times the normal's length: calculating it costs less than
-/// 2^-48 of the product of the three lengths.
+/// True if the start's distance from the plane may be within the error. The distance times the normal's
+/// length has a rounding error below 2^-48 of the product of the three lengths.
 bool SurfaceTriangleTest::may_start_on(const Triangle& p_view) const {
   if (ray_.start == kNoSurface) return false;
   const Vec3 a = difference(p_view[1], p_view[0]), b = difference(p_view[2], p_view[0]);
@@ -89,7 +89,7 @@ double error_of_mean(const Triangle& p_view) {
   return 0x1p-49 * largest;
 }
 
-/// A ray that starts on the sphere never meets it there, however near the other meeting is.
+/// A ray that starts on the sphere never meets it at its start, however near the other meeting is.
 Ellipsoid::Meetings SurfaceCaster::sphere_meetings(SurfaceId id, const SurfaceRay& ray) const {
   const Ellipsoid& surface = triangles_.sphere(id).surface;
   const Ellipsoid::Meetings all =
@@ -171,7 +171,7 @@ SurfaceHit SurfaceCaster::triangle_hit(SurfaceId id, const Ray& ray,
           .weights = meeting.weights};
 }
 
-/// The neighbors at an edge meet a ray at the same point, up to errors in t.
+/// Neighbors meet a ray at the same point of their common edge, up to errors in t.
 void SurfaceCaster::settle(std::vector<Crossing>& crossings) {
   constexpr double kSame = 0x1p-40;
   std::ranges::sort(crossings, {}, [](const Crossing& c) { return std::pair(c.t, c.id); });

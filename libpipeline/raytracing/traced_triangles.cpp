@@ -11,9 +11,9 @@
 namespace pipeline {
 namespace {
 
-/// True if the text of `value` is a decimal in exact arithmetic; `low_part` is what the double lacks of it.
+/// True if the text of `value` is a decimal in exact arithmetic; `low_part` is decimal - double.
 bool is_decimal(double value, double& low_part) {
-  // In this range the shortest form has no exponent, and is n / 10^7 where one is the double
+  // In this range, the shortest form has no exponent, and is n / 10^7 if such a quotient is the double
   // (print_shortest).
   constexpr double kScale = 1e7;
   const double size = std::fabs(value);
@@ -85,7 +85,7 @@ void TracedTriangles::add_entry(const TriangleBatch& p_view, std::size_t index, 
 
 void TracedTriangles::add_image(const TriangleBatch& p_ndc, std::size_t index) {
   const std::size_t id = p_ndc_.size();
-  // Arrays that earlier triangles did not need may be shorter.
+  // An array may be shorter if earlier triangles did not need it.
   const Triangle& triangle = p_ndc.triangles[index];
   for (const Vec3& p : triangle) largest_depth_ = std::max(largest_depth_, std::fabs(p.z));
   const auto set = [&](auto& array, const auto& value) {

@@ -13,7 +13,7 @@
 namespace pipeline {
 
 /// Rounds calculated triangles as if they had been written in the shortest form (--digits exact) and read
-/// back: zeros lose their sign, and x and y whose text is a decimal in exact arithmetic are marked.
+/// back: zeros lose their sign, and every x or y whose text is a decimal in exact arithmetic is marked.
 void pass_through_text(TriangleBatch& batch);
 
 /// Projects triangles of a text as `project --digits exact` does, and rounds them as `zbuf` reads them.
@@ -51,20 +51,20 @@ struct TracedSphere {
 };
 
 /// All triangles of a text, in view space and as `zbuf` reads them from `project --digits exact`, in that
-/// order. A cut triangle has one entry per piece; a dropped one has none, unless dropped ones are kept for
-/// rays from elsewhere than the eye: then its image has no area. An entry's index is its id. A plain triangle
-/// takes 154 bytes (82 as an image alone), colors and normals another 144 each. The spheres of the text
-/// follow: their ids begin after the last triangle's.
+/// order. A cut triangle has one entry per piece; a dropped one has none, unless dropped triangles are kept,
+/// for rays that do not come from the eye: then its image has no area. An entry's index is its id. A plain
+/// triangle takes 154 bytes (82 as an image alone), colors and normals another 144 each. The spheres of the
+/// text follow: their ids begin after the last triangle's.
 class TracedTriangles {
  public:
   using Id = std::uint32_t;
 
-  /// From now on, adds triangles that `project` drops, too.
+  /// Makes `add` include triangles that `project` drops.
   void keep_dropped() { keeps_dropped_ = true; }
   /// Adds the triangles of a batch, which ExactProjection has projected, and its spheres. An InputError in
   /// `file` at a sphere whose points lie in a plane.
   void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc, const std::string& file);
-  /// Drops triangles in view space, which only building boxes and secondary rays need.
+  /// Drops the triangles in view space, which only boxes being built and secondary rays need.
   void keep_images_alone() {
     p_view_ = {};
     attributes_ = {};
@@ -74,7 +74,7 @@ class TracedTriangles {
   [[nodiscard]] const Triangle& p_view(Id id) const { return p_view_[id]; }
   /// The number in the scene of a triangle, or of a sphere.
   [[nodiscard]] std::uint64_t number(Id id) const { return is_sphere(id) ? sphere(id).number : numbers_[id]; }
-  /// The images of the triangles: their indices are the ids. They have no numbers and no places.
+  /// The images of the triangles, indexed by id, without numbers and locations.
   [[nodiscard]] const TriangleBatch& p_ndc() const { return p_ndc_; }
   /// True if this is the entry that represents the uncut triangle.
   [[nodiscard]] bool is_first(Id id) const { return are_first_[id]; }
@@ -82,7 +82,7 @@ class TracedTriangles {
     if (is_sphere(id)) return sphere(id).material;
     return attributes_.materials.empty() ? 0 : attributes_.materials[id];
   }
-  /// In the id of a sphere that a primary ray sees: the ray sees it from within.
+  /// A bit in the id of a sphere that a primary ray sees: set if it is seen from within.
   static constexpr Id kFromWithin = Id{1} << 31;
   [[nodiscard]] const std::vector<TracedSphere>& spheres() const { return spheres_; }
   [[nodiscard]] bool is_sphere(Id id) const { return id >= size(); }
