@@ -69,12 +69,12 @@ void add_options(CommandLine& options, Options& chosen) {
                    }));
   options.add_number(
       "--crease", "DEGREES", chosen.crease_degrees, [](double value) { return value >= 0 && value <= 175; },
-      "0 to 175", "Where the file has no normals: an edge stays sharp if its sides meet at more than this");
+      "0 to 175", "Where the file has no normals: an edge stays sharp if its sides turn by more than this");
   options.add_flag("--nodes", chosen.as_nodes,
                    "Write the transforms of the model's nodes as push, translate, rotate, scale and pop");
 }
 
-/// A number of an option that takes several.
+/// One of the numbers of an option that takes several.
 double number_from(const std::string& option, const std::string& word, double least, double most) {
   const ParsedNumber number = parse_number(word);
   if (number.error != NumberError::none || !(number.value >= least && number.value <= most))
@@ -96,8 +96,8 @@ std::string extent_of(const Model& model) {
   return std::string(text.data()) + " (--at looks elsewhere, --zoom closer)";
 }
 
-/// The options' view of a model. Most programs that write STL print or build things, and stand them on x and
-/// y.
+/// The options' view of a model. Most programs that write STL are for objects to be printed or built, which
+/// stand on x and y.
 ViewChoice view_of(const Options& chosen, const Model& model) {
   ViewChoice view = chosen.view;
   view.up = chosen.up.value_or(model.format == "STL" ? kZ : kY);
@@ -115,7 +115,7 @@ ViewChoice view_of(const Options& chosen, const Model& model) {
   return view;
 }
 
-/// Notes on pictures that show next to nothing.
+/// Notes a picture that will show next to nothing.
 void note_what_hides(const Model& model, const SceneSetting& setting, bool is_files_camera,
                      const Options& chosen, const Tool& tool) {
   constexpr double kLittle = 0.01;
@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     tool.expect_separate({kStandardOutput});
     const std::string& path = tool.input_path();
-    // Never destroyed: to free all would keep the next stage waiting for the end of the scene.
+    // Never destroyed: freeing it would keep the next stage waiting for the end of the scene.
     static ModelFiles& files = *new ModelFiles(path, chosen.most_megabytes, chosen.written);
     static Model& model = *new Model(read_model(path, files, chosen.crease_degrees));
     tool.timing().lap(&Timing::read_seconds);
