@@ -29,7 +29,7 @@ constexpr int kFound = O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
 #endif
 constexpr int kNotThere = -1, kRefused = -2;
 
-/// Finds a file below the current folder on a path without links and `..`, for systems without openat2.
+/// Finds a file below the current folder by a path without links and `..`, for systems without openat2.
 int find_without_links(const std::filesystem::path& path) {
   errno = EXDEV;
   if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end()) return -1;
@@ -41,8 +41,8 @@ int find_without_links(const std::filesystem::path& path) {
   return found;
 }
 
-/// Opens a regular file below the current folder. Anything else is only found, not opened: a FIFO or a device
-/// may wait, or do something.
+/// Opens a regular file below the current folder. Anything else is found but not opened: to open a FIFO or a
+/// device may block or have an effect.
 int open_below(const std::string& path) {
 #if __has_include(<linux/openat2.h>)
   open_how how = {};
@@ -106,7 +106,7 @@ std::string_view ModelFiles::read_standard_input() {
   return standard_input_;
 }
 
-/// The bytes of a file, which is closed, and stays mapped until the process ends.
+/// The bytes of a file; closes it, and keeps it mapped until the process ends.
 std::string_view ModelFiles::map(int descriptor, const std::string& name) {
   struct stat status = {};
   if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) throw IoError("read", name, EINVAL);

@@ -12,7 +12,7 @@
 namespace pipeline {
 
 /// The files that a model may consist of: the model itself, and regular files in or below its folder. No step
-/// of a path leads out of that, neither `..` nor a link. Nothing is written.
+/// of a path, neither `..` nor a link, may lead out of the folder. Nothing is written.
 class ModelFiles {
  public:
   /// Reads a model and changes to the folder of `path`, as given; or reads standard input if `path` is "-",
@@ -21,10 +21,10 @@ class ModelFiles {
   ModelFiles(const std::string& path, std::size_t megabytes, const std::vector<std::string>& written);
 
   [[nodiscard]] std::string_view model() const { return model_; }
-  /// The bytes of another file; nothing if it is not opened. Of a path that leads nowhere, its last part is
+  /// The bytes of another file; nothing if it is not opened. If the path leads nowhere, its last part is
   /// tried in the model's folder. A UsageError if it is an output.
   std::optional<std::string_view> read(const std::string& file);
-  /// Names the first file that was not opened because it is not the model's; empty if there is none.
+  /// Names the first file that may not belong to the model, and so was not opened; empty if there is none.
   [[nodiscard]] std::string refusal() const;
 
  private:

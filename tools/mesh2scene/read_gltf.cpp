@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
-// They would take time to compile.
+// Unused parts, which would take time to compile.
 #define JSON_NO_IO
 #define JSON_USE_IMPLICIT_CONVERSIONS 0
 #include <nlohmann/json.hpp>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
-/// A value of a document. One that is missing, null or of another type reads as 0, "" or without items.
+/// A value of a document; if missing, null or of another type, it reads as 0, "" or no items.
 struct Json {
   const nlohmann::json* value;
 
@@ -54,7 +54,7 @@ struct Json {
 };
 const nlohmann::json Json::kNothing, Json::kNoText = "", Json::kNoItems = nlohmann::json::array();
 
-/// Parses a whole text; a NUL ends it, as chunks of GLB are padded.
+/// Parses a whole text, up to a NUL, since chunks of GLB are padded.
 nlohmann::json parse_json(const std::string& name, std::string_view text) {
   std::size_t place = 0;
   std::string reason;
@@ -72,7 +72,7 @@ nlohmann::json parse_json(const std::string& name, std::string_view text) {
   ModelText(name, text).fail(text.substr(place, 20), "JSON (" + reason + ")");
 }
 
-/// The JSON and the numbers of a GLB file; of a text, JSON alone.
+/// The JSON and the numbers of a GLB file; for a text file, only the JSON.
 std::array<std::string_view, 2> parts_of(std::string_view bytes) {
   if (!bytes.starts_with("glTF")) return {bytes.substr(bytes.starts_with("\xef\xbb\xbf") ? 3 : 0)};
   std::array<std::string_view, 2> parts;
@@ -87,7 +87,7 @@ std::array<std::string_view, 2> parts_of(std::string_view bytes) {
   return parts;
 }
 
-/// True if an extension is read, or changes no triangle.
+/// True if an extension is read, or does not change triangles.
 bool is_supported(std::string_view extension) {
   constexpr std::array kSupported = {"KHR_mesh_quantization", "KHR_lights_punctual", "KHR_node_visibility",
                                      "KHR_animation_pointer", "KHR_xmp_json_ld"};
@@ -178,7 +178,7 @@ class GltfReader {
     return buffers_[json.value] = bytes;
   }
 
-  /// The first `width` components of `n` values, of which each has `components`.
+  /// The first `width` of the components of each of `n` values.
   std::vector<double> values_at(Json place, double type, std::size_t components, std::size_t n,
                                 std::size_t width, bool is_normalized = false) {
     const bool is_known = type >= 5120 && type <= 5126 && type != 5124 && type == std::floor(type);
@@ -200,7 +200,7 @@ class GltfReader {
     return values;
   }
 
-  /// All numbers of an accessor whose type has `width` of them, or more.
+  /// The values of an accessor whose type has at least `width` numbers, which are cut to `width`.
   std::vector<double> numbers(Json index, std::size_t width) {
     const Json json = item("accessors", index), sparse = json["sparse"];
     constexpr std::array<std::string_view, 4> kKinds = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -238,7 +238,7 @@ class GltfReader {
     const Json gloss = json["extensions"]["KHR_materials_pbrSpecularGlossiness"]["diffuseFactor"];
     const Json base = gloss.is_there() ? gloss : rough["baseColorFactor"];
     const Vec3 color = vec(base, 1);
-    // A material that only shines by itself shows the color of its light.
+    // A material that only emits light has the color of that light.
     linear_colors_.push_back(color == Vec3{} ? vec(json["emissiveFactor"], 0) : color);
     ModelMaterial& material = model_.materials.emplace_back();
     material.color = screen_color(linear_colors_.back());
@@ -320,7 +320,7 @@ class GltfReader {
     if (type == "spot") model_.unheld.insert("cones of spotlights");
     const bool is_far = type == "directional", is_light = is_far || type == "spot" || type == "point";
     const ModelLight light = {is_far ? m.direction({0, 0, -1}) : m.point({}), intensity, is_far};
-    // No scene takes one beyond floats, or one that takes light away.
+    // No scene accepts a light beyond floats, or with a negative intensity.
     if (is_light && are_floats(light.position) && are_floats(intensity) &&
         std::min({intensity.x, intensity.y, intensity.z}) >= 0)
       model_.lights.push_back(light);
@@ -357,7 +357,7 @@ class GltfReader {
         indices.push_back(base + static_cast<std::uint32_t>(i));
       }
     ModelMesh mesh = {.name = name, .surface = surface};
-    // assimp gives a material of this name to meshes without one.
+    // assimp gives a material of this name to meshes without a material.
     if (material.is_there() &&
         (is_linear_ || item("materials", material)["name"].text() != "DefaultMaterial"))
       mesh.material = static_cast<std::size_t>(material.number());
@@ -377,7 +377,7 @@ class GltfReader {
     return true;
   }
 
-  /// The first point of a primitive in the model's, and their number.
+  /// The index in the model of a primitive's first point, and the count of its points.
   std::pair<std::uint32_t, std::uint32_t> points_of(Json attributes, const Json material) {
     const Json colors = attributes["COLOR_0"];
     const auto key = std::tuple(attributes["POSITION"].number(), colors.number(-1),

@@ -10,10 +10,10 @@
 namespace pipeline {
 namespace {
 
-/// The cure for formats that assimp reads.
+/// The cure for a format that assimp reads.
 constexpr std::string_view kAssimp = "assimp export";
 
-/// A format that is not read, by its first bytes in lower case, and the cure.
+/// A format that is not read: its first bytes in lower case, its name, and the cure.
 struct OtherFormat {
   std::string_view begin, name, cure;
 };
@@ -36,7 +36,7 @@ constexpr std::array<OtherFormat, 16> kOtherFormats = {{
     {"<", "XML, such as COLLADA, X3D or AMF", kAssimp},
 }};
 
-/// The first word of the first line that has one is a word of OBJ.
+/// True if the first word of the text is one of OBJ's.
 bool is_obj(const std::string& name, std::string_view bytes) {
   constexpr std::array<std::string_view, 13> kWords = {"v",      "vn", "vt",     "vp", "f", "o",     "g",
                                                        "usemtl", "s",  "mtllib", "l",  "p", "cstype"};
@@ -63,7 +63,7 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
       text += " " + file + " " + file.substr(0, file.rfind('.')) + ".glb converts it (Debian: assimp-utils)";
     model.fail("an OBJ, STL, PLY or glTF file", text);
   };
-  const bool is_binary_stl = is_whole_binary_stl(bytes);  // whatever its header says
+  const bool is_binary_stl = is_whole_binary_stl(bytes);  // even if its header begins with "solid"
   for (const auto& [known, what, cure] : kOtherFormats)
     if (!is_binary_stl && (in_lower_case(bytes.substr(0, known.size())) == known ||
                            in_lower_case(begin.substr(0, known.size())) == known))

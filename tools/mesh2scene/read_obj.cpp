@@ -16,12 +16,12 @@ namespace {
 
 using Materials = std::map<std::string, std::size_t, std::less<>>;
 
-/// The brightest channel of a color; 0 if it is black or no color.
+/// The brightest channel of a color; 0 for black or kNoColor.
 float brightest(const Floats& color) {
   return std::max({0.0F, color[0], color[1], color[2]});
 }
 
-/// The materials of a library, added to the model's.
+/// Reads a library, and adds its materials to the model's.
 class MtlReader {
  public:
   MtlReader(const std::string& name, std::string_view bytes, Model& model, Materials& numbers)
@@ -56,7 +56,7 @@ class MtlReader {
   }
 
  private:
-  /// The color of a line with three numbers, or one for all channels.
+  /// The color of a line with three numbers, or with one for all channels.
   Floats color() {
     std::string_view word = text_.word();
     if (word == "spectral" || word == "xyz") {
@@ -72,13 +72,13 @@ class MtlReader {
   void finish() {
     if (!current_.empty()) {
       ModelMaterial material;
-      // What a file leaves out reads as 0: an ambient color of 0 is taken for the diffuse one, and a specular
-      // color of 0 without a shininess for none given.
+      // Missing values read as 0: for an ambient color of 0, the diffuse color is taken; a specular color of
+      // 0 without a shininess counts as not given.
       const float ambient = brightest(ambient_), diffuse = brightest(diffuse_);
       if (ambient > 0 && diffuse > 0) material.ambient = fraction(fraction(ambient) / fraction(diffuse));
       if (brightest(specular_) > 0 || shininess_ > 0) material.specular = fraction(brightest(specular_));
       if (shininess_ > 0) material.shininess = std::clamp(shininess_, 1.0, 10000.0);
-      // A black material with a texture, or one that shines by itself, was not seen as black by its author.
+      // A black material with a texture or emitted light did not look black to its author.
       const bool is_black = !(brightest(diffuse_) > 0);
       for (float& channel : emitted_) channel = std::min(channel, 1.0F);  // light has no upper limit
       colors_.push_back(is_black && brightest(emitted_) > 0 ? emitted_
@@ -95,8 +95,8 @@ class MtlReader {
   ModelText text_;
   Model& model_;
   Materials& numbers_;
-  std::vector<Floats> colors_;  // of its materials
-  // The material that is being read:
+  std::vector<Floats> colors_;  // of the library's materials
+  // The material being read:
   std::string current_;
   Floats diffuse_ = kNoColor, ambient_ = kNoColor, specular_ = kNoColor, emitted_ = kNoColor;
   double shininess_ = 0;
@@ -143,7 +143,7 @@ class ObjReader {
   }
 
  private:
-  /// x y z, perhaps a weight, and perhaps a color.
+  /// Reads x y z, perhaps a weight, and perhaps a color.
   void read_vertex() {
     std::array<std::string_view, 7> words;
     std::size_t count = 0;
@@ -171,7 +171,7 @@ class ObjReader {
     normals_.push_back(floats(n));
   }
 
-  /// The index that begins a word, counted from 0, of so many things; `word` keeps what follows the number.
+  /// The index, from 0, that begins a word, below `count`; `word` keeps the characters after the number.
   [[gnu::always_inline]] std::uint32_t index(std::string_view& word, std::size_t count,
                                              const char* of_what) const {
     const std::string_view whole = word;
@@ -196,7 +196,7 @@ class ObjReader {
       polygon_.push_back(model_.points[corners_.back()]);
       if (!rest.empty() && rest.front() != '/')
         text_.fail(word, "a face's corner, such as 1, 1/2, 1//3 or 1/2/3");
-      // A texture's index is not needed, and a normal's only if there are normals.
+      // A texture's index is not needed; a normal's is, if there are normals.
       std::string_view normal = rest.substr(std::min(rest.find('/', 1), rest.size() - 1) + 1);
       if (normal.empty()) continue;
       has_early_faces_ |= normals_.empty();
@@ -210,7 +210,7 @@ class ObjReader {
     triangles_.clear();
     append_triangles(polygon_, triangles_);
     const bool has_normals = corner_normals_.size() == corners_.size();
-    // Corners before the first normal, or after the last, get none: 0, which makes them flat.
+    // Corners without normals, before or after others with them, get 0, which makes them flat.
     if (has_normals) mesh.normals.resize(mesh.corners.size());
     for (const std::uint32_t i : triangles_) {
       mesh.corners.push_back(corners_[i]);
@@ -221,7 +221,7 @@ class ObjReader {
 
   void use(std::string_view name) {
     if (material_name_ == name) return;
-    // A material after the first faces of a group makes a mesh of its own, which has its name.
+    // A material after the first faces of a group begins a new mesh with the material's name.
     if (is_open_) name_ = name;
     is_open_ = false;
     material_name_ = name;
@@ -235,7 +235,7 @@ class ObjReader {
     return model_.meshes.back();
   }
 
-  /// Gives the meshes their materials, whose library may stand anywhere.
+  /// Gives the meshes their materials, whose library may be named anywhere.
   void find_materials() {
     std::string missing;
     for (std::size_t i = 0; i < material_names_.size(); ++i)
@@ -247,7 +247,7 @@ class ObjReader {
       model_.note("its material " + pipeline::quoted(missing) + " is nowhere: it gets the usual color");
   }
 
-  /// A line names one library, perhaps in quotes and with blanks in its name, or several.
+  /// Reads the libraries that a line names: one, perhaps in quotes and with blanks, or several.
   void read_libraries() {
     std::string names(text_.rest_of_line());
     if (names.starts_with('"') && names.ends_with('"') && names.size() > 1)
@@ -275,14 +275,14 @@ class ObjReader {
   ModelFiles& files_;
   Model& model_;
   std::vector<Floats> normals_;
-  std::map<std::string, bool> libraries_;  // by name: true for those that are there
-  std::set<std::string> missing_;          // those of the notes
+  std::map<std::string, bool> libraries_;  // by name: true if it exists
+  std::set<std::string> missing_;          // named in notes
   bool lacks_library_ = false, is_open_ = false, has_early_faces_ = false;
   std::uint64_t surface_ = 1;
   std::string name_ = "defaultobject", material_name_;
   std::vector<std::string> material_names_;  // of meshes
   Materials materials_;
-  // The face that is being read:
+  // The face being read:
   std::vector<std::uint32_t> corners_, corner_normals_, triangles_;
   std::vector<Vec3> polygon_;
 };

@@ -67,7 +67,7 @@ class PlyReader {
     if (vertices == elements_.end()) model_.fail("an element vertex", "none");
     for (auto e = elements_.begin(); e != vertices; ++e) read_records(*e, [] {});
     read_vertices(*vertices);
-    // Faces that stand before the vertices are read after them.
+    // Faces before the vertices are read after them.
     const bool is_first = vertices == elements_.begin();
     if (!is_first) text_ = begin;
     for (auto e = is_first ? vertices + 1 : elements_.begin(); e != elements_.end(); ++e)
@@ -126,7 +126,7 @@ class PlyReader {
     model_.fail(expected + " at byte " + std::to_string(text_.offset()), shortest_text(found));
   }
 
-  /// The next value; NaN if it is no number, and not needed.
+  /// The next value; NaN if it is neither a number nor needed.
   double next(const NumberType& type, bool is_needed) {
     if (is_text_) {
       word_ = text_.word_of_any_line();
@@ -149,7 +149,7 @@ class PlyReader {
     std::size_t least = 0;
     for (const Property& p : element.properties) least += is_text_ ? 2 : p.count_type.value_or(p.type).size;
     if (least == 0) return;
-    // So that a file of a line does not get gigabytes.
+    // Otherwise, a file of one line could ask for gigabytes.
     if (element.count > (text_.rest().size() + 1) / least)
       model_.fail(std::to_string(element.count) + " of element " + pipeline::quoted(element.name),
                   "the end of the file: it is cut");
@@ -204,7 +204,7 @@ class PlyReader {
     vertex_count_ = model_.points.size();
   }
 
-  /// Faces, or strips, which are faces of three corners each.
+  /// Reads faces, or strips, which become faces of three corners.
   void read_faces(const Element& element) {
     const bool are_strips = element.name == "tristrips";
     const Property* const red = model_.colors.empty() ? element.find(kRed) : nullptr;
@@ -255,11 +255,11 @@ class PlyReader {
   Model& model_;
   ModelMesh* mesh_ = nullptr;
   bool is_text_ = true, is_big_endian_ = false, has_points_ = false;
-  std::size_t vertex_count_ = 0;  // of the file; points may have copies for the colors of faces
+  std::size_t vertex_count_ = 0;  // in the file; points may have copies for colors of faces
   double full_color_ = 1;
   std::vector<Element> elements_;
   std::vector<Floats> normals_;
-  // The record that is being read:
+  // The record being read:
   std::string_view word_;
   std::array<double, kSlotCount> record_{};
   std::vector<std::uint32_t> indices_;

@@ -12,15 +12,14 @@
 namespace pipeline {
 namespace {
 
-/// How much of the picture's width or height a framed model fills.
+/// The part of the picture's width or height that a framed model fills.
 constexpr double kShare = 0.9;
 
-/// Up to here above or below the model, the world's axis serves as the camera's `up`: a reader knows it at
-/// sight, and it gives the same view. Nearer to the axis, what rounding does to the eye would turn the
-/// picture.
+/// Up to this elevation, in degrees, the world's axis is the camera's `up`: readers recognize it, and the
+/// view does not change. Nearer to the axis, rounding of the eye would turn the picture.
 constexpr double kSteepestWithWorldUp = 85;
 
-/// The distance of a light that shines from afar, in distances of the eye.
+/// The distance of a light from afar, in distances of the eye.
 constexpr double kFar = 1000;
 
 /// Orthogonal unit vectors of a camera, in the model's space; `back` points from the model to the eye.
@@ -35,7 +34,7 @@ ViewAxes axes_of(const ModelCamera& camera) {
 }
 
 /// The setting with the file's lights; without any, with a key light from the upper left, a weaker fill from
-/// the right, and a little from everywhere.
+/// the right, and a little ambient light.
 SceneSetting setting_with(const ModelCamera& camera, double aspect, const Model& model) {
   SceneSetting setting;
   setting.camera = camera;
@@ -51,7 +50,7 @@ SceneSetting setting_with(const ModelCamera& camera, double aspect, const Model&
       light.position = sum(camera.look, scaled(unit_vector(light.position), -kFar * camera.distance));
   if (!model.lights.empty()) return setting;
   const ViewAxes axes = axes_of(camera);
-  const auto beside = [&](double x, double y, double z) {  // the middle of the model, in distances of the eye
+  const auto beside = [&](double x, double y, double z) {  // from the model's middle, in distances of the eye
     const Vec3 offset = sum(sum(scaled(axes.right, x), scaled(axes.up, y)), scaled(axes.back, z));
     return sum(camera.look, scaled(offset, camera.distance));
   };
@@ -66,7 +65,7 @@ struct Direction {
   double cosine, sine;
 };
 
-/// Without libm, whose last bits differ between systems.
+/// The direction without libm, whose last bits differ between systems.
 Direction direction_of(double degrees) {
   const SineCosine angle = sine_cosine_of_degrees({degrees, 0});
   return {angle.cosine.nearest_double(), angle.sine.nearest_double()};
@@ -77,14 +76,14 @@ double tangent(double degrees) {
   return direction.sine / direction.cosine;
 }
 
-/// Depths behind and before the model that belong to the view, as fractions of its distance: room for objects
-/// that are added to the scene.
+/// The depth of the view behind and before the model, as a fraction of its distance: room for objects added
+/// to the scene.
 constexpr double kDepthMargin = 0.5;
-/// The largest far / near at which a depth buffer is still fine enough.
+/// The largest far / near for which a depth buffer is fine enough.
 constexpr double kMostDepth = 10000;
 
-/// Seen from the front, from the model's z (with z up: -y, with -y or -z up: the other side), turned by
-/// `azimuth` degrees about the up axis to the right and by `elevation` degrees, -90 to 90, upwards.
+/// The axes of a view from the model's front, at its z (-y if z is up, the other side if -y or -z is), turned
+/// about the up axis by `azimuth` degrees to the right, and upwards by `elevation` degrees, -90 to 90.
 ViewAxes view_axes(const Vec3& up, double azimuth_degrees, double elevation_degrees) {
   const Vec3 front = up.z != 0 ? Vec3{0, -up.z, 0} : Vec3{0, 0, up.y < 0 ? -1.0 : 1.0};
   const Vec3 side = cross(up, front);
@@ -101,7 +100,7 @@ ViewAxes view_axes(const Vec3& up, double azimuth_degrees, double elevation_degr
 SceneSetting framed_setting(const Model& model, const ViewChoice& view) {
   const ViewAxes axes = view_axes(view.up, view.azimuth_degrees, view.elevation_degrees);
   const double slope_y = kShare * tangent(view.fov_y_degrees / 2), slope_x = view.aspect * slope_y;
-  // The largest a + slope c and -a + slope c of points (a, b, c) in the view's axes, the same for b.
+  // The largest a + slope c and -a + slope c of points (a, b, c) in the view's axes; likewise for b.
   double right = -kInfinity, left = -kInfinity, top = -kInfinity, bottom = -kInfinity;
   double nearest = -kInfinity, farthest = kInfinity;  // the largest and the smallest c
   model.for_each_corner([&](const Vec3& p) {
@@ -114,8 +113,8 @@ SceneSetting framed_setting(const Model& model, const ViewChoice& view) {
     farthest = std::min(farthest, c);
   });
   // An eye at (x, y, z) sees a point (a, b, c) within the share if |a - x| <= slope_x (z - c) and |b - y| <=
-  // slope_y (z - c): a + slope_x c <= x + slope_x z and -a + slope_x c <= -x + slope_x z. Added up, they give
-  // the least z.
+  // slope_y (z - c): a + slope_x c <= x + slope_x z and -a + slope_x c <= -x + slope_x z. Their sum gives the
+  // least z.
   const double x = (right - left) / 2, y = (top - bottom) / 2;
   const double z = std::max((right + left) / (2 * slope_x), (top + bottom) / (2 * slope_y));
   const double middle = nearest + (farthest - nearest) / 2;
@@ -145,8 +144,7 @@ SceneSetting framed_setting(const Model& model, const ViewChoice& view) {
 SceneSetting setting_of_file(const Model& model, double aspect) {
   ModelCamera camera = *model.camera;
   camera.up = unit_vector(camera.up);
-  // A file says in which direction it looks, not how far; the middle of the model is what a light is to fall
-  // on.
+  // A file gives a camera's direction, not the distance of `look`; lights should fall on the model's middle.
   Vec3 total;
   double count = 0, farthest = 0;
   const Vec3 direction = unit_vector(difference(camera.look, camera.eye));
@@ -158,7 +156,7 @@ SceneSetting setting_of_file(const Model& model, double aspect) {
   const double ahead = dot(difference(scaled(total, 1 / count), camera.eye), direction);
   camera.distance = ahead > camera.near ? ahead : camera.near;
   camera.look = sum(camera.eye, scaled(direction, camera.distance));
-  // Without an end of its own, the view reaches as far as the model.
+  // If the file gives no end, the view reaches beyond the model.
   if (!std::isfinite(camera.far)) camera.far = 2 * std::max(camera.near, farthest);
   return setting_with(camera, aspect, model);
 }
@@ -175,7 +173,7 @@ double shown_share(const Model& model, const SceneSetting& setting) {
   model.for_each_corner([&](const Vec3& p) {
     const Vec3 offset = difference(p, camera.eye);
     const double depth = -dot(offset, axes.back);
-    // In NDC; a corner that is not in the view's depth spoils its triangle.
+    // In NDC; a corner outside the view's depth makes the area of its triangle NaN.
     const bool is_seen = depth >= camera.near && depth <= camera.far;
     if (!(depth >= camera.near)) ++behind_count;
     corners[count++] = is_seen ? Vec3{dot(offset, axes.right) / (slope_x * depth),
@@ -184,7 +182,7 @@ double shown_share(const Model& model, const SceneSetting& setting) {
     if (count < 3) return;
     count = 0;
     const auto& [a, b, c] = corners;
-    // A triangle beside the eye, as a floor, may cover much.
+    // A triangle beside the eye, such as a floor, may cover much.
     is_beside_eye = is_beside_eye || (std::exchange(behind_count, 0) % 3 != 0);
     const double width = std::min(std::max({a.x, b.x, c.x}), 1.0) - std::max(std::min({a.x, b.x, c.x}), -1.0);
     const double height =

@@ -28,12 +28,12 @@ Vec3 color_of(const ModelMesh& mesh, const Model& model, const SceneSetting& set
   return setting.has_one_color ? setting.color : model.material(mesh).color.value_or(setting.color);
 }
 
-/// The materials of a scene made from a model: each distinct one that a mesh has, in the order of the meshes.
-/// They may carry the colors of their meshes as paints.
+/// The materials of a scene made from a model: the distinct ones of its meshes, in the order of the meshes.
+/// They may have the colors of their meshes as paints.
 struct SceneMaterials {
   std::vector<std::string> lines;  // `material` and perhaps `paint`, for each; at least one
   std::map<std::optional<std::size_t>, std::size_t> numbers;  // by the model's
-  bool have_paints = false, are_too_many = false;  // more than kMostMaterials: further ones have the number 0
+  bool have_paints = false, are_too_many = false;  // more than kMostMaterials: the others get number 0
 
   SceneMaterials(const Model& model, const SceneSetting& setting, bool paints) : have_paints(paints) {
     for (const PlacedMesh& placed : model.placed) {
@@ -41,7 +41,7 @@ struct SceneMaterials {
       if (!is_new) continue;
       const ModelMaterial material = model.material(*placed.mesh);
       std::string line = "material ";
-      // Three decimals are finer than a picture shows, and hide that files hold floats.
+      // Three decimals are finer than a picture can show, and hide that files hold floats.
       for (const double factor : {material.ambient, material.diffuse, material.specular})
         line += shortest_text(std::round(factor * 1000) / 1000) + " ";
       line += shortest_text(std::round(material.shininess));
@@ -75,7 +75,7 @@ struct VertexNumbers {
   [[nodiscard]] Words words() const { return std::bit_cast<Words>(numbers); }
 };
 
-/// The lines of vertices, kept for the triangles that share them: of lines with the same hash, the last.
+/// The lines of vertices, kept for triangles that share them: the last line of each hash.
 class VertexLines {
  public:
   [[nodiscard]] std::string_view line_of(const VertexNumbers& vertex) {
@@ -115,7 +115,7 @@ class VertexLines {
   std::vector<Line> lines_ = std::vector<Line>(kPlaces);
 };
 
-/// Rounds values to as many decimals as make five digits of a length.
+/// Rounds values to the decimals with which a length has five digits.
 class Rounding {
  public:
   explicit Rounding(double length) : decimals_(4 - static_cast<int>(std::floor(std::log10(length)))) {}
@@ -131,7 +131,7 @@ class Rounding {
   int decimals_;
 };
 
-/// The value with 1 / units decimals if it is as near to that as the file's floats allow.
+/// The value rounded to whole 1 / units, if the difference is within the noise of the file's floats.
 double without_noise(double value, double units, double noise) {
   const double coarse = std::round(value * units) / units;
   return (std::fabs(value - coarse) <= noise ? coarse : value) + 0.0;
@@ -209,12 +209,12 @@ struct SceneWriter {
     material_in_force_ = material;
     placed_ = &placed;
     color_ = color;
-    // Corners of a mirror image turn around.
+    // The winding of a mirror image is reversed.
     const std::array<std::size_t, 3> order = {0, is_mirrored ? 2U : 1U, is_mirrored ? 1U : 2U};
     for (std::size_t i = 0; i < mesh.corners.size(); i += 3) write_triangle(i, order);
   }
 
-  /// The normal at a corner of the mesh; its triangle's own if there is none of use.
+  /// The normal at a corner of the mesh; its triangle's own normal if it has no usable one.
   [[nodiscard]] Vec3 normal(std::size_t corner) const {
     const auto& [x, y, z] = placed_->mesh->normals[corner];
     const Vec3 in_mesh = {x, y, z};
@@ -223,14 +223,14 @@ struct SceneWriter {
     return is_direction(in_model) ? in_model : face_normal(placed_->mesh->corners.data() + corner / 3 * 3);
   }
 
-  /// Any for a triangle without area, which is not seen.
+  /// The normal of a triangle; any for one without area, which is not visible.
   [[nodiscard]] Vec3 face_normal(const std::uint32_t* indices) const {
     const Vec3 n = unit_vector(pipeline::face_normal(
         {placed_->position(indices[0]), placed_->position(indices[1]), placed_->position(indices[2])}));
     return !is_direction(n) ? setting_.camera.up : placed_->model_from_mesh.mirrors() ? scaled(n, -1) : n;
   }
 
-  /// True if a scene takes it as a normal.
+  /// True if a scene accepts it as a normal.
   static bool is_direction(const Vec3& n) {
     const auto is_0 = [](double value) { return static_cast<float>(value) == 0; };
     return std::isfinite(n.x + n.y + n.z) && !(is_0(n.x) && is_0(n.y) && is_0(n.z));
@@ -261,7 +261,7 @@ struct SceneWriter {
 
   std::optional<Vec3> color_in_force_{};
   std::size_t material_in_force_ = 0;
-  // The mesh that is being written:
+  // The mesh being written:
   const PlacedMesh* placed_ = nullptr;
   Vec3 color_{};
   VertexLines lines_{};
@@ -270,7 +270,7 @@ struct SceneWriter {
 }  // namespace
 
 bool write_scene(const Model& model, const SceneSetting& setting, bool as_nodes, TextWriter& out) {
-  // Paints are for scenes whose colors all come from materials or the setting, unless they make too many.
+  // Paints are used if all colors come from materials or the setting, unless they make too many materials.
   SceneMaterials materials(model, setting, setting.has_one_color || !model.has_vertex_colors());
   if (materials.have_paints && materials.are_too_many) materials = {model, setting, false};
   SceneWriter writer = {model, setting, materials, out};

@@ -8,13 +8,13 @@
 
 namespace pipeline {
 
-/// The most materials of a scene: meshes with further ones have the first.
+/// The maximum number of a scene's materials: meshes with further ones get the first.
 constexpr std::size_t kMostMaterials = 256;
 
-/// Writes the model as a scene (docs/scene.md). Numbers of the file have their shortest form; cameras and
-/// lights have five digits of the distance between eye and model. The transforms of nodes are applied to
-/// their vertices; `as_nodes`, push, translate, rotate, scale and pop do it, where the file has them. False
-/// if the model has more than kMostMaterials.
+/// Writes the model as a scene (docs/scene.md). The file's numbers have their shortest form; positions of
+/// camera and lights have five digits of the distance between eye and model. Nodes' transforms are applied to
+/// their vertices; with `as_nodes`, they are written as commands where the file gives them in steps. False if
+/// the model has more than kMostMaterials.
 bool write_scene(const Model& model, const SceneSetting& setting, bool as_nodes, TextWriter& out);
 
 }  // namespace pipeline

@@ -18,7 +18,7 @@ namespace {
 
 constexpr auto kNone = static_cast<std::uint32_t>(-1);
 
-/// Lists of the corners of triangles, 3 t to 3 t + 2 for triangle t, at each position: in the slots of a hash
+/// Lists, by position, of the corners of triangles (3 t to 3 t + 2 for triangle t), in the slots of a hash
 /// table with linear probing.
 struct CornersByPosition {
   std::vector<std::uint32_t> first, next;  // of a slot; after a corner
@@ -35,7 +35,7 @@ struct CornersByPosition {
   }
 
   static std::size_t hash(const Vec3& p) {
-    // Adding 0 takes the sign from a zero, which equals the other one.
+    // Adding 0 removes a zero's sign, as both zeros are equal.
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
     std::uint64_t mixed = (bits(p.x) ^ std::rotl(bits(p.y), 32)) * 0x9e3779b97f4a7c15;
     mixed = (mixed ^ mixed >> 32 ^ bits(p.z)) * 0xbf58476d1ce4e5b9;
@@ -50,23 +50,23 @@ struct Share {
   double plane_area = area;  // of all triangles at this position in its plane
 };
 
-/// Above this many triangles at a position, each is compared only with the mean of all: time stays linear.
+/// If more triangles share a position, each is compared only with the mean of all: time stays linear.
 constexpr std::size_t kMany = 256;
-/// Triangles are in one plane if their normals differ by less than half a degree.
+/// Triangles count as in one plane if their normals differ by less than half a degree.
 constexpr double kCoplanarCosine = 0.99996;
 /// A plane with more than this share of the area at a position stays a plane there.
 constexpr double kDominant = 0.8;
 
-/// A little less, so that a crease of 0 smooths a plane.
+/// The cosine, a little smaller, so that a crease of 0 smooths a plane.
 double cosine(double degrees) {
   return std::cos(degrees * std::numbers::pi / 180) - 1e-6;
 }
 
-/// Makes the normals of all corners at a position.
+/// Sets the normals of all corners at a position.
 struct Smoothing {
   const std::vector<std::uint32_t>& all_corners;
   const std::vector<Vec3>& points;
-  double least_cosine, half_way_cosine;  // of the crease, and of half of it
+  double least_cosine, half_way_cosine;  // of the crease, and of half the crease
   std::vector<Floats>& normals;
   std::vector<Share> shares{};
 
@@ -137,7 +137,7 @@ struct Smoothing {
     const auto is_in_plane = [&](const Share& share) {
       return dot(share.direction, widest->direction) >= kCoplanarCosine;
     };
-    // A small turn from the plane continues it, as a fillet; a larger one makes a chamfer beside it.
+    // A small turn from the plane continues it, like a fillet; a larger turn is a chamfer beside it.
     if (dot(own.direction, widest->direction) >= half_way_cosine) return weighted_sum(is_in_plane);
     return weighted_sum([&](const Share& share) { return is_near(share) && !is_in_plane(share); });
   }

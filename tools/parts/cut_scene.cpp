@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kMaxParts = 99999;
 
-/// The size of a regular file, by which it is cut.
+/// The size of a regular file, which decides where to cut it.
 std::size_t size_of(const InputFile& scene) {
   struct stat status = {};
   if (::fstat(scene.descriptor(), &status) != 0 || !S_ISREG(status.st_mode))
@@ -44,7 +44,7 @@ void make_empty_folder(const std::string& path) {
     throw InputError({path}, expected_but_found("a new folder, or an empty one", "one with files in it"));
 }
 
-/// All names have the same length, so that a shell lists them in order.
+/// The name of a part. All have the same length, so that a shell lists them in order.
 std::string name_of_part(std::size_t part, std::size_t part_count) {
   const std::string number = std::to_string(part);
   return std::string(std::to_string(part_count).size() - number.size(), '0') + number + ".txt";
@@ -58,7 +58,7 @@ std::uint64_t part_count_of(const std::string& word) {
   return part_count;
 }
 
-/// Writes a part that ends about there, and its line of the list.
+/// Writes a part that ends near `end`, and its line of the list.
 void write_part(Tool& tool, SceneCutter& cutter, const std::string& path, std::size_t end) {
   add_unfinished(path);
   OutputFile file(path);
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   tool.options().add_word("-o,--output", "FOLDER", folder,
                           "Where the parts go, a new folder or an empty one");
 
-  // A closed pipe is a failure to write like any other: the parts have to be removed.
+  // A closed pipe is a failure to write like any other: the parts must be removed.
   std::signal(SIGPIPE, SIG_IGN);
 
   return tool.run(argc, argv, [&] {

@@ -1,5 +1,4 @@
-// join-seen: makes one stage text of several. The texts of a scene's parts in, the text of the whole scene
-// out.
+// join-seen: joins stage texts. The texts of a scene's parts in, the text of the whole scene out.
 
 #include <cstdint>
 #include <optional>
@@ -14,7 +13,7 @@ using namespace pipeline;
 
 namespace {
 
-/// Writes the header of the first text and the triangles of all, each as it stands in its text.
+/// Writes the header of the first text and the triangles of all texts, unchanged.
 class JoinedText {
  public:
   explicit JoinedText(TextWriter& text) : text_(text) {}

@@ -18,7 +18,7 @@ constexpr std::size_t kNameWidth = 25;
 
 constexpr const char* kLastGroup = "General";
 
-/// The text with line breaks in place of blanks where a line would be longer than `width`.
+/// The text with line breaks instead of blanks, so that no line is longer than `width`.
 std::string wrapped(std::string_view text, std::size_t width) {
   std::string lines;
   std::size_t column = 0;
@@ -39,7 +39,7 @@ std::string wrapped(std::string_view text, std::size_t width) {
   return lines;
 }
 
-/// The option or operand that a message of CLI11 names; of "--depth" and "--depth-image" the longer.
+/// The option or operand that a message of CLI11 names: "--depth-image", not "--depth", which it contains.
 const CLI::Option* named_in(const CLI::App& options, const std::string& message) {
   const CLI::Option* named = nullptr;
   for (const CLI::Option* option : options.get_options()) {
@@ -49,7 +49,7 @@ const CLI::Option* named_in(const CLI::App& options, const std::string& message)
   return named;
 }
 
-/// An option that is gone, and what to use now.
+/// A former option, and its replacement.
 struct OldName {
   std::string_view tool, option, now;
 };
@@ -91,8 +91,8 @@ std::string explained_count(const CLI::Option& option) {
       found == 0 ? "none" : std::to_string(found));
 }
 
-/// The words as CLI11 takes them, last word first. A flag and its word become one, as CLI11 expects them. A
-/// word like "-.5" becomes "-0.5": CLI11 takes it for an option unless a digit follows the minus.
+/// The words in CLI11's order, last word first. A flag and its word are joined, as CLI11 expects. A word like
+/// "-.5" becomes "-0.5": without a digit after the minus, CLI11 takes it for an option.
 std::vector<std::string> words_for_parsing(int argc, char** argv,
                                            std::span<const std::pair<std::string, std::string>> flag_words) {
   std::vector<std::string> words(argv + 1, argv + argc);
@@ -116,7 +116,7 @@ std::string explained(const CLI::App& options, const CLI::ParseError& error) {
   if (option == nullptr) return error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
     return option->get_name() + ": " + explained_count(*option);
-  const bool is_checked = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;  // and explained
+  const bool is_checked = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;  // explained already
   if (option->get_expected_max() == 0 && !option->results().empty() && !is_checked)
     return option->get_name() + ": " +
            expected_but_found("no value", pipeline::quoted(option->results().back()));
@@ -186,9 +186,9 @@ class HelpForm : public CLI::Formatter {
   }
 
   ToolDescription tool_;
-  std::string usage_;         // empty: CLI11's
+  std::string usage_;         // empty: CLI11's own
   bool shows_all_ = false;    // rare options and every example, too
-  bool uses_fields_ = false;  // an option a line, with tabs: for man pages and completion
+  bool uses_fields_ = false;  // one option per line, with tabs: for man pages and completion
 };
 
 }  // namespace
@@ -208,7 +208,7 @@ void CommandLine::set_usage(const std::string& usage) {
 
 bool CommandLine::is_given(const std::string& name) const {
   if (!app_) return false;
-  // CLI11's own search for a name ends the program where there is no memory.
+  // CLI11's own search for a name would end the program if there is no memory.
   for (const CLI::Option* option : std::as_const(*app_).get_options())
     if (option->check_name(name)) return option->count() > 0;
   return false;

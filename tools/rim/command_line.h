@@ -20,16 +20,16 @@ class App;
 
 namespace pipeline {
 
-/// The command line is wrong. `what()` is the complete message.
+/// A wrong command line. `what()` is the complete message.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Describes the error in a word; empty if there is none.
+/// Describes what is wrong with a word; empty if nothing is.
 using WordCheck = std::function<std::string(const std::string& word)>;
 
-/// A check that describes an error by the message of the InputError that `check` throws.
+/// A check whose description is the message of the InputError that `check` throws.
 template <typename F>
 WordCheck wrong_with_name(F check) {
   return [check](const std::string& name) -> std::string {
@@ -42,7 +42,7 @@ WordCheck wrong_with_name(F check) {
   };
 }
 
-/// A check that describes words for which `is_fine` does not hold as not the expected ones.
+/// A check that describes a word without `is_fine` as "expected `expected`, found ...".
 template <typename F>
 WordCheck expects(const char* expected, F is_fine) {
   return [=](const std::string& word) {
@@ -56,7 +56,7 @@ struct ToolDescription {
   const char* purpose;
   const char* input;                    // of the last operand
   std::array<const char*, 2> examples;  // command lines; --help shows the first
-  const char* rare = "";                // options that --help-all alone shows, separated by blanks
+  const char* rare = "";                // options that only --help-all shows, separated by blanks
 };
 
 /// CLI11 with one form for all options, messages and help texts. An option's value is stored in the variable
@@ -66,13 +66,13 @@ class CommandLine {
   CommandLine(const ToolDescription& tool, const std::string& version);
   ~CommandLine();
 
-  /// The options added from here on stand in this group of --help; options added earlier go to the last
-  /// group, with --help.
+  /// Puts later options into this group of --help; options before the first group go to the last one, with
+  /// --help.
   void begin_group(const std::string& name);
-  /// The first lines of --help, in place of the lines that follow from the operands.
+  /// Replaces the usage lines of --help that CLI11 makes of the operands.
   void set_usage(const std::string& usage);
   void add_flag(const std::string& name, bool& chosen, const std::string& help);
-  /// A flag that takes `word` for more: "--name" sets `chosen`, "--name word" sets `more`, too.
+  /// A flag with an optional `word`: "--name" sets `chosen`, "--name word" also sets `more`.
   void add_flag_with_word(const std::string& name, const std::string& word, bool& chosen, bool& more,
                           const std::string& help);
   /// An option that takes one word of any kind, which --help calls `type_name`.
@@ -90,8 +90,8 @@ class CommandLine {
   void add_number(const std::string& name, const std::string& type_name, double& number,
                   const std::function<bool(double)>& is_fine, const std::string& expected,
                   const std::string& help);
-  /// An option that takes one of a few words, each of which stands for a value. The value in `chosen` is the
-  /// default if it is one of those.
+  /// An option that takes one of a few words, each of which stands for a value. The initial value of `chosen`
+  /// is the default if it is one of them.
   template <typename T>
   void add_choice(const std::string& name, T& chosen, const std::vector<std::pair<std::string, T>>& choices,
                   const std::string& help) {
@@ -106,13 +106,13 @@ class CommandLine {
   }
   /// An operand, which may be left out.
   void add_operand(const std::string& name, std::string& word, const std::string& help);
-  /// All operands, any number of them.
+  /// Any number of operands.
   void add_operands(const std::string& name, std::vector<std::string>& words, const std::string& help);
 
   /// Parses the arguments of `main`. Returns the text requested by --help or --version, else nothing. A
   /// UsageError ("option: expected ..., found ...") if the command line is wrong.
   std::optional<std::string> parse(int argc, char** argv);
-  /// True if the option or operand of that name stood on the command line.
+  /// True if the option or operand of that name was on the command line.
   [[nodiscard]] bool is_given(const std::string& name) const;
 
  private:
@@ -120,13 +120,13 @@ class CommandLine {
                            const std::string& default_word, const std::string& help,
                            const std::function<void(std::size_t)>& take);
 
-  /// An option or operand that CLI11 gets only if it has to: each costs a start some 5 % of its instructions.
+  /// An option or operand that CLI11 gets only if needed: each takes some 5 % of a start's instructions.
   struct Declared {
     std::string name, group;
     std::function<void(CLI::App&)> add;
   };
   void declare(const std::string& name, const std::function<void(CLI::App&)>& add);
-  /// Gives CLI11 the operands and the options that the words name, or all if a word may name no option of
+  /// Gives CLI11 the operands and the options that the words name, or all options if a word may name none of
   /// ours.
   void add_to_app(std::span<const std::string> words);
 

@@ -22,7 +22,7 @@ std::string all_of(std::uint64_t count, const std::string& thing) {
   return count == 1 ? "the " + thing : "all " + counted(count, thing);
 }
 
-/// With four digits, or as many as it takes to show on which side of `limit` the value lies.
+/// The value with four digits, or with as many as show on which side of `limit` it lies.
 std::string rounded(double value, double limit) {
   std::array<char, 32> text{};
   for (int digits = 4; digits <= 17; ++digits) {
@@ -119,10 +119,10 @@ std::string where_is_sphere(UnseenPlace place, const BoundingBox& extent, const 
   return place == UnseenPlace::elsewhere ? "met by no ray between the limits of Z" : beside(place, "window");
 }
 
-/// Some triangles, and where they are.
+/// The count of some triangles, and their place in words.
 using Group = std::pair<std::uint64_t, std::string>;
 
-/// The triangles at some places, which `where` describes.
+/// The triangles by place, as `where` describes it.
 template <typename Where>
 std::vector<Group> groups_of(const UnseenPlaces& unseen, const Where& where) {
   std::vector<Group> groups;
@@ -152,7 +152,7 @@ std::string percent(std::uint64_t part, std::uint64_t all) {
   return rounded(share < 0.9995 ? std::floor(1000 * share) / 10 : std::floor(1e6 * share) / 1e4, 100) + " %";
 }
 
-/// True for so many pixels that the others hardly count.
+/// True if the other pixels are so few that they hardly count.
 bool is_most(std::uint64_t part, std::uint64_t all) {
   return static_cast<double>(all - part) < ShownColors::kVisibleShare * static_cast<double>(all);
 }
@@ -161,14 +161,14 @@ double greatest_of(Vec3 channels) {
   return std::max({channels.x, channels.y, channels.z});
 }
 
-/// True for whole channels up to 255, one of them so large that no intensity of light would be.
+/// True for whole channels up to 255, one of them too large for an intensity of light.
 bool is_like_color(Vec3 channels) {
   const auto is_whole = [](double channel) { return channel == std::floor(channel); };
   return greatest_of(channels) >= 32 && greatest_of(channels) <= 255 && is_whole(channels.x) &&
          is_whole(channels.y) && is_whole(channels.z);
 }
 
-/// By Darkness; # is the greatest value. "Its" is of what is black.
+/// Indexed by Darkness; # stands for the greatest value, "its" refers to what is black.
 constexpr std::array<const char*, kDarknessCount> kReasons = {
     "its colors are 0",
     "its colors are within 0 and 1, but channels run from 0 to 255",
@@ -192,9 +192,9 @@ std::string looks(std::uint64_t count, std::uint64_t all, const std::string& col
   return percent(count, all) + " of what is drawn is " + color + ": ";
 }
 
-/// Why what is drawn looks black; none if enough of it does not.
+/// The reason why the drawn surfaces look black; none if enough do not.
 std::optional<std::string> dark_note(const ShownColors& shown, const ColorSetting& setting) {
-  constexpr double kBright = 128;  // black before it is a silhouette
+  constexpr double kBright = 128;  // before this, black surfaces are silhouettes
   const double background = setting.background.is_opaque() ? greatest_of(to_vec3(setting.background)) : 255;
   const auto is_odd = [&](Darkness reason) {
     if (background <= kBlackChannel) return true;

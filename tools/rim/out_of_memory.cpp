@@ -39,7 +39,7 @@ void write_line(int descriptor, const char* before, const char* tool) noexcept {
 
 void OutOfMemoryReport::report() const noexcept {
   write_line(STDERR_FILENO, "", tool);
-  // At a terminal the line above is enough.
+  // At a terminal, the line above is enough.
   if (is_told_to_next_stage && ::isatty(STDOUT_FILENO) == 0) write_line(STDOUT_FILENO, "error ", tool);
 }
 

@@ -26,7 +26,7 @@ void Progress::show(std::uint64_t count, double part) {
   is_shown_ = true;
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const double millions = static_cast<double>(count) / seconds / 1e6;
-  // The blanks overwrite the end of a longer line.
+  // The blanks overwrite the end of a longer line before.
   if (part > 0)
     std::fprintf(stderr, "\r%s: %.0f %%, %.0f s left, %.3g million %ss a second    ", tool_.c_str(),
                  std::floor(100 * part), std::ceil(seconds / part - seconds), millions, unit_.c_str());

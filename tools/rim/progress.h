@@ -6,8 +6,8 @@
 
 namespace pipeline {
 
-/// A line on stderr that shows the progress of a long run: triangles, or rays, and how many a second. It
-/// appears only on a terminal, and not in the first second.
+/// A line on stderr that shows the progress of a long run: the count of triangles or rays, and their rate per
+/// second. It appears only on a terminal, and not in the first second.
 class Progress {
  public:
   /// The line begins with `tool` and counts in `unit`.
@@ -17,8 +17,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the number of them so far, at most five times a second; with a known `part` of the work done, from
-  /// 0 to 1, also the percentage and the time left.
+  /// Shows the count so far, at most five times a second; with a known `part` of the work done, from 0 to 1,
+  /// also the percentage and the time left.
   void show(std::uint64_t count, double part = 0);
 
  private:

@@ -17,7 +17,7 @@ std::string described(const NamedFile& file) {
   return is_stream(file) ? file.name : file.name + " " + pipeline::quoted(file.path);
 }
 
-/// True if two files may have one place: streams that the shell has joined, and an input to be replaced.
+/// True if two files may share one place: streams that the shell has joined, or an input and its replacement.
 bool may_share(const NamedFile& earlier, const NamedFile& output) {
   if (is_stream(earlier) && output.name == kStandardError.name) return earlier.name != kStandardInput.name;
   return earlier.is_in_place && output.is_in_place && is_replaced(output.path);

@@ -9,7 +9,7 @@ namespace pipeline {
 struct NamedFile {
   std::string name;          // the option or operand that gives its path
   std::string path;          // empty if there is no such file
-  bool is_in_place = false;  // an output that may replace an input of which the same is true
+  bool is_in_place = false;  // an output and an input that are both in place may be one file
 };
 
 inline const NamedFile kStandardInput = {"standard input", "/dev/stdin"};
@@ -19,9 +19,9 @@ inline const NamedFile kStandardError = {"standard error", "/dev/stderr"};
 /// The file of an option or operand whose "-" means `stream`.
 NamedFile file_or_stream(const std::string& name, const std::string& path, const NamedFile& stream);
 
-/// A UsageError if an output of a run ends up in one regular file or one pipe with another, where one would
-/// replace the other or both would mix, or with an input. Devices may be shared, and standard output with
-/// standard error.
+/// Throws a UsageError if an output of a run would share a regular file or a pipe with another output (one
+/// would replace the other, or both would mix) or with an input. Devices may be shared; standard output and
+/// standard error may share anything.
 void expect_separate(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
 }  // namespace pipeline

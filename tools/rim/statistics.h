@@ -15,7 +15,7 @@
 
 namespace pipeline {
 
-/// `--stats`: counts and extents of a run, a line "key value" each, in a file.
+/// `--stats`: counts and extents of a run in a file, one line "key value" for each.
 class Statistics {
  public:
   explicit Statistics(CommandLine& options);
@@ -24,14 +24,14 @@ class Statistics {
   [[nodiscard]] NamedFile output() const {
     return path_ == kStandardError.path ? kStandardError : NamedFile{"--stats", path_};
   }
-  /// Opens the file, if one is requested, before the work: a name that cannot be written is an error at once.
+  /// Opens the file, if one is requested, before the work, so that a bad name is an error at once.
   void open();
   void add(std::string_view key, std::uint64_t count);
-  /// Adds counts of what is outside of the view volume; or, with `on_screen`, of what no pixel shows.
+  /// Adds the counts of triangles outside the view volume or, with `on_screen`, of those that no pixel shows.
   void add(const UnseenPlaces& unseen, bool on_screen);
-  /// Adds x_min to z_max in the format of the text they stand in; nothing if there is no vertex.
+  /// Adds x_min to z_max in the format of their text; nothing if there is no vertex.
   void add(const CoordinateExtent& extent, NumberFormat format);
-  /// The same for a box, in the shortest form.
+  /// Adds a box likewise, in the shortest form.
   void add(const BoundingBox& extent);
   /// Writes and closes the file.
   void finish();

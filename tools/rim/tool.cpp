@@ -28,7 +28,7 @@ void print_on_stderr(const std::string& line) {
   std::fprintf(stderr, "%s\n", on_one_line(line).c_str());
 }
 
-/// Reopens closed standard descriptors on /dev/null in the wrong direction: using them remains an error, and
+/// Reopens closed standard descriptors on /dev/null in the wrong direction: their use is still an error, and
 /// no file of ours gets their numbers.
 void open_closed_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -36,25 +36,25 @@ void open_closed_descriptors() {
       ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-/// True for a pipe, and for a socket, of which some shells make their pipes.
+/// True for a pipe, or a socket: some shells make pipes of sockets.
 bool is_pipe(int descriptor) {
   struct stat status = {};
   return ::fstat(descriptor, &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
 }
 
-/// With the signal ignored, writing to a file at its size limit fails like any other write, which is reported
-/// and cleaned up.
+/// Ignores the signal, so that a write beyond a file's size limit fails like any other, and is reported and
+/// cleaned up.
 void make_file_size_limit_an_error() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
 std::string end_line;  // for the handler
 
-/// Ends the process by the signal, as without this handler, but without files that are not finished.
+/// Removes unfinished files, then ends the process by the signal, as without this handler.
 void end_cleanly(int number) {
   if (remove_unfinished()) static_cast<void>(::write(STDERR_FILENO, end_line.data(), end_line.size()) < 0);
   std::signal(number, SIG_DFL);
-  ::raise(number);  // which comes when this has returned
+  ::raise(number);  // delivered once this handler has returned
 }
 
 void end_cleanly_at_signals(const std::string& tool) {
@@ -63,12 +63,12 @@ void end_cleanly_at_signals(const std::string& tool) {
     if (std::signal(number, end_cleanly) == SIG_IGN) std::signal(number, SIG_IGN);  // by nohup
 }
 
-/// Lets the pipe of a file descriptor hold 1 MiB, where the system can do that and allows it, so that the
-/// stages of a pipe seldom wait for each other. A larger pipe and any other file stay as they are.
+/// Enlarges the pipe of a file descriptor to 1 MiB, if the system allows it, so that the stages of a pipe
+/// seldom wait for each other. A larger pipe and any other file stay as they are.
 void enlarge_pipe([[maybe_unused]] int descriptor) {
 #ifdef F_SETPIPE_SZ
   constexpr int kPipeSize = 1 << 20;
-  // For a file that is not a pipe, the size is -1; where the system refuses, the pipe keeps its size.
+  // For a file that is not a pipe, the size is -1; if the system refuses, the pipe keeps its size.
   const int size = ::fcntl(descriptor, F_GETPIPE_SZ);
   if (size >= 0 && size < kPipeSize) ::fcntl(descriptor, F_SETPIPE_SZ, kPipeSize);
 #endif
@@ -173,7 +173,7 @@ int Tool::status_of(const std::function<void()>& work) try {
     return fail(error.what(), kExitFailure);
   } catch (const std::bad_alloc&) {
     return fail_without_memory();
-  } catch (const std::length_error&) {  // more than an address space of 32 bits can hold
+  } catch (const std::length_error&) {  // too much for an address space of 32 bits
     return fail_without_memory();
   } catch (const std::exception& error) {
     return fail(error.what(), kExitFailure);
@@ -214,8 +214,8 @@ int Tool::fail(const std::string& message, int status) {
   return status;
 }
 
-/// Passes the failure of an earlier stage on. In a pipe that stage has reported it on the same stderr, so
-/// only the last stage adds that nothing came of it.
+/// Passes on the failure of an earlier stage. In a pipe, that stage has reported it on the same stderr, so
+/// only the last stage adds that there is no output.
 int Tool::fail_after(const EarlierFailure& failure) {
   const bool makes_picture = output_kind_ == OutputKind::other_text;
   if (!input_ || !is_pipe(input_->descriptor()))
@@ -230,11 +230,11 @@ int Tool::fail_after(const EarlierFailure& failure) {
 void Tool::tell_next_stage(const std::string& reason) {
   if (output_kind_ == OutputKind::other_text) return;
   try {
-    // At a terminal the message on stderr is enough.
+    // At a terminal, the message on stderr is enough.
     if (::isatty(STDOUT_FILENO) == 0) output_.append(error_line(reason));
     output_.flush();
   } catch (const IoError&) {
-    // The output has failed, too, or was the failure; the exit status remains.
+    // The output has failed, too, or was the failure; only the exit status is left.
   }
 }
 
@@ -243,7 +243,7 @@ int Tool::fail_without_memory() noexcept {
   try {
     if (out_of_memory_.is_told_to_next_stage) output_.flush();
   } catch (const std::exception&) {
-    // The output has failed, too; the exit status remains.
+    // The output has failed, too; only the exit status is left.
   }
   out_of_memory_.report();
   return kExitFailure;

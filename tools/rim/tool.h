@@ -18,13 +18,13 @@ namespace pipeline {
 
 // The exit statuses of all tools.
 constexpr int kExitDone = 0;
-constexpr int kExitFailure = 1;  // bad input, or reading or writing failed
+constexpr int kExitFailure = 1;  // bad input, or a failure to read or write
 constexpr int kExitMisuse = 2;   // a wrong command line
 
 /// A text opened for reading, closed with this object.
 class InputFile {
  public:
-  /// `path` is a file's name, or "-" for standard input. An IoError if it cannot be opened.
+  /// `path` is a file's name, or "-" for standard input. Throws an IoError if it cannot be opened.
   explicit InputFile(const std::string& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -44,7 +44,7 @@ struct Timing {
   double work_seconds = 0;
   double write_seconds = 0;
   std::uint64_t triangle_count = 0;
-  std::string details;  // counts of one tool alone
+  std::string details;  // counts that only one tool has
 
   /// Adds the time since the last call (or the start) to `phase`, one of the three above.
   void lap(double Timing::*phase);
@@ -56,43 +56,43 @@ struct Timing {
 /// The kind of a tool's output: stage text ends with an error line when the tool fails.
 enum class OutputKind { stage_text, other_text };
 
-/// The rim that the four tools share: common options, input and output, one report of a failure, the exit
+/// The rim that the tools share: common options, input and output, a single report of a failure, the exit
 /// status.
 class Tool {
  public:
   Tool(const ToolDescription& description, OutputKind output_kind);
 
-  /// For the tool's own options and operands, before it calls `run`.
+  /// Takes the tool's own options and operands, before it calls `run`.
   CommandLine& options() { return options_; }
-  /// Parses the command line, does `work`, checks that everything was written; returns the exit status.
+  /// Parses the command line, does `work`, and checks that everything is written; returns the exit status.
   int run(int argc, char** argv, const std::function<void()>& work);
 
   /// The input: the last operand, else standard input. The first call opens it.
   TextReader& input();
-  /// The name of the input, "-" for standard input: for a tool whose library opens it.
+  /// The name of the input, or "-" for standard input, for a tool that opens it otherwise.
   [[nodiscard]] const std::string& input_path() const { return input_path_; }
-  /// The tool adds all its operands itself, and opens what they name.
+  /// Lets the tool add all its operands, and open their files, itself.
   void take_own_operands() { has_own_operands_ = true; }
-  /// Takes another operand in place of the last one.
+  /// Makes another operand than the last one the input.
   void set_input(const std::string& path) { input_path_ = path; }
-  /// Opens a text besides the input. A UsageError that names it `name` if both are standard input.
+  /// Opens a text besides the input. A UsageError calls it `name` if both are standard input.
   [[nodiscard]] InputFile second_input(const std::string& path, const std::string& name) const;
-  /// A UsageError if two outputs are one file, or one is an input: INPUT or one of `inputs`. Its error line
-  /// then goes to no file.
+  /// Throws a UsageError if two outputs are one file, or one is an input: INPUT or one of `inputs`. Then no
+  /// file gets an error line.
   void expect_separate(const std::vector<NamedFile>& outputs, std::vector<NamedFile> inputs = {});
-  /// The output is a stage text from now on, though the tool's is another one.
+  /// Makes the output a stage text, though the tool usually writes another.
   void write_stage_text() { output_kind_ = OutputKind::stage_text; }
   /// Standard output.
   TextWriter& output() { return output_; }
-  /// Flushes and closes the output, for a tool that has work left once the output is safe; otherwise `run`
+  /// Flushes and closes the output, for a tool that has more to do once the output is safe; otherwise `run`
   /// does it.
   void close_output();
   Timing& timing() { return timing_; }
-  /// True if standard output is no pipe, so that no further stage can report.
+  /// True if standard output is not a pipe, so that no later stage can report.
   [[nodiscard]] static bool is_last_stage();
   /// "tool: note: ..." on stderr: a warning; the run continues.
   void note(const std::string& message) const;
-  /// A line on stderr that is a result, without the tool's name.
+  /// Prints a result on stderr, without the tool's name.
   static void report(const std::string& line);
 
  private:
@@ -105,7 +105,7 @@ class Tool {
   void tell_next_stage(const std::string& reason);
   void report_timing();
 
-  OutOfMemoryReport out_of_memory_;  // first: the other members allocate
+  OutOfMemoryReport out_of_memory_;  // first, as the other members allocate
   std::string name_;
   OutputKind output_kind_;
   CommandLine options_;

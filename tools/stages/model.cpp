@@ -58,11 +58,11 @@ std::optional<std::size_t> belt_count(const std::string& given) {
   return static_cast<std::size_t>(count);
 }
 
-/// Notes on a scene that reads well, but may not be what was meant.
+/// Notes a scene that is correct, but perhaps not as intended.
 void note_odd_scene(const Tool& tool, const ModelStage& stage, const ModelOptions& chosen,
                     const std::string& file, std::uint64_t triangle_count) {
   if (const auto note = bright_light_note(stage.appearance())) tool.note(*note);
-  if (chosen.first.empty())  // a part of a scene has its pops, and what its transforms move, in other parts
+  if (chosen.first.empty())  // a part may have its pops and its transforms' objects in other parts
     for (const std::string& note : stage.odd_transforms().notes(file, triangle_count > 0)) tool.note(note);
   if (triangle_count == 0 || stage.flattening_scale())
     tool.note(empty_scene_note(triangle_count, stage.flattening_scale()));

@@ -12,7 +12,7 @@ void StageLoop::write(const TriangleBatch& batch) {
   tool_.timing().lap(&Timing::write_seconds);
 }
 
-/// Completes the text, and notes on stderr where its digits are uncertain.
+/// Completes the text, and notes uncertain digits.
 void StageLoop::finish(const UncertainDigits& uncertain_lights) {
   writer_.finish();
   statistics_.add("triangles", tool_.timing().triangle_count);

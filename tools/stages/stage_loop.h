@@ -11,11 +11,11 @@
 
 namespace pipeline {
 
-/// The loop of a text filter: reads a batch, transforms it, writes it, and passes it on at once, until the
-/// input ends. An error is reported after the triangles before it are written.
+/// The loop of a text filter: reads a batch, transforms it, and writes it out at once, until the input ends.
+/// An error is reported after the triangles before it are written.
 class StageLoop {
  public:
-  /// `rounder` is the one that the transform uses.
+  /// `rounder` is the transform's.
   StageLoop(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, Statistics& statistics)
       : tool_(tool), writer_(writer), rounder_(rounder), statistics_(statistics) {
     statistics_.open();
@@ -42,7 +42,7 @@ class StageLoop {
     finish(uncertain_lights);
   }
 
-  /// For a stage that reads triangles, if it is the last; otherwise the next one notes it.
+  /// For a stage that reads triangles, if it is the last; otherwise the next stage notes it.
   void note_if_no_triangle_came() const;
   /// Adds the extents in `format` to the statistics, and writes them once the output is safe.
   void write_statistics(NumberFormat format);

@@ -10,7 +10,7 @@
 namespace pipeline {
 namespace {
 
-/// The words as a line, with the characters after it that a LineScanner needs.
+/// The words as a line, followed by the characters that a LineScanner needs after it.
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += word + " ";

@@ -13,7 +13,7 @@
 
 namespace pipeline {
 
-/// `--digits` and `--precision`: how coordinates are calculated and printed.
+/// `--digits` and `--precision`: the calculation and the printing of coordinates.
 class NumberOptions {
  public:
   explicit NumberOptions(CommandLine& options);
@@ -21,7 +21,7 @@ class NumberOptions {
   [[nodiscard]] NumberFormat format() const;
   /// A rounder for coordinates whose vertices come from `file`.
   [[nodiscard]] CoordinateRounder rounder(const std::string& file) const;
-  /// The rounding error to add to bounds, which `rounder` will keep. A UsageError unless the precision is
+  /// The rounding error to add to bounds; makes `rounder` keep it. A UsageError unless the precision is
   /// extended.
   [[nodiscard]] ErrorBound kept_bounds(CoordinateRounder& rounder) const;
 
@@ -50,7 +50,7 @@ class CameraOptions {
   std::string scene_path_;
 };
 
-/// `--light`, one light more, and `--light-at`, which moves one of the text.
+/// `--light`, an additional light, and `--light-at`, which moves one of the text's lights.
 class LightOption {
  public:
   explicit LightOption(CommandLine& options);
@@ -59,7 +59,7 @@ class LightOption {
   [[nodiscard]] std::string name() const {
     return !words_.empty() ? "--light" : !at_.empty() ? "--light-at" : "";
   }
-  /// Moves and adds the lights, if they are given; an error that names the option if a number is wrong.
+  /// Moves or adds the light, if given; an error names the option if a number is wrong.
   void apply_to(Appearance& appearance) const;
 
  private:
@@ -68,7 +68,7 @@ class LightOption {
   std::vector<std::string> words_, at_;
 };
 
-/// The projection as options, `--scene`, and `--aspect`, which says how a perspective's aspect is meant.
+/// The projection as options, `--scene`, and `--aspect`, the meaning of a perspective's aspect.
 class ProjectionOptions {
  public:
   explicit ProjectionOptions(CommandLine& options);

@@ -27,7 +27,7 @@ void ViewReport::suspect_radians(const Located<Projection>& projection) {
     volume_if_radians_.emplace(clip_from_view({in_degrees, projection.location}));
     fov_y_degrees_ = perspective->fov_y_degrees;
   } catch (const InputError&) {
-    // As wide as that, it would be no perspective.
+    // With a wider angle, it would not be a perspective.
   }
 }
 

@@ -12,21 +12,21 @@
 
 namespace pipeline {
 
-/// Where the triangles of `project` lie: for a note while none is passed on, and for --stats. Without
-/// --stats, it looks at batches only until a triangle is passed on (and, where fovY is below pi, until a
-/// vertex is in view).
+/// Watches where the triangles of `project` lie: for a note if none is passed on, and for --stats. Without
+/// --stats, it watches only until a triangle is passed on (and, if fovY is below pi, until a vertex is in
+/// view).
 class ViewReport {
  public:
   /// `volume` is the stage's view volume.
   ViewReport(const ProjectionStage& stage, const ViewVolume& volume, bool counts_all)
       : stage_(stage), volume_(volume), counts_all_(counts_all) {}
 
-  /// From now on, asks whether a perspective's fovY below pi was meant in radians.
+  /// Makes the report check whether a perspective's fovY below pi was meant in radians.
   void suspect_radians(const Located<Projection>& projection);
-  /// Looks at a batch before the stage, and at what it became.
+  /// Takes a batch before the stage and after it.
   void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc);
 
-  /// Why nothing will be seen; none where something may be.
+  /// The reason why nothing will be seen; none if something may be.
   [[nodiscard]] std::optional<std::string> note() const;
   void add_to(Statistics& statistics) const;
 
@@ -42,7 +42,7 @@ class ViewReport {
   UnseenPlaces outside_;
 
   double fov_y_degrees_ = 0;
-  std::optional<ViewVolume> volume_if_radians_;  // none where there is no such suspicion, or no longer
+  std::optional<ViewVolume> volume_if_radians_;  // none if that is not, or no longer, suspected
   std::uint64_t in_view_if_radians_count_ = 0;
   bool is_filled_ = false;  // by triangles without a vertex in view
 };

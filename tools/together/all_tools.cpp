@@ -1,5 +1,5 @@
-// One program for the tools: called model, it is model. For where many programs are many times the same code:
-// a page, an archive.
+// One program for all tools: under the name model, it is model. For places where each would repeat the same
+// code: a page, an archive.
 
 #include <algorithm>
 #include <cstdio>
@@ -7,7 +7,7 @@
 
 #include "tools/rim/tool.h"
 
-// CMakeLists.txt defines ALL_TOOLS, an ENTRY for each of them that is built, and renames their mains.
+// CMakeLists.txt defines ALL_TOOLS, an ENTRY for each tool that is built, and renames their mains.
 #define ENTRY(tool) int tool##_entry(int argc, char** argv);
 ALL_TOOLS
 #undef ENTRY
@@ -23,7 +23,7 @@ struct Entry {
 constexpr Entry kEntries[] = {ALL_TOOLS};
 #undef ENTRY
 
-/// The name of a tool as its source has it: join_seen for /usr/bin/join-seen.
+/// A tool's name as in its source: join_seen for /usr/bin/join-seen.
 std::string name_of(const char* path) {
   std::string name = path;
   name.erase(0, name.find_last_of('/') + 1);  // npos + 1 is 0

@@ -9,8 +9,8 @@
 
 namespace pipeline {
 
-/// Adds the rays that make the color of a pixel, a line each without a line feed: docs/ray-tracing.md has the
-/// format.
+/// Adds a line, without a line feed, for each ray that makes the color of a pixel; docs/ray-tracing.md has
+/// the format.
 void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
                    const LightTransportSetup& setup, std::vector<std::string>& lines);
 

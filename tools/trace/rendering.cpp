@@ -34,7 +34,7 @@ PictureRays rays_of(const TraceOptions& chosen, const Viewport& screen) {
           .counts_covered = chosen.summarizes};
 }
 
-/// A ray, or a triangle of the hierarchy, takes as long as 256 samples that zbuf draws.
+/// The number of threads: a ray, or a triangle of the hierarchy, takes as long as 256 samples of zbuf.
 int threads_for(const TraceOptions& chosen, const Viewport& screen, std::size_t triangle_count) {
   const auto samples = static_cast<std::size_t>(chosen.sample_count);
   const auto pixels = static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.rows);
@@ -54,20 +54,20 @@ LightTransportSetup light_transport_setup(const TraceOptions& chosen, const Trac
           .max_depth = chosen.max_depth};
 }
 
-/// True if colors need rays beyond primary ones: a shadow may fall, or a material mirrors or is clear.
+/// True if colors need more than primary rays: a shadow may fall, or a material mirrors or is clear.
 bool needs_light_transport(const LightTransportSetup& setup) {
   const bool has_lights = setup.model != ShadingModel::none && !setup.lighting.lights.empty();
   return (has_lights && setup.has_shadows) ||
          (setup.recurses && std::ranges::any_of(setup.materials, &Material::sends_rays));
 }
 
-/// Why triangles do not show: the notes of `project` and of `zbuf`.
+/// The reason why triangles do not show: the note of `project`, else that of `zbuf`.
 std::optional<std::string> unseen_triangles_note(const TracedScene& scene) {
   const auto note = scene.view().note();
   return note ? note : scene.drawing().empty_picture_note();
 }
 
-/// Why a scene with spheres shows nothing: the note on those, and on the triangles, if there are some.
+/// The reason why a scene with spheres shows nothing: the notes on spheres and, if there are any, triangles.
 std::string unmet_note(const TracedScene& scene, std::uint64_t object_count) {
   const std::string note = unseen_spheres_note(scene.spheres());
   const std::string triangles = unseen_triangles_note(scene).value_or("");
@@ -99,7 +99,7 @@ class Rendering {
     const bool sends_rays = rays_.has_colors && needs_light_transport(light_);
     casts_any_rays_ = sends_rays || !probed_.empty();
     scene_.read(casts_any_rays_);
-    // The shader of zbuf has no spheres.
+    // zbuf's shader does not take spheres.
     has_spheres_ = !scene_.triangles().spheres().empty();
     traces_light_ = sends_rays || (rays_.has_colors && has_spheres_);
     tool_.timing().lap(&Timing::read_seconds);
@@ -139,7 +139,7 @@ class Rendering {
     for (const std::string& line : probe_lines_) Tool::report(line);
   }
 
-  /// Notes why the image is empty, if it is, or squeezed.
+  /// Notes an empty or a squeezed image.
   void note(const TracedPicture& picture) const {
     if (!rays_.has_colors) return;
     if (const auto note = invisible_note(picture.shown))
@@ -178,7 +178,7 @@ class Rendering {
   std::optional<SurfaceShader> shader_;
   LightTransportSetup light_;
   std::vector<Pixel> probed_;
-  bool casts_any_rays_ = false;  // beyond primary ones
+  bool casts_any_rays_ = false;  // other than primary ones
   bool has_spheres_ = false, traces_light_ = false;
   std::vector<std::string> probe_lines_;
 };

@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-/// How far the surface c + u a + v b + w d, u^2 + v^2 + w^2 = 1, reaches from c along a vector.
+/// The reach of the surface c + u a + v b + w d, u^2 + v^2 + w^2 = 1, from c along a vector.
 double reach(const SpherePoints& points, const Vec3& along) {
   double square = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -18,7 +18,7 @@ double reach(const SpherePoints& points, const Vec3& along) {
   return std::sqrt(square);
 }
 
-/// The z of view space at a depth in NDC; minus infinity for one that no point in front of the eye has.
+/// The z of view space at a depth in NDC; minus infinity if no point in front of the eye has that depth.
 double z_at(double depth, const ProjectionTransform& projection) {
   const auto [near, far] = std::pair(projection.near, projection.far);
   if (!projection.is_perspective) return -(near + (far - near) * ((depth + 1) / 2));
@@ -37,7 +37,8 @@ SphereReport::SphereReport(const ProjectionTransform& projection, const Viewport
   const double x_scale = projection.x_scale.nearest_double(), y_scale = projection.y_scale.nearest_double();
   const double x_offset = projection.x_offset.nearest_double(),
                y_offset = projection.y_offset.nearest_double();
-  // x in NDC is (x x_scale + z x_offset) / -z, or x x_scale + x_offset; `sign` is that of what is inside.
+  // x in NDC is (x x_scale + z x_offset) / -z, or x x_scale + x_offset; `sign` is 1 if the inside is above
+  // the limit.
   const auto plane = [&](const Vec3& axis, double offset, double limit, double sign, UnseenPlace outside) {
     if (is_perspective_) return Plane{scaled(sum(axis, {0, 0, offset + limit}), sign), 0, outside};
     return Plane{scaled(axis, sign), sign * (offset - limit), outside};

@@ -9,7 +9,7 @@
 
 namespace pipeline {
 
-/// Where the spheres of a text in view space are, for a note in case that no ray meets one.
+/// The places of a text's spheres in view space, for a note if no ray meets one.
 class SphereReport {
  public:
   SphereReport(const ProjectionTransform& projection, const Viewport& screen);

@@ -1,5 +1,5 @@
-// trace: finds what is seen at each pixel by rays. View space in, depths and image out, in place of project
-// and zbuf.
+// trace: finds by rays what each pixel shows. View space in, depths and image out, instead of project and
+// zbuf.
 
 #include <unistd.h>
 
@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
       OutputKind::other_text);
   TraceOptions chosen(tool.options());
   Statistics statistics(tool.options());
-  // A closed pipe is a failure to write like any other: the image that was begun has to be removed.
+  // A closed pipe is a failure to write like any other: the unfinished image must be removed.
   std::signal(SIGPIPE, SIG_IGN);
 
   return tool.run(argc, argv, [&] {

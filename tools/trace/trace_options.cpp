@@ -12,7 +12,7 @@ namespace {
 constexpr int kSamplesOfSampling = 5;
 
 constexpr std::array kSamplings = {"basic", "regular", "jittered", "adaptive"};  // by Sampling
-constexpr int kMaxDepth = 1000;  // what a thread's stack has room for
+constexpr int kMaxDepth = 1000;  // a thread's stack has room for this
 
 }  // namespace
 

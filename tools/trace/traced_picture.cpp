@@ -13,7 +13,7 @@ namespace pipeline {
 
 namespace {
 
-/// With three digits.
+/// The value with three digits.
 std::string rounded(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
@@ -46,8 +46,8 @@ std::string to_text(const TraceWork& work) {
 
 namespace {
 
-/// Gives samples their colors, for one thread. A sample is a pixel of the screen whose rays are cast: of the
-/// picture's, or of a finer one.
+/// Gives samples their colors, for one thread. A sample is a pixel of the screen whose rays are cast: the
+/// picture's, or a finer one.
 class SampleColors {
  public:
   SampleColors(const TracedScene& scene, const Bvh& bvh, const PixelRays& rays, const ColorSetup& setup)
@@ -55,8 +55,7 @@ class SampleColors {
     if (setup.light != nullptr) light_.emplace(triangles_, bvh, *setup.light);
   }
 
-  /// The color of a sample that shows `seen`; one that shows nothing has the background's. Rays' colors are
-  /// clamped and rounded as `zbuf` does.
+  /// The color of a sample that shows `seen`. Rays' colors are clamped and rounded as in `zbuf`.
   Color color(int row, int column, const RayCaster::Seen& seen) {
     if (light_) {
       const Color color = rounded_color(light_->radiance(seen.id, rays_.ray(row, column)));
@@ -75,7 +74,7 @@ class SampleColors {
     return color;
   }
   [[nodiscard]] const ShownColors& shown() const { return shown_; }
-  /// None if no rays bring colors.
+  /// The light transport; none if no rays bring colors.
   [[nodiscard]] const std::optional<LightTransport>& light() const { return light_; }
 
  private:
@@ -85,7 +84,7 @@ class SampleColors {
   static constexpr std::size_t kCached = 256;
   struct CachedSurface {
     std::optional<Id> id;
-    Color own_color;  // of triangles without a shader
+    Color own_color;  // for triangles without a shader
     SurfaceShader::Surface surface;
   };
 
@@ -138,7 +137,7 @@ class PixelTracer {
     if (rays_.has_colors && !has_one_sample) picture.colors[pixel] = mean_of(row, column);
   }
   [[nodiscard]] std::uint64_t ray_count() const { return ray_count_; }
-  /// Call after all threads have finished.
+  /// Adds this thread's counts and colors; to be called after all threads have finished.
   void add_up(TracedPicture& picture) const {
     picture.covered_count += covered_count_;
     picture.shown.add(colors_.shown());

@@ -16,32 +16,32 @@
 
 namespace pipeline {
 
-/// How samples get their colors.
+/// The source of the samples' colors.
 struct ColorSetup {
   Color background;
-  const SurfaceShader* shader = nullptr;       // of zbuf; without one, every triangle has a color of its own
-  const LightTransportSetup* light = nullptr;  // if set, rays bring the colors, and not the shader
+  const SurfaceShader* shader = nullptr;       // zbuf's; if null, every triangle has its own color
+  const LightTransportSetup* light = nullptr;  // if set, rays bring the colors, not the shader
 };
 
-/// How long the parts of a run of `trace` took, and how many rays there were.
+/// The times of a run of `trace` by part, and the counts of rays.
 struct TraceWork {
   double build_seconds = 0;
   double cast_seconds = 0;
   std::uint64_t primary_rays = 0;
-  LightTransport::RayCounts rays;  // the others
+  LightTransport::RayCounts rays;  // the other rays
 };
 
 /// The line of `--timing`.
 std::string to_text(const TraceWork& work);
 
-/// The rays that are cast for a picture.
+/// The rays to cast for a picture.
 struct PictureRays {
   [[nodiscard]] SamplePlaces places() const { return {screen, sample_count, is_random(sampling)}; }
 
   Viewport screen;
   Sampling sampling = Sampling::basic;
   int sample_count = 1;  // along each side of a pixel
-  int threshold = 0;     // of adaptive sampling: takes all samples if the first differ by this many levels
+  int threshold = 0;     // of adaptive sampling: first samples that differ by it call for all
   bool has_colors = true;
   bool has_depths = true;
   bool has_triangles = false;
@@ -50,7 +50,7 @@ struct PictureRays {
 
 /// The triangles, depths and colors of a screen, row after row.
 struct TracedPicture {
-  /// The picture of nothing.
+  /// The picture without triangles.
   TracedPicture(const PictureRays& rays, Color background);
   template <typename T>
   [[nodiscard]] std::span<const T> row_of(const std::vector<T>& entries, int row) const {
@@ -59,17 +59,17 @@ struct TracedPicture {
   }
 
   Viewport screen;
-  // Empty if they are not requested; depths and triangles belong to the pixels' centers.
+  // Each is empty if not requested; depths and triangles are those at the pixels' centers.
   std::vector<Color> colors;
   std::vector<double> depths;
   std::vector<std::int64_t> triangles;  // their numbers, -1 for none
-  std::uint64_t covered_count = 0;      // of pixels whose center shows something; 0 if that is not requested
+  std::uint64_t covered_count = 0;      // of pixels whose center shows something; 0 if not requested
   TraceWork work;                       // without seconds
   ShownColors shown;
 };
 
-/// Casts the rays of a picture on threads, whose number changes nothing. The shader's screen, if there is
-/// one, has the samples' places.
+/// Casts the rays of a picture on threads, whose number changes nothing. A shader's screen must be the one of
+/// the samples' places.
 TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const PictureRays& rays,
                              const ColorSetup& colors, ThreadPool& pool);
 

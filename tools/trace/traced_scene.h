@@ -13,24 +13,24 @@
 
 namespace pipeline {
 
-/// The tool's input in memory: all that rays may meet, and how it is looked at.
+/// The tool's input in memory: all that rays may meet, and its projection.
 class TracedScene {
  public:
-  /// Reads the header. With `counts`, the report on the view counts for --stats.
+  /// Reads the header. With `counts`, the reports count for --stats.
   TracedScene(Tool& tool, const TraceOptions& chosen, const Viewport& screen, bool counts);
   TracedScene(const TracedScene&) = delete;
   TracedScene& operator=(const TracedScene&) = delete;
 
-  /// Reads the body, to its end. With `keeps_dropped`, also what `project` drops.
+  /// Reads the body to its end. With `keeps_dropped`, keeps the triangles that `project` drops, too.
   void read(bool keeps_dropped);
   /// See TracedTriangles.
   void keep_images_alone() { triangles_.keep_images_alone(); }
 
-  /// As `project` writes it.
+  /// The header as `project` writes it.
   [[nodiscard]] const StageHeader& header() const { return header_; }
   [[nodiscard]] const SourceLocation& header_end() const { return reader_.header_end(); }
   [[nodiscard]] const ProjectionTransform& projection() const { return projection_; }
-  /// As the header or the options give it.
+  /// The projection as the header or the options give it.
   [[nodiscard]] const Projection& given_projection() const { return given_.value; }
   [[nodiscard]] const TracedTriangles& triangles() const { return triangles_; }
   [[nodiscard]] const ViewReport& view() const { return view_; }

@@ -12,17 +12,17 @@
 
 namespace pipeline {
 
-/// Colors the rows of an image, of pixels or of samples, by their tags; where surfaces are shaded, some rows
-/// at a time on threads, while those before them are written.
+/// Colors the rows of an image, of pixels or of samples, by their tags. If surfaces are shaded, threads color
+/// some rows while the rows before them are written.
 class ColoredRows {
  public:
-  /// Without a shader, the store knows the colors; `wireframe` may be null.
+  /// Without a shader, the store has the colors; `wireframe` may be null.
   ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, Wireframe* wireframe, int first_row,
               int thread_count, PictureOutputs& outputs);
 
   /// Takes the next row.
   void add(const VisibleRow& seen);
-  /// Colors and writes the rows that wait.
+  /// Colors and writes the waiting rows.
   void finish();
 
  private:
@@ -37,7 +37,7 @@ class ColoredRows {
   Wireframe* wireframe_;
   PictureOutputs& outputs_;
   std::vector<Color> colors_;  // without a shader
-  int row_;                    // the first that is not colored
+  int row_;                    // the first row not yet colored
   std::vector<Row> waiting_, colored_;
   std::size_t count_ = 0, colored_count_ = 0;  // of those rows
   ThreadPool pool_;

@@ -12,16 +12,16 @@
 
 namespace pipeline {
 
-/// Watches the triangles of `zbuf` as they are read: whether one shows and, with --stats, the fate of
-/// each. Takes them in the order of the stream, so the report depends neither on the visibility algorithm nor
-/// on the threads that draw.
+/// Watches the triangles of `zbuf` as they are read: whether one shows and, with --stats, the fate of each.
+/// It takes them in the order of the stream, so it depends neither on the visibility algorithm nor on
+/// threads.
 class DrawingReport {
  public:
   DrawingReport(const PixelRules& rules, const Viewport& screen, int sample_count, bool counts);
 
   /// Takes the next triangles.
   void add(const TriangleBatch& p_ndc);
-  /// Why no triangle shows an area, or all together hardly any; none if they do.
+  /// The reason why no triangle shows an area, or all together hardly any; none if they do.
   [[nodiscard]] std::optional<std::string> empty_picture_note() const;
   /// Adds the counts and extents, if the report counts.
   void add_to(Statistics& statistics) const;
@@ -30,8 +30,8 @@ class DrawingReport {
   void measure(const TriangleBatch& p_ndc);
 
   Viewport screen_;
-  BoundingBox extent_;    // of the triangles in the window, while they are a speck
-  bool is_speck_ = true;  // all of them together, so far
+  BoundingBox extent_;    // of the triangles in the window, as long as they are a speck
+  bool is_speck_ = true;  // all triangles together, so far
   EmptyPicture at_centers_;
   std::optional<EmptyPicture> at_samples_;
   std::optional<DrawingCounter> counter_;

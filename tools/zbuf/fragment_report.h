@@ -15,11 +15,11 @@ namespace pipeline {
 std::vector<Pixel> probed_pixels(const PictureOptions& chosen, const Viewport& screen);
 
 /// Reports every triangle's fragments at the requested pixels. Takes triangles in the order of the stream, so
-/// the report does not depend on the threads that draw them.
+/// it does not depend on the threads that draw.
 class FragmentReport {
  public:
-  /// Reports on the chosen probes and, unless it is null, to `log` on the whole picture. A UsageError if a
-  /// probe is not on the screen.
+  /// Reports on the chosen probes and, unless `log` is null, writes the fragments of the whole picture to it.
+  /// A UsageError if a probe is not on the screen.
   FragmentReport(const ZbufOptions& chosen, const Viewport& screen, TextWriter* log);
 
   /// Takes the next triangles.

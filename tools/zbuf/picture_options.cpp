@@ -19,8 +19,7 @@
 namespace pipeline {
 namespace {
 
-/// The name of an image, with /dev/stdout, to which OutputFile writes without replacing anything, in place of
-/// a dash.
+/// The name of an image, with a dash replaced by /dev/stdout, to which OutputFile writes directly.
 std::string named_standard_output(const std::string& image) {
   return image_file_of(image) == "-" ? image.substr(0, image.size() - 1) + "/dev/stdout" : image;
 }

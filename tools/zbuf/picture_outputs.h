@@ -21,33 +21,33 @@
 
 namespace pipeline {
 
-/// All that a run writes, as far as each is requested: the image, the depths, as text to standard output or a
-/// file, as an image and an array, the array of the triangles seen, the text of `--seen`, the fragments and
-/// the statistics. Closes them, and standard output, before the first gets its name.
+/// All requested outputs of a run: the image; the depths as text to standard output or a file, as an image
+/// and as an array; the array of visible triangles; the text of `--seen`; the fragments and the statistics.
+/// Closes them, and standard output, before the first gets its name.
 class PictureOutputs {
  public:
   /// Opens the statistics.
   PictureOutputs(Tool& tool, const PictureOptions& chosen, Statistics& statistics);
 
-  /// Where the fragments go; null if `path` is empty.
+  /// Opens the file of the fragments; null if `path` is empty.
   TextWriter* open_fragments(const std::string& path);
   /// Writes and closes the fragments and the statistics.
   void close_reports();
-  /// Opens all others. The image takes the colors of `sample_count` x `sample_count` samples a pixel. A
-  /// background that is not opaque needs an image that can_hold_alpha.
+  /// Opens all other outputs. The image takes the colors of `sample_count` x `sample_count` samples per
+  /// pixel. A background that is not opaque needs an image that can_hold_alpha.
   void open(const Viewport& screen, int sample_count, Color background);
-  /// Opens a text of one tool alone; null if `path` is empty.
+  /// Opens a text that only one tool writes; null if `path` is empty.
   TextWriter* open_text(const std::string& path);
 
   [[nodiscard]] bool wants_colors() const { return image_ != nullptr; }
   [[nodiscard]] bool wants_triangles() const { return triangles_ != nullptr; }
-  // Each takes the next row, from the top.
+  // Each of these takes the next row, from the top.
   void write_colors(std::span<const Color> colors);
   void write_depths(std::span<const double> depths, std::span<const Ball> exact = {});
-  /// The numbers of triangles, if they are wanted.
+  /// Takes the numbers of triangles, if wanted.
   void write_triangles(std::span<const std::int64_t> numbers) { triangles_->write_row(numbers); }
-  /// Writes all that is still buffered, closes and commits the files. Where the run summarizes, reports how
-  /// many pixels are covered.
+  /// Writes all that is still buffered, closes and commits the files. If the run summarizes, reports the
+  /// share of covered pixels.
   void finish(std::uint64_t covered_count);
 
  private:
@@ -59,12 +59,12 @@ class PictureOutputs {
   std::optional<OutputFile> fragments_file_;
   std::optional<TextWriter> fragments_;
   Viewport screen_;
-  std::deque<OutputFile> files_;  // the others
+  std::deque<OutputFile> files_;  // the other files
   std::unique_ptr<ImageWriter> image_;
   std::optional<Downsampler> means_;
   std::deque<TextWriter> text_files_;
   std::vector<TextWriter*> texts_;  // standard output and files
-  TextWriter* depths_ = nullptr;    // one of these; null: none
+  TextWriter* depths_ = nullptr;    // one of `texts_`, or null
   std::unique_ptr<RowWriter<double>> depth_image_;
   std::unique_ptr<RowWriter<double>> depth_array_;
   std::vector<double> array_row_;

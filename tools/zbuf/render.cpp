@@ -32,14 +32,14 @@
 namespace pipeline {
 namespace {
 
-// Where limits are wider, the doubles of depths may have too few digits for the decimals written (F5).
+// With wider limits, depths in doubles may have too few digits for the decimals written (F5).
 constexpr double kMaxDepthInDoubles = 1000;
 
 std::size_t pixel_count(const Viewport& screen) {
   return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.drawn_row_count());
 }
 
-/// Whatever receives every batch before it is drawn.
+/// The reports, which get every batch before it is drawn.
 struct Reports {
   Reports(const ZbufOptions& chosen, const Viewport& screen, bool counts, TextWriter* fragment_log)
       : drawing(chosen.rules, screen, chosen.sample_count, counts), fragments(chosen, screen, fragment_log) {}
@@ -55,9 +55,9 @@ struct Reports {
   }
 };
 
-/// For each triangle: is it nearer than all before it at some pixel or sample? Under a depth
-/// epsilon any other may be left out of the text that `--seen` writes: a fragment that is drawn over one of
-/// depth c is nearer than c by more than epsilon, and none before it is.
+/// For each triangle: is it nearer than all before it at some pixel or sample? With a depth epsilon, the text
+/// of `--seen` needs no other triangle: a fragment drawn over one of depth c is nearer than c by more than
+/// epsilon, and no fragment before it is.
 class NearestSoFar {
  public:
   NearestSoFar(PixelRules rules, const Viewport& of_centers, int sample_count) {
@@ -103,7 +103,7 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Sta
   drawing.finish();
 }
 
-/// The depths of a row exactly; meaningless where no triangle is seen.
+/// Sets the exact depths of a row; they are meaningless where no triangle is visible.
 void set_exact_depths(const AnyCoverage& coverage, const TriangleStore& store, int row,
                       std::span<const PixelTag> ids, std::vector<Ball>& depths) {
   depths.resize(ids.size());
@@ -118,7 +118,7 @@ void set_exact_depths(const AnyCoverage& coverage, const TriangleStore& store, i
   }
 }
 
-/// Writes what was drawn. True if every pixel shows one and the same triangle.
+/// Writes the outputs. True if all pixels show one triangle.
 bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewport& screen,
                const SampledDrawing& drawing, const StageReader& reader, TriangleStore& store,
                std::optional<SurfaceShader>& shader, Wireframe* wireframe,
@@ -137,7 +137,7 @@ bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
     if (seen_text != nullptr) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
   };
   std::uint64_t covered_count = 0;
-  std::optional<PixelTag> only;  // seen so far, by all pixels
+  std::optional<PixelTag> only;  // the tag of all pixels so far
   bool is_one = true;
   const AnyCoverage coverage(chosen.rules, screen);
   int number = screen.drawn_rows().first;
@@ -172,7 +172,7 @@ bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
   return is_one;
 }
 
-/// Notes an empty or a squeezed picture. The note is about the whole picture; a band of it may well show
+/// Notes an empty or a squeezed picture. Notes are about the whole picture: a band of it may well show
 /// nothing.
 void note_odd_picture(const Tool& tool, const ZbufOptions& chosen, const DrawingReport& report,
                       const Viewport& screen, const std::optional<SurfaceShader>& shader,
@@ -206,7 +206,7 @@ StageReader opened(Tool& tool, const ZbufOptions& chosen, bool uses_decimals) {
   reader.accept_clipped();
   if (chosen.framed) reader.expect_framed();
   if (!chosen.seen_path.empty()) {
-    // The triangles seen leave out others that may be visible within the bounds.
+    // The visible triangles leave out others that may be visible within the bounds.
     if (reader.header().bounds)
       throw UsageError("--seen: " + expected_but_found("a text without bounds", "'bounds'"));
     reader.keep_text();

@@ -9,23 +9,23 @@
 
 namespace pipeline {
 
-/// The visible triangles at the pixel centers and, with several samples a pixel, at the samples.
+/// The visible triangles at the pixel centers and, with several samples per pixel, at the samples.
 class SampledDrawing {
  public:
   SampledDrawing(const ZbufOptions& chosen, const Viewport& of_centers, PixelTag background,
                  ThreadPool& pool);
 
-  /// Where to put the next batch and its tags.
+  /// The place for the next batch and its tags.
   [[nodiscard]] TaggedBatch& next() { return centers_->next(); }
-  /// Draws that batch now or later, at the latest in finish().
+  /// Draws this batch, at the latest in finish().
   void draw_next();
   /// Draws the batches still waiting.
   void finish();
 
-  /// Calls `visit` with the tags, which it may change, of every row in which something has been drawn.
+  /// Calls `visit` with the tags, which it may change, of every row with something drawn.
   void for_each_drawn_row(const std::function<void(std::span<PixelTag>)>& visit);
   [[nodiscard]] const Drawing& centers() const { return *centers_; }
-  /// Null if there is one sample a pixel, at its center.
+  /// The drawing at the samples; null if there is one sample per pixel, at its center.
   [[nodiscard]] const Drawing* samples() const { return samples_.get(); }
 
  private:

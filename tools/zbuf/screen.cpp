@@ -16,9 +16,9 @@ namespace pipeline {
 
 namespace {
 
-constexpr double kLeastStretch = 0.01;  // that is worth a note
+constexpr double kLeastStretch = 0.01;  // that deserves a note
 
-/// True if a file holds a config. Of a pipe, nothing can be read twice.
+/// True if a regular file holds a config; a pipe cannot be read twice.
 bool is_config(const std::string& path) {
   std::error_code no_error;
   if (path == "-" || !std::filesystem::is_regular_file(path, no_error)) return false;
@@ -39,7 +39,7 @@ std::string size_option(double columns, double rows) {
   return "--size " + count(columns) + "x" + count(rows);
 }
 
-/// Why a picture at another size shows other shapes than at the config's; none if it does not.
+/// The note on a picture that shows other shapes than at the config's size; none if it does not.
 std::optional<std::string> stretch_note(const Viewport& of_config, const Viewport& screen) {
   const double stretch = static_cast<double>(screen.columns) * of_config.rows /
                          (static_cast<double>(screen.rows) * of_config.columns);
@@ -50,7 +50,7 @@ std::optional<std::string> stretch_note(const Viewport& of_config, const Viewpor
          size_option(screen.columns, static_cast<double>(rows)) + " keeps its shape";
 }
 
-/// Width by height of what a projection shows between -1 and 1; none for a perspective by the rule angle.
+/// Width / height of a projection's window from -1 to 1; none for a perspective by the rule angle.
 std::optional<double> shape_of(const Projection& projection) {
   if (const auto* perspective = std::get_if<Perspective>(&projection)) {
     if (perspective->aspect_rule == AspectRule::angle) return std::nullopt;
@@ -97,7 +97,7 @@ std::optional<std::string> squeezed_note(const Projection& projection, const Vie
   const std::optional<double> of_camera = shape_of(projection);
   if (!of_camera) return std::nullopt;
   const double shape = *of_camera * (screen.left / screen.bottom);
-  // Half a pixel more or less in either direction.
+  // The size may differ by half a pixel in either direction.
   if (std::abs(screen.columns - shape * screen.rows) <= (1 + shape) / 2) return std::nullopt;
   const double columns = shape * screen.rows;
   const std::string option = columns <= kMaxViewportSize

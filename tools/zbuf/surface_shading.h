@@ -11,18 +11,18 @@
 
 namespace pipeline {
 
-/// A user's choices for a picture's surfaces; nullopt: as the text says.
+/// A user's choices for a picture's surfaces; the text decides where they are nullopt.
 struct SurfaceOptions {
   std::optional<ShadingModel> model;
   bool is_wireframe = false;
   std::optional<Color> background;
-  bool holds_alpha = false;  // the image can
+  bool holds_alpha = false;  // true if the image has room for it
 };
 
 /// The choices of a command line, without the wireframe.
 SurfaceOptions surface_options(const PictureOptions& chosen);
 
-/// Why a background is refused that is not opaque: what is expected in its place.
+/// The words for what is expected instead of a background that is not opaque.
 std::string expected_opaque_background();
 
 /// The color of pixels that show no triangle: black unless one is chosen or the header sets one.
@@ -31,22 +31,20 @@ Color background_color(const Appearance& appearance, std::optional<Color> chosen
 /// The lights of a scene.
 Lighting lighting_of(const Appearance& appearance, bool is_perspective);
 
-/// The materials by their numbers; without a line, the default alone.
+/// The materials by their numbers; without a line `material`, only the default.
 std::vector<Material> materials_of(const Appearance& appearance);
 
-/// Gives the triangles of a painted text the colors of their materials, white without a paint.
+/// Gives the triangles of a painted text their materials' paints, or white.
 void add_material_colors(const Appearance& appearance, TriangleBatch& batch);
 
-/// The default shading model: nowhere without lights, at every pixel with lights and
-/// normals, once per triangle with lights alone.
+/// The chosen shading model; by default, none without lights, phong with lights and normals, flat with lights
+/// alone.
 ShadingModel shading_model(const Appearance& appearance, std::optional<ShadingModel> chosen);
 
 /// The shader of the triangles of a projected text; none for a text without colors and lights, unless a
-/// wireframe is requested. The default model: none without lights, phong with
-/// lights and normals, flat with lights alone. The header of a text with lights must say how it was
-/// projected. An InputError if a model needs lights and there are none, or if the header's background is not
-/// opaque and the image cannot hold that. InputErrors name `header_end`, the
-/// place after the header.
+/// wireframe is requested. The header of a text with lights must have its projection. An InputError if a
+/// model needs lights and there are none, or if the header's background is not opaque and the image cannot
+/// hold an alpha. InputErrors name `header_end`, the place after the header.
 std::optional<SurfaceShader> surface_shader(const StageHeader& header, const SourceLocation& header_end,
                                             const Viewport& screen, const SurfaceOptions& chosen);
 

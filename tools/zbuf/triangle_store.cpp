@@ -6,9 +6,9 @@
 namespace pipeline {
 namespace {
 
-// A few MiB.
+// Corresponds to a few MiB.
 constexpr std::size_t kMinCapacity = std::size_t{1} << 14;
-// Corners and texts are many bytes, and new memory costs more than two passes over the pixels.
+// Corners and texts are large, and new memory costs more than two passes over the pixels.
 constexpr std::size_t kPixelsPerTriangle = 4;
 
 }  // namespace
@@ -48,9 +48,9 @@ void TriangleStore::add_text(const TriangleBatch& p_ndc, std::size_t index) {
   if (is_needed_) are_needed_.push_back(is_needed_(exact_triangle(p_ndc, index)) ? 1 : 0);
 }
 
-/// Adds to those kept the needed ones, and the other pieces of each triangle, which follow one another with
-/// one number: by them a wireframe finds the edges of a piece that are cuts. With `may_go_on`, more
-/// pieces of the last triangle may follow, so it is kept.
+/// Adds to the kept triangles the needed ones, and all pieces of each (a run with one number): from them, a
+/// wireframe finds the edges that are cuts. With `may_go_on`, more pieces of the last triangle may follow, so
+/// it is kept.
 void TriangleStore::complete(KeptIds& kept, bool may_go_on) const {
   for (std::size_t begin = 0, end = 0; begin < text_ends_.size(); begin = end) {
     for (end = begin + 1; end < text_ends_.size() && numbers_[end] == numbers_[begin];) ++end;

@@ -24,18 +24,17 @@
 
 namespace pipeline {
 
-/// Assigns every triangle of the stream, in order, the tag of its pixels: the id under which it is kept, for
-/// the surface shader or for its text, or, if nothing is kept, the RGB value of its color.
-///
-/// Only visible triangles need to stay. They are found whenever twice as many are
-/// kept as were seen the last time; so memory is bounded by the picture. That takes two passes over its
-/// pixels, so it is done only when at least one triangle has been kept for every four pixels.
+/// Gives every triangle of the stream, in order, the tag of its pixels: the id under which the store keeps
+/// its data or, if nothing is kept, the RGB value of its color.
+/// Only visible triangles need to stay. They are found whenever twice as many are kept as were visible the
+/// last time, so the picture bounds memory. This takes two passes over the pixels, so it is done only once
+/// there is at least one kept triangle for every four pixels.
 class TriangleStore {
  public:
   struct Setup {
     bool keeps_text = false;
-    bool keeps_numbers = false;  // of the triangles, for set_numbers
-    bool keeps_corners = false;  // likewise, for corners
+    bool keeps_numbers = false;  // the triangles' numbers, for set_numbers
+    bool keeps_corners = false;  // the triangles' corners, for `corners`
     Color background;
     std::size_t pixel_count = 0;  // of the picture, or of its samples
     Wireframe* wireframe = nullptr;
@@ -54,9 +53,9 @@ class TriangleStore {
     return has_ids() ? KeptIds::kNoTriangle : setup_.background.rgb();
   }
   [[nodiscard]] Color background_color() const { return setup_.background; }
-  /// From now on keeps the texts of triangles for which `is_needed` is true, seen or not.
+  /// Makes the store keep the texts of triangles for which `is_needed` is true, even hidden ones.
   void keep_where(std::function<bool(const ExactTriangle&)> is_needed) { is_needed_ = std::move(is_needed); }
-  /// The tags of the next triangles.
+  /// Sets the tags of the next triangles.
   void set_tags(const TriangleBatch& p_ndc, std::vector<PixelTag>& tags) {
     tags.resize(p_ndc.size());
     if (has_ids())
@@ -64,24 +63,24 @@ class TriangleStore {
     else
       for (std::size_t i = 0; i < tags.size(); ++i) tags[i] = colors_.of(p_ndc.numbers[i]).rgb();
   }
-  /// The colors of pixels with these tags, unless there is a shader.
+  /// Sets the colors of pixels with these tags, without a shader.
   void color(std::span<const PixelTag> tags, std::span<Color> colors);
 
-  /// The numbers of the triangles with these tags, if they are kept, -1 for none.
+  /// Sets the numbers, if kept, of the triangles with these tags; -1 without a triangle.
   void set_numbers(std::span<const PixelTag> tags, std::vector<std::int64_t>& numbers) const;
 
   [[nodiscard]] bool keeps_corners() const { return setup_.keeps_corners; }
   [[nodiscard]] const Corners& corners(KeptIds::Id id) const { return corners_[id]; }
 
   [[nodiscard]] bool keeps_text() const { return setup_.keeps_text; }
-  /// Ids are less.
+  /// Above any id.
   [[nodiscard]] std::size_t id_count() const { return next_id_; }
-  /// Writes a stage text of the triangles that are seen, all pieces of each, with the header as it was read.
+  /// Writes a stage text of the visible triangles, all pieces of each, with the header as read.
   void write_seen(TextWriter& text, const StageReader& reader, KeptIds& seen) const;
 
   /// True if it is time to drop triangles.
   [[nodiscard]] bool is_full() const { return has_ids() && next_id_ >= capacity_; }
-  /// Drops the triangles that no pixel of the drawing shows, in which all triangles so far are drawn.
+  /// Drops the triangles that no pixel of the drawing shows; all triangles so far must be drawn.
   void keep_seen(SampledDrawing& drawing) {
     KeptIds kept(id_count());
     const auto for_each_tag = [&](const auto& visit) {
@@ -94,7 +93,7 @@ class TriangleStore {
   }
 
  private:
-  /// The id under which a triangle is kept from now on.
+  /// Keeps a triangle, and returns its id.
   KeptIds::Id kept(const TriangleBatch& p_ndc, std::size_t index) {
     if (setup_.wireframe != nullptr) setup_.wireframe->add(p_ndc, index, next_id_);
     if (keeps_numbers()) numbers_.push_back(p_ndc.numbers[index]);
@@ -108,7 +107,7 @@ class TriangleStore {
     return next_id_++;
   }
   [[nodiscard]] bool has_ids() const { return shader_ || keeps_numbers() || keeps_corners(); }
-  /// Shaders keep colors, which are by the numbers.
+  /// Without a shader, colors need the numbers.
   [[nodiscard]] bool keeps_numbers() const {
     return keeps_text() || setup_.keeps_numbers || (keeps_corners() && !shader_);
   }

@@ -8,17 +8,17 @@
 namespace pipeline {
 namespace {
 
-// Half a pixel, and none of the depth, with margins for rounding: no triangle hides its own edges.
+// Half a pixel, and no depth, each with a margin for rounding: no triangle hides its own edges.
 constexpr double kReach = 0.501;
 constexpr double kDepthError = 0x1p-48;
 
-/// True if both points lie in one of the planes that clipping cuts at.
+/// True if both points lie in one clipping plane.
 bool is_in_clip_plane(const Vec3& p, const Vec3& q) {
   const auto is_on_limit = [](double a, double b) { return a == b && (a == -1 || a == 1); };
   return is_on_limit(p.x, q.x) || is_on_limit(p.y, q.y) || is_on_limit(p.z, q.z);
 }
 
-/// Exact, except for its rounding where balls lose too much.
+/// The normal in balls or, where these lose too much, exact but for rounding.
 BallVec3 plane_normal(const Triangle& p) {
   constexpr double kCertain = 0x1p-50;
   const BallVec3 start = to_balls(p[0]), normal = cross(to_balls(p[1]) - start, to_balls(p[2]) - start);

@@ -15,26 +15,26 @@
 
 namespace pipeline {
 
-/// The picture of `--wireframe`: at every pixel, or sample, the nearest of the edges there that no triangle
-/// hides. Takes triangles in the order of the stream, whatever the visibility algorithm.
+/// The picture of `--wireframe`: at every pixel or sample, the nearest edge that no triangle hides. Takes
+/// triangles in the order of the stream, whatever the visibility algorithm.
 class Wireframe {
  public:
   struct Setup {
     bool shows_hidden = false;
-    bool says_what_was_clipped = false;  // as texts with lights do
+    bool says_what_was_clipped = false;  // true for texts with lights
     int samples_per_pixel = 1;           // in a row or a column
   };
 
-  /// For a screen of pixels or of samples.
+  /// `screen` has pixels or samples.
   Wireframe(const PixelRules& rules, const Viewport& screen, const Setup& setup);
 
-  /// Takes the next triangle, under its id, which counts them. Its edges are drawn with the next call of any
+  /// Takes the next triangle, with its id, the count so far. Its edges are drawn at the next call of any
   /// function, as the next triangle may be a piece that shares one.
   void add(const TriangleBatch& p_ndc, std::size_t index, PixelTag id);
-  /// The ids shown in a row where these surfaces are seen; after the last triangle.
+  /// The ids shown in a row whose visible surfaces are these; to be called after the last triangle.
   std::span<const PixelTag> row(int row, const VisibleRow& surfaces);
-  /// Calls `visit(id)`, which may change it, for every triangle that the picture may need besides the
-  /// surfaces seen, now or after more triangles.
+  /// Calls `visit(id)`, which may change the id, for every triangle besides the visible surfaces that the
+  /// picture needs, now or after more triangles.
   template <typename Visitor>
   void for_each_id(Visitor&& visit) {
     for (int row = edges_.row_range().first; row < edges_.row_range().end; ++row)
@@ -52,7 +52,7 @@ class Wireframe {
     PixelTag id = kNone;
     bool is_front = true;  // the triangle's corners run counterclockwise
   };
-  /// A triangle hides all that is farther than all its corners, or by more than `reach` than itself.
+  /// A triangle hides all that is farther than all its corners, or farther than itself by more than `reach`.
   struct Surface {
     double most, reach;
     bool is_front;

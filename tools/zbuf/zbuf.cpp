@@ -1,4 +1,4 @@
-// zbuf: decides which triangle is seen at each pixel. Normalized device coordinates in, depths and image out.
+// zbuf: finds the visible triangle at each pixel. Normalized device coordinates in, depths and image out.
 
 #include <unistd.h>
 
@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
             OutputKind::other_text);
   ZbufOptions chosen(tool.options());
   Statistics statistics(tool.options());
-  // A closed pipe is a failure to write like any other: the image that was begun has to be removed.
+  // A closed pipe is a failure to write like any other: the unfinished image must be removed.
   std::signal(SIGPIPE, SIG_IGN);
 
   return tool.run(argc, argv, [&] {

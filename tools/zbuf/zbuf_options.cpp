@@ -10,7 +10,7 @@
 namespace pipeline {
 namespace {
 
-/// Adds an option that takes the name of one type of a list; its help ends with a line for each.
+/// Adds an option that takes the name of a type from a list; its help ends with one line per type.
 template <typename... Types>
 void add_type_choice(CommandLine& options, const std::string& name, TypeList<Types...>,
                      typename TypeList<Types...>::Choice& chosen, std::string help) {

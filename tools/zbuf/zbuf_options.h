@@ -19,15 +19,15 @@ struct ZbufOptions : PictureOptions {
   std::string certainty_path;  // likewise
   std::string rows;            // "A:B", if the option is given
   bool wireframe = false;
-  bool has_all_edges = false;  // the wireframe, hidden ones too
+  bool has_all_edges = false;  // the wireframe shows hidden ones, too
   std::string fragments_path;  // empty: no file
 
   /// Chooses the options that depend on others, and on whether standard output is a terminal. A UsageError if
   /// options exclude each other.
   void complete(bool is_terminal);
-  /// The screen with the rows that are to be drawn. A UsageError if it does not have them.
+  /// The screen with the rows to draw. A UsageError if it does not have them.
   [[nodiscard]] Viewport drawn_part(Viewport screen) const;
-  /// A UsageError if the depth format cannot store the depths between the limits of Z.
+  /// Throws a UsageError if the depth format cannot store the depths between the limits of Z.
   void check_limits(const Viewport& screen) const;
   /// The files and pipes of a run.
   [[nodiscard]] std::vector<NamedFile> outputs(const Statistics& statistics) const;
