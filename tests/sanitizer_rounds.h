@@ -2,8 +2,8 @@
 
 namespace pipeline {
 
-/// How many of `rounds` random inputs a test tries: one in five with a sanitizer, which slows arithmetic down
-/// tenfold and finds its errors in a few rounds.
+/// The count of random inputs that a test tries: `rounds`, or a fifth with a sanitizer, which slows
+/// arithmetic down tenfold and finds its errors in a few rounds.
 constexpr int sanitizer_rounds(int rounds) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return rounds / 5;

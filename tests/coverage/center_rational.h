@@ -26,8 +26,8 @@ inline mpq_class decimal(double hi, double lo) {
   return result;
 }
 
-/// The pixels that a triangle owns by the rule `center`, and its depth there, in rational numbers: straight
-/// from the definition, one pixel at a time.
+/// The pixels that a triangle owns by the rule `center`, and its depth there, in rational numbers: directly
+/// from the definition, pixel by pixel.
 class ExactCoverage {
  public:
   ExactCoverage(const TextTriangle& t, const Viewport& s) {

@@ -13,7 +13,7 @@
 
 namespace pipeline {
 
-/// A triangle as its text.
+/// A triangle given by its text.
 struct TextTriangle {
   Triangle p;
   Triangle low_parts{};
@@ -72,7 +72,7 @@ std::vector<Span> spans_of(const Rows& rows) {
   return spans;
 }
 
-/// How many triangles own each pixel, row after row.
+/// The count of triangles that own each pixel, row after row.
 class Owners {
  public:
   explicit Owners(const Viewport& screen)
@@ -90,7 +90,7 @@ class Owners {
     return std::count(counts_.begin(), counts_.end(), owner_count);
   }
   [[nodiscard]] long all() const { return static_cast<long>(counts_.size()); }
-  /// A line for each row: '.' for no owner, '#' for one, else their number.
+  /// A line for each row: '.' for no owner, '#' for one, else the count.
   [[nodiscard]] std::vector<std::string> picture() const {
     std::vector<std::string> lines(static_cast<std::size_t>(screen_.rows));
     for (std::size_t i = 0; i < counts_.size(); ++i)

@@ -26,7 +26,7 @@ struct Transcript {
 /// Reads a text and writes its result.
 using Work = std::function<void(TextReader&, TextWriter&)>;
 
-/// The line and column of an error lie in the text, or just behind it.
+/// Requires that the line and column of an error lie in the text, or just after it.
 inline void require_location_within(const SourceLocation& location, std::string_view text) {
   const auto line_count = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   require(location.line >= 1 && location.line <= line_count + 1, "a mistake is on a line of the text");
@@ -49,7 +49,7 @@ inline Transcript transcript(int descriptor, std::string_view text, const Work& 
   return result;
 }
 
-/// A short text that a reader gets in pieces. A socket buffers all of it, so no thread has to send it.
+/// A short text that a reader gets in pieces. A socket buffers it completely, so no thread need send it.
 class WaitingPieces {
  public:
   WaitingPieces(std::string_view text, std::size_t piece_size) {
@@ -71,7 +71,7 @@ class WaitingPieces {
   int descriptor_ = -1;
 };
 
-/// The transcript of `work` on the text; the same whether the text comes as a whole or in pieces.
+/// The transcript of `work` on the text; requires that it is the same if the text comes in pieces.
 inline Transcript transcript(std::string_view text, const Work& work) {
   const TextFile file(text);
   Transcript whole = transcript(file.descriptor(), text, work);

@@ -25,11 +25,11 @@ class RandomNumbers {
   int whole(int first, int last) {
     return first + static_cast<int>(bits() % (static_cast<std::uint64_t>(last - first) + 1));
   }
-  /// In [low, high).
+  /// A number in [low, high).
   double between(double low, double high) {
     return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
   }
-  /// Of either sign, with an absolute value in [2^first, 2^(last + 1)); often with few bits.
+  /// A number of either sign, with an absolute value in [2^first, 2^(last + 1)); often with few bits.
   double with_exponent(int first, int last) {
     double significand = 1 + static_cast<double>(bits() >> 12) * 0x1p-52;
     const std::uint64_t shape = bits();

@@ -28,7 +28,7 @@ class Real {
   }
   ~Real() = default;
 
-  /// The number nearest to one of another precision.
+  /// The number nearest to a number of another precision.
   template <int other_bits>
   static Real nearest(const Real<other_bits>& other) {
     Real result;
@@ -77,7 +77,7 @@ class Real {
   [[nodiscard]] double nearest_double() const { return mpfr_get_d(value_, MPFR_RNDN); }
   [[nodiscard]] long nearest_long() const { return mpfr_get_si(value_, MPFR_RNDN); }
 
-  /// With `decimals` decimals, ties to even, without the sign of a negative zero.
+  /// The text with `decimals` decimals, ties to even, without a negative zero's sign.
   [[nodiscard]] std::string text(int decimals) const {
     char* printed = nullptr;
     mpfr_asprintf(&printed, "%.*RNf", decimals, value_);
@@ -126,7 +126,7 @@ bool contains(const Ball& ball, const Real<bits>& truth, const Real<bits>& slack
   return abs(midpoint<bits>(ball) - truth) <= radius<bits>(ball) + slack;
 }
 
-/// The same for a truth that is correct except for its last 20 bits.
+/// contains() for a truth whose last 20 bits may be wrong.
 template <int bits>
 bool contains(const Ball& ball, const Real<bits>& truth) {
   return contains(ball, truth, abs(times_power_of_two(truth, 20 - bits)));

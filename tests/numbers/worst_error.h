@@ -7,7 +7,7 @@
 
 namespace pipeline {
 
-/// The largest of the errors that a test has seen, for the table of bounds (tests/proofs/README.md).
+/// The largest error in a test, for the table of bounds (tests/proofs/README.md).
 class WorstError {
  public:
   explicit WorstError(std::string name) : name_(std::move(name)) {}

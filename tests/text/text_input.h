@@ -25,7 +25,7 @@ class TextFile {
   TextFile& operator=(const TextFile&) = delete;
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
-  /// The complete text behind the descriptor.
+  /// The complete text of the descriptor.
   [[nodiscard]] std::string whole_text() const {
     std::string text(static_cast<std::size_t>(::lseek(descriptor_, 0, SEEK_END)), '\0');
     const ssize_t count = ::pread(descriptor_, text.data(), text.size(), 0);
@@ -40,7 +40,7 @@ class TextFile {
 /// A descriptor that delivers one piece of text per read, as a slow neighbor in a pipe may do.
 class TextInPieces {
  public:
-  /// The state of the pipe behind the last piece. `silence` is a neighbor that neither writes nor ends: a
+  /// The state of the pipe after the last piece. `silence` is a neighbor that neither writes nor ends: a
   /// reader that reads on fails after two seconds instead of waiting forever.
   enum class Then { end, silence };
 
@@ -92,7 +92,7 @@ std::string message_of(Action&& action) {
   return "no error";
 }
 
-/// A text that is refused, and the error without the file's name; none if the text is fine.
+/// A text, and the error that it causes, without the file's name; none if the text is correct.
 struct Refusal {
   std::string text, error;
 };

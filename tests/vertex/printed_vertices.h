@@ -68,7 +68,7 @@ std::string reference_vertex(const ReferenceVec3<bits>& p, NumberFormat format, 
          reference_text(p.z, format, size);
 }
 
-/// Checks that every vertex of `images` prints as `reference` of its original vertex. `size` is the size of
+/// Checks that every vertex of `images` prints like `reference` of its original vertex. `size` is the size of
 /// the largest intermediate number.
 template <int bits, typename Reference>
 void expect_printed(const TriangleBatch& images, const std::vector<Vec3>& vertices, NumberFormat format,

@@ -17,7 +17,7 @@ inline Triangle triangle_at(double z1, double z2, double z3) {
   return {Vec3{0, 0, z1}, Vec3{1, 0, z2}, Vec3{0, 1, z3}};
 }
 
-/// Locations as in a text with four lines a triangle, the first at line 1.
+/// A batch with locations as in a text with four lines per triangle, from line 1 on.
 inline TriangleBatch batch_of(std::initializer_list<Triangle> triangles) {
   TriangleBatch batch;
   for (const Triangle& t : triangles) {

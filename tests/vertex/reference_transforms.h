@@ -84,7 +84,7 @@ Real<bits> radians(const Real<bits>& degrees) {
   return remainder(degrees, Real<bits>(360)) * Real<bits>::pi() / Real<bits>(180);
 }
 
-/// From the quaternion (cos(angle / 2), sin(angle / 2) axis).
+/// The rotation by the quaternion (cos(angle / 2), sin(angle / 2) axis).
 template <int bits>
 ReferenceMatrix<bits> reference_rotation(double angle_degrees, const Vec3& axis) {
   using R = Real<bits>;
@@ -150,7 +150,7 @@ ReferenceProjection<bits> reference_projection(const Projection& projection) {
   return {true, -right, right, -top, top, p.near, p.far};
 }
 
-/// A model transform, as computed and exactly.
+/// A model transform, computed by the library and exact.
 template <int bits>
 struct Model {
   AffineMatrix computed = identity();
@@ -182,7 +182,7 @@ Real<bits> power_of_ten(int exponent) {
 }
 
 /// A calculated number in units of the last printed decimal, rounded, ties to even. A number within 2^-150
-/// units of a tie counts as the tie, since the reference has rounding errors of its own.
+/// units of a tie counts as the tie, since the reference itself has rounding errors.
 template <int bits>
 Real<bits> in_units(const Real<bits>& value, const Real<bits>& units_per_one) {
   const Real<bits> fine = round_to_even(times_power_of_two(value * units_per_one, 150));

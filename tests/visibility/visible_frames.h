@@ -12,7 +12,7 @@ namespace pipeline {
 
 using Scene = std::vector<Triangle>;
 
-// The screens whose coordinates are decimals of at most 7 places; their doubles are read as decimals.
+// The marks for coordinates that are all decimals of at most 7 places.
 inline constexpr std::uint16_t kAllDecimals = 0x1ff;
 
 /// The tag of triangle `index`: never 0, the background's.
