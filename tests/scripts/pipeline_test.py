@@ -139,10 +139,14 @@ class Prefix(ToolTest):
         page = self.prefix / "share/man/man5/pipeline-scene.5"
         page.parent.mkdir(parents=True)
         page.touch()
-        pathlib.Path("man").write_text(ECHO)
+        pathlib.Path("man").write_text(ECHO + "exit 0\n")  # also where it cannot write
         pathlib.Path("man").chmod(0o755)
-        self.assertEqual(run(self.pipeline, "help", "scene", env={"PATH": f"{os.getcwd()}:/usr/bin:/bin"}),
+        path = {"PATH": f"{os.getcwd()}:/usr/bin:/bin"}
+        self.assertEqual(run(self.pipeline, "help", "scene", env=path),
                          (0, f"man <-M> <{self.prefix}/share/man> <5> <pipeline-scene>\n", ""))
+        full = run("sh", "-c", '"$0" help scene > /dev/full', self.pipeline, env=path)
+        self.assertEqual((full[0], full[2].splitlines()[-1]),
+                         (1, "cat: write error: No space left on device"))
 
     def test_version_is_that_of_the_tools(self):
         self.add("model", '#!/bin/sh\necho "model (pipeline) 1.2.3"\n')
