@@ -118,6 +118,25 @@ class KilledStages(ToolTest):
                 self.assertNotEqual(subprocess.run(["sh", "-c", line], capture_output=True).returncode, 0)
                 self.assertEqual(self.contents(), before, (stage, moment))
 
+    def test_a_full_disk_hides_no_reason(self):
+        """Of temporary files, and of a picture."""
+        os.mkdir("tmp")
+        self.make_tools("view", "at once")
+        full = ("mount -t tmpfs -o size=16k none tmp || exit 77; echo older > tmp/x.png; "
+                'cat /dev/zero > tmp/zeros 2> /dev/null; "$0" "$@" && exit 1; cat tmp/x.png; ls -A tmp')
+        for name, words, bin_folder, reason in (
+            ("farm", "-o x.png --parts=1", "bin", "seen-0-1.txt: view: ended by SIGKILL; "),
+            ("picture", "-o tmp/x.png", BIN,
+             "picture: zbuf: cannot write tmp/x.png: No space left on device\n")):
+            done = subprocess.run([
+                "unshare", "--mount", "--map-root-user", "sh", "-c", full, SOURCE / "scripts" / name,
+                "scene.txt", "config.txt", *words.split()], capture_output=True, text=True,
+                                  env={**self.places(), "BIN": str(bin_folder)})
+            if done.returncode == 77 or done.stderr.startswith("unshare: "):
+                self.skipTest("mounting is not allowed here: " + done.stderr)
+            self.assertIn(reason, done.stderr)
+            self.assertEqual((done.stderr.count("\n"), done.stdout), (1, "older\nx.png\nzeros\n"))
+
     @staticmethod
     def make_tools(stage, moment):
         """The folder bin, with a tool that is killed at a moment, and none from the kill before."""
