@@ -1,5 +1,5 @@
-"""Why two stage texts differ: what the numbers show by themselves, and with the scene the mistake that the
-judge of hand-ins names."""
+"""Why two stage texts differ: a relation between the numbers, and with the scene the mistake that the judge
+of hand-ins names."""
 import math
 
 from compare_parts.differences import exceeds
@@ -11,12 +11,12 @@ from lib.running.pipe_tools import Tools
 
 UNIT = 1e-7  # in the last of 7 decimals
 CLOSE = 2e-6  # for numbers calculated from numbers that were printed with 7 decimals
-LEAST_FACTOR = 1e-4  # off 1, that is no rounding
+LEAST_FACTOR = 1e-4  # the least distance from 1 that is no rounding
 ROUNDING = "all differences are of one unit in the last decimal: rounding"
 
 
 def hint_of_numbers(theirs, ours):
-    """Describes how two lists of points are related; None if in no simple way."""
+    """Describes how two lists of points are related; None if there is no simple relation."""
     if len(theirs) != len(ours) or theirs == ours:
         return None
     if not any(exceeds(a, b, UNIT) for p, q in zip(theirs, ours) for a, b in zip(p, q)):
@@ -36,15 +36,14 @@ def hint_of_factors(theirs, ours):
 
 
 def factor_of(values, others):
-    """The factor that makes the values of the others, by least squares; 1 if all of those are 0."""
+    """The factor from the others to the values, by least squares; 1 if all the others are 0."""
     square = math.fsum(b * b for b in others)
     return math.fsum(a * b for a, b in zip(values, others)) / square if 1e-12 < square < math.inf else 1.0
 
 
 def judged(scene, theirs, ours):
-    """The FileVerdict on one text, if another is the output of a stage of the scene; None if it is of none. A
-    text is given as its bytes and its name. Where the other may come from several stages, the first counts
-    whose mistakes reproduce the text."""
+    """The FileVerdict on `theirs`, if `ours` is the output of a stage of the scene, else None. A text is its
+    bytes and its name. If `ours` fits several stages, the first counts whose mistakes reproduce `theirs`."""
     reference = Reference(scene, None, Tools())
     judge = StageJudge(reference.scene, reference.world)
     ours, theirs = read_points(*ours), read_points(*theirs)
@@ -55,7 +54,7 @@ def judged(scene, theirs, ours):
 
 
 def stages(reference, judge):
-    """For each stage what judges points as its output, given right ones as its input."""
+    """A function for each stage that judges points as its output, given right ones as its input."""
     yield lambda name, points: judge.outcome("model", name, points).verdict
     world = read_as_printed(reference.world)
     yield lambda name, points: judge.outcome("view", name, points, [world]).verdict

@@ -8,8 +8,7 @@ NAMES_OF = {"color": ["red", "green", "blue"], "normal": [f"{axis} of the normal
 
 
 def exceeds(a, b, tolerance):
-    """True if a and b differ by more than the tolerance and by more than reading decimals as doubles can
-    add."""
+    """True if a and b differ by more than the tolerance and the rounding of decimals to doubles."""
     return abs(a - b) > tolerance + 4 * math.ulp(max(abs(a), abs(b)))
 
 
@@ -36,7 +35,7 @@ class Differences:
     differing: int = 0
     first: Pair = None
     largest: Pair = None
-    unlike: list = dataclasses.field(default_factory=list)  # differences that no pair of numbers shows
+    unlike: list = dataclasses.field(default_factory=list)  # other differences, in words
 
     def add(self, place, a, b):
         """Compares a and b; `place` returns their position as text."""
@@ -92,12 +91,12 @@ def column_names(header):
 
 
 def compare_vertices(result, names, columns, pairs):
-    """Adds the differences of the vertices of triangles, or of the points of spheres: (number, that of A,
-    that of B)."""
+    """Adds the differences of the vertices of triangles, or of the points of spheres; `pairs` are (number,
+    vertices of A, vertices of B)."""
     thing, corner = names
     for t, vertices_a, vertices_b in pairs:
         for v, (vertex_a, vertex_b) in enumerate(zip(vertices_a, vertices_b)):
-            if len(vertex_a.numbers) != len(vertex_b.numbers):  # which of them is missing, nobody knows
+            if len(vertex_a.numbers) != len(vertex_b.numbers):  # the missing ones are unknown
                 if not result.unlike:
                     result.unlike.append(
                         f"line {vertex_a.line}: {len(vertex_a.numbers)} and {len(vertex_b.numbers)} numbers")
@@ -108,9 +107,8 @@ def compare_vertices(result, names, columns, pairs):
 
 
 def paired(a, b, tolerance):
-    """(number, triangle of A, triangle of B) of those to compare, and in words how their counts differ; empty
-    if they do not. Of two lists, one of which is the other without some triangles, all others are
-    compared."""
+    """(number, triangle of A, triangle of B) for each pair to compare, and in words how the counts differ;
+    empty if they do not. If one list is the other without some triangles, all that both have are paired."""
     if len(a) == len(b):
         return zip(range(len(a)), a, b), ""
     words = f"{len(a)} and {len(b)} triangles"
