@@ -6,8 +6,8 @@ from lib.maths.vectors import axes, dot, moved, normalized, turned_about
 
 STEP = 0.05  # of the distance between eye and look
 TURN = math.radians(3)
-CLOSER = 0.9  # what a step of the wheel leaves of that distance
-STEEPEST = math.radians(89)  # that an orbit climbs above the horizon, or below it
+CLOSER = 0.9  # the factor of that distance for a step of the wheel
+STEEPEST = math.radians(89)  # how far an orbit climbs above the horizon, or below it
 
 
 def plain(vector):
@@ -17,8 +17,8 @@ def plain(vector):
 
 @dataclasses.dataclass(frozen=True)
 class Camera:
-    """The eye, the three axes and the distance to the point looked at. `words` are the scene's, until the
-    camera moves."""
+    """The eye, the three axes and the distance to the point looked at. `words` are the camera's in the scene,
+    until it moves."""
     eye: tuple
     right: tuple
     up: tuple
@@ -29,7 +29,7 @@ class Camera:
 
     @staticmethod
     def of(eye, look, up):
-        """The Camera in the words of a header."""
+        """The Camera that a header's words describe."""
         eye_at, look_at, up_to = (tuple(map(float, words)) for words in (eye, look, up))
         return Camera(eye_at, *axes(eye_at, look_at, up_to), math.dist(eye_at, look_at), normalized(up_to),
                       (list(eye), list(look), list(up)))
@@ -51,7 +51,7 @@ class Camera:
 
     def orbited(self, right, up):
         """The camera moved around the point looked at, by angles in radians: to the right about the
-        vertical, and up, but never past it."""
+        vertical axis, and up, but never over the top."""
         height = math.asin(max(-1.0, min(1.0, -dot(self.forward, self.vertical))))
         up = max(min(-STEEPEST, height), min(max(STEEPEST, height), height + up)) - height
         ways = [

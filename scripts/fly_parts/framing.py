@@ -44,9 +44,9 @@ def point_of(line):
 
 
 def framing_distance(ball, header):
-    """The distance from the ball's center to an eye that has all of it in its window, between near and far
-    as well as that can be. `header` has the projection's words by its keyword. A parallel projection shows
-    the same from everywhere between its planes."""
+    """The distance from the ball's center to an eye that sees the whole ball in its window, between near and
+    far if possible. `header` has the projection's words by its keyword. In a parallel projection the distance
+    does not change the picture."""
     left, right, bottom, top, near, far = window_of(header)
     reach = ROOM * ball.radius or 1.0
     if "ortho" in header:

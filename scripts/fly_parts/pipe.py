@@ -1,5 +1,5 @@
 """The pipe for one frame after another: every stage's output is kept in memory, and a stage runs only if its
-input or its arguments have changed. Those stages run in parallel, as in a shell's pipe."""
+input or its arguments have changed. Stages that run do so in parallel, as in a shell's pipe."""
 import contextlib
 import dataclasses
 import os
@@ -44,7 +44,7 @@ class MemoryFile:
 
 @dataclasses.dataclass
 class Stage:
-    words: list = None  # its last arguments, and
+    words: list = None  # its last arguments
     source: object = None  # the MemoryFile it read
     output: object = None
     seconds: float = None  # of processor time; None if the last frame reused its output
@@ -64,7 +64,7 @@ class Copy:
         with self.source, os.fdopen(self.sink, "wb", 0) as sink:
             while data := os.read(self.source.fileno(), 1 << 20):
                 self.output.append(data)
-                with contextlib.suppress(BrokenPipeError):  # the next stage has failed, and reports it itself
+                with contextlib.suppress(BrokenPipeError):  # the next stage has failed, and says so
                     write_all(sink.fileno(), data)
 
 
@@ -91,7 +91,7 @@ class FramePipe:
 
     def run(self, calls, source):
         """Runs the stages, pairs of a name and its words, as a pipe. The first reads `source`."""
-        # Two stages already share the processors. The output does not depend on threads.
+        # zbuf after other stages shares the processors with them. The output does not depend on threads.
         threads = {"zbuf": ["--threads", "2"]} if len(calls) == 1 else {}
         copies, last = [], MemoryFile()
 
@@ -121,7 +121,7 @@ class FramePipe:
         return header_of(self.stages["model"].output.read()).get(keyword)
 
     def ball(self):
-        """The Ball around the scene; None if it has no triangles."""
+        """The Ball around the scene; None if the scene is empty."""
         if self.found_ball is None:
             self.found_ball = (Ball.around(self.stages["model"].output.read()),)
         return self.found_ball[0]
@@ -160,7 +160,7 @@ class FramePipe:
         return self.frame_image
 
     def is_empty(self):
-        """True if no triangle is seen in the last frame, as the last stage notes."""
+        """True if the last stage noted that the last frame shows nothing."""
         return any("the picture is empty" in note for note in self.stages[self.last].notes)
 
     def seconds(self):

@@ -32,7 +32,7 @@ i/k j/l u/o    move the first light
 p P            write the scene, the picture
 h              show or hide these keys
 Escape         leave"""
-NOT_TRACED = "cvzxbf"  # keys for options that trace has not
+NOT_TRACED = "cvzxbf"  # keys for options that trace lacks
 MOVES = {"w": (0, 0, 1), "s": (0, 0, -1), "a": (-1, 0, 0), "d": (1, 0, 0), "q": (0, 1, 0), "e": (0, -1, 0)}
 TURNS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}
 NAMED_KEYS = (*TURNS, "Home", "Escape")
@@ -65,8 +65,7 @@ class Settings:
         return narrowed(projection, 1 - self.inset) if self.inset else []
 
     def limits(self, limits):
-        """A config's limits, all of them or none, for a projection narrowed like that: nothing moves on the
-        screen."""
+        """A config's limits, all or none, for the projection of gap_words(): nothing moves on the screen."""
         if not self.inset:
             return limits
         *sides, z = limits or (["-1"], ["-1"], ["-1", "1"])
@@ -78,14 +77,14 @@ class Settings:
 
 
 def keys_of(is_traced):
-    """The list of keys, for trace without those that mean nothing to it."""
+    """The list of keys, without NOT_TRACED if trace draws."""
     return "\n".join(
         line for line in KEYS.splitlines() if not is_traced or line.split()[0][0] not in NOT_TRACED)
 
 
 def narrowed(projection, factor):
-    """Words of project for a field of view whose sides are moved in; near and far stay, so that depths do.
-    (--clip-inset would pull in all six planes, and in depth its tenth is most of the way to far.)"""
+    """Words of project for a field of view whose sides are moved in; near and far stay, and so do depths.
+    (--clip-inset would move all six planes, and a tenth of NDC depth is most of the way to far.)"""
     *sides, near, far = window_of(projection)
     kind = "--ortho" if "ortho" in projection else "--frustum"
     return [kind, *(repr(side * factor) for side in sides), repr(near), repr(far)]
@@ -148,7 +147,7 @@ class FlyWindow:
         self.bind_pointer()
 
     def first_size(self):
-        """The size of the config, enlarged to the least width, and made smaller where the screen is."""
+        """The size of the config, enlarged to the least width, but no larger than the screen."""
         width, height = self.whole
         scale = max(1, self.least_width / width)
         scale = min(scale, 0.9 * self.root.winfo_screenwidth() / width,
@@ -271,8 +270,8 @@ class FlyWindow:
             self.pending = self.root.after_idle(self.draw_first)
 
     def draw_first(self):
-        """The next frame; a small one if full size takes long, and the full-size one after a pause without
-        keys."""
+        """Draws the next frame; if full size takes long, a small one first, and full size when no key has
+        been pressed for a moment."""
         self.pending = None
         if self.resting is not None:
             self.root.after_cancel(self.resting)
@@ -330,7 +329,7 @@ class FlyWindow:
     def read_out(self):
         camera = self.settings.camera
         places = 5 - math.floor(math.log10(
-            camera.distance))  # six digits of the distance: what is smaller is rounding
+            camera.distance))  # six digits of the distance; the others are rounding
         eye, look, _ = camera.lines()
         [(kind, words)] = self.pipe.projection.items()
         field = f"fovY {words[0]}" if kind == "perspective" else kind
@@ -352,7 +351,7 @@ class FlyWindow:
 
     def scene_text(self):
         light = self.pipe.light if self.is_light_moved else None
-        # A comment that is not UTF-8 stays as it is.
+        # Comments keep bytes that are not UTF-8.
         text = read_input(str(self.scene), only_regular=True).decode("utf-8-sig", errors="surrogateescape")
         return rewritten(text, self.settings.camera.lines(), light).encode(errors="surrogateescape")
 
@@ -385,7 +384,7 @@ class FlyWindow:
             raise self.end
 
     def look_up(self):
-        """Lets Python run, since it handles signals only then; a waiting window would keep it from that."""
+        """Wakes Python regularly, so that it handles signals: a waiting window would not run it."""
         self.root.after(SIGNAL_MS, self.look_up)
 
     def failed(self, kind, error, trace):

@@ -1,4 +1,4 @@
-// The rows of z_buffer.txt, which may be long: of each the depths around a column, since every pixel that shows a triangle has one.
+// The rows of z_buffer.txt, cut to the depths around a column: a row has one for every pixel that shows a triangle.
 
 import {Lines} from "./stage_data.js";
 

@@ -1,4 +1,4 @@
-// An element of the page, with its attributes and what is in it.
+// An element of the page, with its attributes and children.
 export function element(name, attributes, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);

@@ -30,7 +30,7 @@ export class Fraction {
     return new Fraction(BigInt(x), 1n << exponent);
   }
 
-  // What zbuf takes a word for where coverage is exact: the decimal itself if it has at most 7 decimals, else its nearest double.
+  // A word's value where coverage is exact: the decimal itself if it has at most 7 decimals, else its nearest double.
   static ofWord(word) {
     const [whole, decimals = ""] = word.split(".");
     if (/e/i.test(word) || decimals.length > 7 || Math.abs(Number(word)) >= 1e22) return Fraction.ofDouble(Number(word));
@@ -46,13 +46,13 @@ export class Fraction {
   get absolute() { return new Fraction(size(this.n), this.d); }
   floor() { return Number((this.n - ((this.n % this.d) + this.d) % this.d) / this.d); }
 
-  // Exact where it is a fraction, else that of doubles.
+  // The square root, exact if it is a fraction, else a double.
   root() {
     const [n, d] = [wholeRoot(this.n), wholeRoot(this.d)];
     return n * n === this.n && d * d === this.d ? new Fraction(n, d) : Fraction.ofDouble(Math.sqrt(this.number));
   }
 
-  // The nearest double, nearly.
+  // A double very near the value.
   get number() {
     const shift = BigInt(Math.max(0, size(this.d).toString(2).length - size(this.n).toString(2).length + 64));
     return Number((this.n << shift) / this.d) / 2 ** Number(shift);
@@ -67,7 +67,7 @@ export class Fraction {
     return (this.n < 0n && units ? "-" : "") + digits.slice(0, at) + (decimals ? "." + digits.slice(at) : "");
   }
 
-  // With some decimals; in scientific notation if it is huge, or they would hide that it is not 0.
+  // With some decimals; in scientific notation if it is huge, or so small that it would read as 0.
   measured(decimals = 4) {
     if (size(this.n) >= this.d * 10n ** 15n) return this.number.toExponential(6);
     const text = this.fixed(decimals);

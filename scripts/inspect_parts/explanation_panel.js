@@ -1,4 +1,4 @@
-// What explain reports on a triangle and a pixel; of a large scene, on the pixel, and the command that prints the rest.
+// The report of explain on a triangle and a pixel; in a large scene on the pixel, with the command that prints it all.
 
 import {element} from "./element.js";
 
@@ -19,7 +19,7 @@ export class ExplanationPanel {
     this.box.scrollTop = 0;
   }
 
-  // After the panel has come into sight.
+  // Called when the panel becomes visible.
   refresh() { if (this.wanted) this.tell(...this.wanted); }
 
   texts(name, pixel) {

@@ -32,8 +32,8 @@ def words_in(text, number):
 
 
 def explanations(inspection, scene_text, config_text):
-    """For each triangle its report and, for the report on a pixel, the names of the corners of its pieces;
-    none for a large scene, or one with spheres."""
+    """The report on each triangle, with the names of its pieces' corners, which reports on pixels need; empty
+    for a large scene, or one with spheres."""
     if inspection.count > MAX_EXPLAINED_TRIANGLES or inspection.lines["model"].spheres:
         return []
     window, found = Window(config_text), []

@@ -1,16 +1,16 @@
-// What became of each triangle: the kinds of the legend, in whose colors its lines are drawn.
+// The fate of each triangle: one of the legend's kinds, whose color its lines have.
 
 export const KINDS = ["outside", "culled", "thin", "hidden", "shown"];
 
 export class Fates {
-  // `view` and `project` are StageData, `limits` those of x and y, `culled` how many triangles project has dropped by their winding.
+  // `view` and `project` are StageData, `limits` the limits of x and y, `culled` the count of triangles that project culled.
   constructor(fragments, [view, project], {limits, isParallel, culled}) {
     Object.assign(this, {fragments, view, project, limits: [...limits.map(limit => Math.abs(Number(limit))), 1], isParallel});
-    // The winding of what project has left is not the one that it drops.
+    // Triangles that project passes on have the winding that it does not cull.
     this.culledSign = culled ? -this.windingOf(view.names.find(name => project.has(name))) : NaN;
   }
 
-  // The sign of the volume of a triangle and the eye, or of its area for parallel rays.
+  // The sign of the volume between a triangle and the eye, or of the triangle's area in a parallel projection.
   windingOf(name) {
     const first = 9 * this.view.piecesOf(name)[0], [ax, ay, az, bx, by, bz, cx, cy, cz] = this.view.points.subarray(first, first + 9);
     if (this.isParallel) return Math.sign((bx - ax) * (cy - ay) - (cx - ax) * (by - ay));

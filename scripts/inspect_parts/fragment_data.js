@@ -5,20 +5,20 @@ import {bytesOf} from "./pack.js";
 
 const FATES = ["kept", "lost, behind", "lost, equal and later than", "lost, before the front limit", "lost, beyond the rear limit", "lost, nearer by too little than"];
 const BEYOND_LIMITS = new Set([3, 4]);
-const LOST_TO = new Set([1, 2, 5]);  // the fates that name the triangle that is shown
+const LOST_TO = new Set([1, 2, 5]);  // fates that name another triangle
 
 export class FragmentData {
-  // `spheres` are the numbers of those that are none of triangles.
+  // `spheres` are the numbers that belong to spheres.
   constructor(data, spheres) {
     Object.assign(this, {columns: data.columns, rows: data.rows, rgb: bytesOf(data.pixels), leftOut: data.leftOut});
     this.spheres = new Set(spheres);
     const {fragments} = data;
-    this.areAll = typeof fragments === "string";  // also those that lost
+    this.areAll = typeof fragments === "string";  // with the fragments that lost
     Object.assign(this, typeof fragments === "string" ? fragmentsOf(fragments, this.columns, this.columns * this.rows) : fragments);
     this.seen = new Int32Array(this.columns * this.rows).fill(-1);    // the last fragment that was kept,
     this.owners = new Int32Array(this.columns * this.rows).fill(-1);  // and its triangle
     this.shownPixels = new Int32Array(data.triangles);                // of each triangle
-    this.hasFragment = new Uint8Array(data.triangles);                // 1, or 2 if all are beyond a limit of the depths, or 3
+    this.hasFragment = new Uint8Array(data.triangles);                // 1: within the limits of depth, 2: beyond them, 3: both
     for (let p = 0; p < this.seen.length; ++p) {
       for (let f = this.begins[p]; f < this.begins[p + 1]; ++f) {
         this.hasFragment[this.triangles[f]] |= BEYOND_LIMITS.has(this.fates[f]) ? 2 : 1;

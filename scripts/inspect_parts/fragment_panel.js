@@ -7,7 +7,7 @@ export class FragmentPanel {
     Object.assign(this, {title, body: table.tBodies[0], fragments});
   }
 
-  // `select(name)` is called for a fragment that is chosen.
+  // Calls `select(name)` when a fragment is chosen.
   tell(p, select) {
     const {fragments} = this;
     this.title.textContent = p < 0 ? "Point at a pixel to see every fragment that competed for it." :

@@ -1,8 +1,8 @@
-// What `zbuf --fragments` says, as arrays.
+// The output of `zbuf --fragments`, as arrays.
 
 const REASONS = ["kept", "behind", "equal", "before", "beyond", "nearer"];  // a fate is an index into these
 
-// The fragments pixel by pixel from the top left, each pixel's in the order in which they arrived, its first at `begins`.
+// The fragments, pixel by pixel from the top left, in the order of arrival; those of pixel p begin at `begins[p]`.
 export function fragmentsOf(text, columns, pixelCount) {
   const lines = text.split("\n");
   lines.pop();

@@ -1,8 +1,8 @@
-// Which triangles of a plane may lie under a point: a grid whose cells list them. A library with an R-tree would save no code here,
-// would have to be installed, and takes longer to build, which happens whenever the view turns.
+// An index of the triangles that may lie under a point: a grid whose cells list them. It is built whenever the view turns, which takes
+// an R-tree longer; and a library with one would save no code.
 
 const CELL = 16;            // pixels
-const MOST_CELLS = 64;      // of a triangle; a larger one is tried everywhere
+const MOST_CELLS = 64;      // of a triangle; a larger triangle is a candidate everywhere
 
 export class GridIndex {
   // `x` and `y` have three corners for each of `count` triangles, in pixels.

@@ -14,7 +14,7 @@ function boxLines(corners) {
   return pairs.map(([a, b]) => [corners[a], corners[b]]);
 }
 
-// left, right, bottom, top, near and far in view space, of the near plane.
+// left, right, bottom and top of the window on the near plane, near and far, in view space.
 function windowOf(header) {
   const given = header.get("frustum") || header.get("ortho");
   if (given) return given;
@@ -23,7 +23,7 @@ function windowOf(header) {
   return [-right, right, -top, top, near, far];
 }
 
-// The numbers after each keyword before the first triangle of a text; `ratio` has none, and stands for the word at the end of a line.
+// The numbers after each keyword of a text's header; `ratio`, the word at the end of a projection, is a key without numbers.
 export function headerOf(text) {
   const header = new Map();
   for (const line of text.slice(0, text.search(/^[-\d]/m) >>> 0).split("\n")) {

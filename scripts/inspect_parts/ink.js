@@ -1,5 +1,5 @@
-// Lines by the hundred thousand. A canvas takes seconds to stroke them; here a line leaves ink on the pixels along it, and ink that
-// piles up shows as a denser tone, so that no line of a fine mesh is lost and none hides another.
+// Draws hundreds of thousands of lines, which a canvas takes seconds to stroke. A line leaves ink on the pixels along it, and ink piles
+// up to a denser tone, so that no line of a fine mesh is lost and none hides another.
 
 const GAIN = 1.9;         // a single line covers 1 - exp(-GAIN) of its color
 const LEAST_WEIGHT = 0.2; // of a line shorter than a pixel
@@ -62,7 +62,7 @@ export class Ink {
     context.putImageData(picture, 0, 0);
   }
 
-  // Where much ink lies on most of the pixels that have any, each line gives less.
+  // The weight of ink in a layer: the less, the more ink its inked pixels have on average.
   gainOf(layer) {
     let total = 0, count = 0;
     for (const amount of layer) if (amount > 0) { total += amount; ++count; }

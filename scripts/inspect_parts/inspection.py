@@ -21,7 +21,7 @@ MAX_DRAWN_TRIANGLES = 200000
 MAX_FRAGMENTS = 3000000
 MAX_FACETS = 20000  # of all spheres
 BELTS = 2, 16  # the fewest and the most of a sphere
-# The per cent of the time for a large page that have passed at the end of each step.
+# The per cent of the time for a large page after each step.
 SHARES = {"model": 11, "view": 21, "project": 32, "zbuf": 48}
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
 BEGINS = (*NUMBER_BEGINS, "triangle ", "clipped", "sphere")  # of the lines after a header
@@ -49,9 +49,8 @@ def belts_of(spheres):
 
 class Inspection:
     """A run of the pipe that keeps every stage's output. As in scripts/stages, the stages pass lossless text
-    on, and zbuf reads what project printed; `names` are those of scene and config, as their user wrote them,
-    and `progress` is a Progress of 100 steps.
-    For spheres, project and zbuf get facets."""
+    on, and zbuf reads project's printed text. `names` are the user's names of scene and config, and
+    `progress` is a Progress of 100 steps. For spheres, project and zbuf get facets."""
     def __init__(self, tools, scene, config, names, is_traced, coverage, progress):
         self.tools, self.scene, self.config, self.is_traced = tools, scene, config, is_traced
         self.coverage, self.progress = coverage, progress
@@ -85,7 +84,7 @@ class Inspection:
     def first_run(self, tool, data, *words):
         try:
             return self.tools.run(tool, "--timing", *words, stdin=data)
-        except ToolFailure as failure:  # model reads the scene, but by a pipe
+        except ToolFailure as failure:  # model has read the scene from a pipe
             raise ToolFailure(str(failure).replace("model: <stdin>:", f"model: {self.name}:", 1)) from None
 
     def faceted(self, stage2):
@@ -116,8 +115,8 @@ class Inspection:
             "numbers": packed("i", [number for number, _ in lines]) if self.step > 1 else None}
 
     def thinned(self, read):
-        """The header of a long text, its drawn triangles and all spheres, each after a line with its number;
-        (number, line) of each line, 0 for one that was added."""
+        """The header of a long text, its drawn triangles and all spheres, each after an added line with its
+        number: a list of (line number, line), 0 for an added line."""
         triangles = zip(read.first_lines, read.names)
         pieces = [(line, 3, name) for line, name in triangles if name % self.step == 0]
         found = [*enumerate(itertools.takewhile(lambda line: not line.startswith(BEGINS), read.lines), 1)]

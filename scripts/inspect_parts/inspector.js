@@ -1,4 +1,4 @@
-// Assembles the page: what is pointed at in one view shows in all.
+// Assembles the page: all views highlight the triangle or pixel that the pointer is on in one.
 
 import {DepthLines} from "./depth_lines.js";
 import {element} from "./element.js";
@@ -28,8 +28,8 @@ const counted = (count, word) => `${count.toLocaleString("en")} ${word}${count =
 const NOTHING = {triangle: -1, pixel: -1};
 
 export class Inspector {
-  // `root` has the elements of page.html. Unless it `hasAddress`, the page's address belongs to others. `kept` is what an inspector of the
-  // scene before an edit returned when it was disposed of.
+  // `root` has the elements of page.html. It writes to the page's address only if it `hasAddress`. `kept` is the result of dispose() of
+  // the inspector before an edit of the scene.
   constructor(root, data, {hasAddress = true, kept = null} = {}) {
     Object.assign(this, {root, data, hasAddress, listening: new AbortController()});
     this.held = NOTHING;
@@ -56,7 +56,7 @@ export class Inspector {
     if (hasAddress) this.follow(location.hash);
   }
 
-  // Ends it, and returns what the next inspector keeps.
+  // Ends the inspector, and returns the state for the next one.
   dispose() {
     this.listening.abort();
     return {held: this.held, tab: this.tabs.shown, poses: this.panels.map(({wire}) => wire.view.pose)};
@@ -155,10 +155,10 @@ export class Inspector {
 
   atPixel(p) { return p < 0 ? NOTHING : {triangle: this.fragments.owners[p], pixel: p}; }
 
-  // Shows what is pointed at until the pointer leaves it; `source` is a panel that stays where it is.
+  // Shows a triangle or pixel until the pointer leaves it; `source` is a panel that does not scroll.
   point(what, source) { this.show(what.triangle < 0 && what.pixel < 0 ? this.held : what, source); }
 
-  // Holds a triangle or a pixel, and puts it into the address. The background holds nothing but its pixel.
+  // Holds a triangle or a pixel, and puts it into the address. On the background only the pixel is held.
   select(what) {
     this.held = what;
     const {row, column} = this.fragments.place(what.pixel);

@@ -4,8 +4,8 @@ import {element} from "./element.js";
 
 const SIDES = ["left", "right", "below", "above", "near", "far"];
 
-// The counts that the legend shows: words, number, and what it is made of. Each triangle, or piece of a cut one, is in one of them: what
-// project finds outside and passes on is left to zbuf to count.
+// The legend's counts: label, number, and the terms of its sum. Each triangle, or piece of a cut triangle, is in one count: triangles that
+// project finds outside but passes on are counted by zbuf.
 function legendOf(stages) {
   const counts = new Map(stages.map(stage => [stage.tool, new Map(stage.statistics.map(([key, word]) => [key, Number(word)]))]));
   counts.get("project").set("dropped", stages[2].missing - counts.get("project").get("culled"));
@@ -25,7 +25,7 @@ export class Legend {
   }
 }
 
-// What --stats counts, without zeros: "19 seen, 3 hidden".
+// The counts of --stats, without zeros: "19 seen, 3 hidden".
 function countsOf(statistics) {
   return statistics.filter(([key, word]) => !/^triangles$|_(min|max)$/.test(key) && word !== "0").map(([key, word]) => `${word} ${key.replaceAll("_", " ")}`).join(", ");
 }

@@ -1,11 +1,11 @@
-// Starts the page on the data that it carries.
+// Shows the data that the page carries.
 
 import {Inspector} from "./inspector.js";
 import {inflated} from "./pack.js";
 
 const MANY = 10000;  // triangles, which take a while
 
-// The next picture of the browser's, if it makes any.
+// Waits until the browser has painted.
 const painted = () => new Promise(resolve => {
   requestAnimationFrame(() => setTimeout(resolve));
   setTimeout(resolve, 100);

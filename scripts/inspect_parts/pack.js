@@ -1,4 +1,4 @@
-// The page's data: JSON, deflated, in base64; arrays of numbers in base64 once more, unless they are arrays already.
+// The page's data: JSON, deflated, in base64. In the JSON, arrays of numbers are base64 too, or plain arrays.
 
 export function bytesOf(base64) {
   if (typeof base64 !== "string") return base64;

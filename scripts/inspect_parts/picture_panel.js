@@ -1,4 +1,4 @@
-// The image and the depth map side by side, with marks above them. It draws only zbuf's own pixels.
+// The image and the depth map side by side, with marks on canvases above them.
 
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
 const SHIFT_STEPS = 10;
@@ -20,7 +20,7 @@ export class PicturePanel {
     this.resize();
   }
 
-  // The largest scale at which the picture fits into its pane: a whole number if it is at least 3, so that pixels are alike.
+  // The largest scale at which the picture fits into its pane; from 3 on a whole number, so that all pixels have one size.
   resize() {
     const fitting = Math.min(this.panes[0].clientWidth / this.columns, this.panes[0].clientHeight / this.rows);
     this.scale = fitting >= 3 ? Math.floor(fitting) : Math.max(fitting, 0.01);
@@ -36,7 +36,7 @@ export class PicturePanel {
     canvas.getContext("2d").putImageData(picture, 0, 0);
   }
 
-  // Shows a newer image, of which nothing else is there yet; returns whether it has the size of this one.
+  // Shows the image of a run whose other data are still to come; true if the image has the same size.
   preview({columns, rows, pixels}) {
     const fits = columns === this.columns && rows === this.rows;
     if (fits) this.showImage(pixels);
@@ -49,7 +49,7 @@ export class PicturePanel {
     this.canvases[0].getContext("2d").putImageData(picture, 0, 0);
   }
 
-  // The pixels that differ in another image in one color, the others in dark gray tones.
+  // Paints pixels that differ from another image in one color, all others in dark gray tones.
   showDifferences(other) {
     const {rgb} = this.fragments, color = packed(...this.palette.numbers("--theirs")), gray = level => packed(level, level, level);
     const differs = at => rgb[at] !== other[at] || rgb[at + 1] !== other[at + 1] || rgb[at + 2] !== other[at + 2];
@@ -64,8 +64,8 @@ export class PicturePanel {
     this.paint(this.canvases[1], p => { const s = seen[p] < 0 ? 0 : Math.round(shade(depths[seen[p]])); return packed(s, s, s); });
   }
 
-  // Draws a line around the pixels that show triangle `name`, and one around a pixel; -1 for none. Two tones, one of which stands
-  // out from any color.
+  // Outlines the pixels that show triangle `name`, and one pixel; -1 for none. The outlines have two tones, one of which stands out from
+  // any color.
   highlight(name, pixel) {
     Object.assign(this, {name, pixel});
     const outline = this.outlineOf(this.fragments.pixelsOf(name));
@@ -124,7 +124,7 @@ export class PicturePanel {
     }
   }
 
-  // The pixel some columns and rows away, kept inside; the one in the middle if there is none to start from.
+  // The pixel some columns and rows away, within the picture; the middle one if `p` is none.
   beside(p, right, down) {
     if (p < 0) return Math.floor(this.rows / 2) * this.columns + Math.floor(this.columns / 2);
     const {row, column} = this.fragments.place(p);

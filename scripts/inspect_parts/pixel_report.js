@@ -1,4 +1,4 @@
-// What explain reports on a pixel and a triangle, exactly: scripts/lib/maths/window.py and lib/explaining/pixel_section.py.
+// The exact report of explain on a pixel and a triangle; the same as lib/maths/window.py and lib/explaining/pixel_section.py.
 
 import {Double, Fraction} from "./exact.js";
 
@@ -23,7 +23,7 @@ class PixelGrid {
 
 const compared = (a, b) => a.map((x, i) => x.compare(b[i])).find(sign => sign) || 0;
 
-// The x and z at which edges that are not horizontal cross the line at y, from their lower end, by y, x and z.
+// The sorted (x, z) where edges, but horizontal ones, cross the line at y; interpolated from the lower end (by y, then x, then z).
 function crossings(points, y) {
   const found = [];
   points.forEach((p, i) => {
@@ -35,8 +35,8 @@ function crossings(points, y) {
   return found.sort(compared);
 }
 
-// Where a row enters and leaves a triangle, and the pixels nearest to that, halves going right; null if it passes by. If both are a
-// single point, its depth.
+// The columns where a row enters and leaves a triangle, and the pixels nearest to them, halves going right; null if the row misses it.
+// `depth` is set if both are a single point.
 function spanOnRow(grid, points, row) {
   const at = grid.kind.of(row), rows = points.map(p => grid.rowAt(p[1])).sort((a, b) => a.compare(b));
   if (rows[0].compare(at) > 0 || at.compare(rows[2]) > 0) return null;
@@ -49,10 +49,10 @@ function spanOnRow(grid, points, row) {
 
 const OWNING = ["left", "top"];  // by the rule `center`
 
-// The side an edge bounds, from how its function grows inwards to the right and downwards.
+// The side of the triangle that an edge bounds, from the growth of its edge function to the right and downwards.
 const sideOf = (right, down) => right.sign ? (right.sign > 0 ? "left" : "right") : down.sign > 0 ? "top" : "bottom";
 
-// A pixel and a piece of a triangle by a rule of coverage: the names of its corners, and their coordinates as words.
+// A pixel and a piece of a triangle, by a coverage rule; `names` are the piece's corners, `words` their coordinates.
 class PixelOfPiece {
   constructor(grids, coverage, names, words, {column, row}) {
     Object.assign(this, {names, column, row, byCenter: coverage === "center"});

@@ -1,4 +1,4 @@
-// A pixel's tree of rays as a table; a ray that meets a triangle can be followed there.
+// A pixel's tree of rays as a table, in which a triangle that a ray meets can be selected.
 
 import {element} from "./element.js";
 
@@ -9,7 +9,7 @@ export class RayPanel {
     Object.assign(this, {title, body: table.tBodies[0], trees});
   }
 
-  // `place` is null without a pixel; `select(name)` is called for a triangle that is chosen.
+  // `place` is null without a pixel. Calls `select(name)` when a triangle is chosen.
   tell(place, select) {
     this.body.replaceChildren();
     if (!place) {

@@ -1,4 +1,4 @@
-// The trees of rays that trace --probe reports, read when they are asked for.
+// The trees of rays that trace --probe reports, each parsed only when it is shown.
 
 const RAY = /^(\d+),(\d+): ( *)(primary|shadow|mirrored|refracted) weight (\S+) from (\S+) (\S+) (\S+) (.*)$/;
 
@@ -12,20 +12,20 @@ export class RayTrees {
     }
   }
 
-  // The probed column or row nearest to one.
+  // The probed column or row nearest to `at`.
   probed(at, count) {
     const first = Math.min(this.step >> 1, count - 1), last = Math.floor((count - 1 - first) / this.step);
     return first + this.step * Math.max(0, Math.min(last, Math.round((at - first) / this.step)));
   }
 
-  // Where the nearest tree is, and its rays.
+  // The pixel of the nearest tree, and its rays.
   at({column, row}) {
     const place = [this.probed(column, this.columns), this.probed(row, this.rows)];
     return {place, rays: (this.trees.get(place.join()) || []).map(line => this.read(line))};
   }
 
-  // `to` is where a ray ends, null for one that meets nothing or was not cast; `towards` is the point at distance 1 of one that meets
-  // nothing. `triangle` is the number of the triangle or sphere it meets, -1 if there is none.
+  // `to` is a ray's end, null if it meets nothing or was not cast; `towards` is its point at distance 1 if it meets nothing. `triangle`
+  // is the number of the triangle or sphere that it meets, -1 if there is none.
   read(line) {
     const [, , , blanks, kind, weight, x, y, z, rest] = line.match(RAY), from = [x, y, z].map(Number), [target, brought] = rest.split(" brings ");
     const hit = target.match(/^to (\w+) (\d+) (\w+) at (\S+) (\S+) (\S+)$/), light = target.match(/^to light (\d+)$/), way = target.match(/^to nothing along (\S+) (\S+) (\S+)$/);
@@ -40,7 +40,7 @@ export class RayTrees {
     return eye.map((e, i) => e + x * right[i] + y * up[i] - z * forward[i]);
   }
 
-  // The segments of rays, and the directions in which rays leave the scene, in view space or, by `inWorld`, in the world.
+  // The segments of rays, and the directions in which rays leave the scene, with `place` applied to each point.
   drawing(rays, place = p => p) {
     return rays.filter(ray => ray.target !== "cut").map(({kind, from, to, towards}) => ({kind, from: place(from), to: to && place(to), towards: towards && place(towards)}));
   }

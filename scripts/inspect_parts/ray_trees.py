@@ -13,7 +13,7 @@ MOST_TREES = 4000  # a few megabytes of text
 
 
 def step_of(columns, rows, most):
-    """The least distance between probed pixels, across and down, for at most `most` of them."""
+    """The least step between probed pixels, across and down, at which they are at most `most`."""
     step = 1
     while math.ceil(columns / step) * math.ceil(rows / step) > most:
         step += 1

@@ -24,7 +24,7 @@ export class Spheres {
     return i < 0 ? -1 : this.names[i];
   }
 
-  // Points of their surfaces that reach nearly as far as those do in every direction.
+  // Points on the surfaces that extend nearly as far as the spheres in every direction.
   outermost() {
     const found = [];
     for (let at = 0; at < this.points.length; at += 12) {
@@ -37,8 +37,8 @@ export class Spheres {
     return Float64Array.from(found);
   }
 
-  // To the pixels of a Turntable. An outline is the unit circle times the matrix (a 0, b c) whose product with its transpose is the sum of
-  // the half axes' products with theirs.
+  // Projects the spheres to the pixels of a Turntable. An outline is the unit circle times the matrix L = (a 0, b c), where L times its
+  // transpose is the sum of h times its transpose over the projected half axes h.
   place(view) {
     const {x, y, outlines} = this;
     view.placeAll(this.points, x, y, this.near);
@@ -57,19 +57,19 @@ export class Spheres {
     }
   }
 
-  // Places in pixels around the center of a sphere: cosine times one half axis and sine times another.
+  // Points around the center of a sphere, in pixels: cosine times one half axis plus sine times another.
   around(i, [px, py], [qx, qy]) { return this.circle.map(([u, v]) => [this.x[4 * i] + u * px + v * qx, this.y[4 * i] + u * py + v * qy]); }
 
   outline(i) { return this.around(i, [this.outlines[3 * i], this.outlines[3 * i + 1]], [0, this.outlines[3 * i + 2]]); }
 
-  // The outline of a sphere, and unless they are many the circles through the ends of each two of its half axes.
+  // The outline of a sphere and, unless there are many spheres, the three circles through the ends of two half axes each.
   circles(i) {
     if (this.areMany) return [this.outline(i)];
     const [a, b, c] = [1, 2, 3].map(v => [this.x[4 * i + v] - this.x[4 * i], this.y[4 * i + v] - this.y[4 * i]]);
     return [this.outline(i), this.around(i, a, b), this.around(i, b, c), this.around(i, c, a)];
   }
 
-  // Of the spheres under a pixel the one whose center is nearest: its number and three times its nearness.
+  // The number and three times the nearness of the sphere under a pixel whose center is nearest.
   at(px, py) {
     let found = -1, nearest = -Infinity;
     for (let i = 0; i < this.names.length; ++i) {

@@ -1,4 +1,4 @@
-// A stage's text as numbers: the corners of its triangles, and the lines that belong to each.
+// A stage's text as numbers: the corners of its triangles, and the lines of each triangle.
 
 import {intsOf} from "./pack.js";
 import {Spheres} from "./spheres.js";
@@ -20,13 +20,13 @@ export class Lines {
   pointsAt(first, count) { return Array.from({length: count}, (_, i) => this.line(first - 1 + i).split(" ", 3)); }
 }
 
-// A text of our own tools: which lines belong to which triangle.
+// A text of our own tools, with the lines of each triangle.
 export class StageText extends Lines {
-  // `names` and `firstLines` are those of triangles, or of pieces of one, and of `spheres`; `count` is one more than the last number.
+  // `names` and `firstLines` are the numbers and first lines of triangles, or pieces of one; `count` is one more than the last number.
   constructor(text) {
     super(text);
     Object.assign(this, {names: [], firstLines: [], spheres: {names: [], firstLines: []}, count: 0});
-    let corners = 0;  // how many lines of the triangle before are still to come
+    let corners = 0;  // lines of the current triangle still to come
     for (let i = 0; i < this.length; ++i) {
       const first = text.charCodeAt(this.starts[i]);
       if (first === MINUS || (first >= ZERO && first <= NINE)) {
@@ -51,7 +51,7 @@ export class StageText extends Lines {
 }
 
 export class StageData {
-  // `count` triangles have numbers from 0; a stage may have several pieces of one, or none.
+  // `count` triangles are numbered from 0; a stage may have no piece of a triangle, or several.
   constructor(stage, count) {
     Object.assign(this, {tool: stage.tool, title: stage.title, guide: stage.guide, labels: stage.labels, remark: stage.remark});
     const {names, firstLines, spheres} = this.lines = new StageText(stage.text);
@@ -69,7 +69,7 @@ export class StageData {
     this.names.forEach((name, piece) => { this.order[next[name]++] = piece; });
   }
 
-  // The numbers of the points in `count` lines from each of `firstLines` on.
+  // The coordinates of the points in the `count` lines from each of `firstLines` on.
   numbersAt(firstLines, count) {
     const points = new Float64Array(3 * count * firstLines.length);
     let at = 0;

@@ -6,8 +6,8 @@ NUMBER_BEGINS = tuple("-0123456789")
 
 @dataclasses.dataclass
 class StageLines:
-    """A text of our own tools: its header, {keyword: words}, of each triangle or piece of one the number and
-    the first line, and of each sphere; and one more than the last number."""
+    """A text of our own tools: its header, {keyword: words}; the number and first line of each triangle (or
+    piece of one) and of each sphere; and `count`, one more than the last number."""
     lines: list
     header: dict
     names: list
@@ -20,7 +20,7 @@ class StageLines:
         """Parses our own text, faster than parse_stage_text, which accepts any."""
         lines = text.split("\n")
         found = StageLines(lines, {}, [], [], [])
-        number, corners = 0, 0  # of the next triangle, and how many lines of the one before are still to come
+        number, corners = 0, 0  # the next triangle's number, and the lines of the current one still to come
         for at, line in enumerate(lines, 1):
             if line[:1] in NUMBER_BEGINS:
                 if corners == 0:

@@ -1,7 +1,7 @@
 // A row of tabs, of which one shows its panel (WAI-ARIA Authoring Practices, "Tabs").
 
 export class Tabs {
-  // `changed` is called after another panel has come into sight.
+  // Calls `changed` after another panel has become visible.
   constructor(list, changed) {
     this.tabs = [...list.querySelectorAll('[role="tab"]')].filter(tab => !tab.hidden);
     this.changed = changed;

@@ -6,7 +6,7 @@ const LINE_HEIGHT = 16;
 const LONGEST = 4000;  // characters of a line
 
 export class TextPanel {
-  // `numberOf(index)` is the number that a line shows, `indexOf(number)` the way back.
+  // `numberOf(index)` is the number shown beside a line, `indexOf(number)` its inverse.
   constructor(box, lines, {numberOf, indexOf}) {
     Object.assign(this, {box, lines, numberOf, indexOf, hot: new Set()});
     const spacer = element("div", {});

@@ -25,16 +25,16 @@ class Theirs:
         self.verdict = judge(self.files, inspection.scene_data, inspection.config_data)
 
     def read(self, kind, parse):
-        """The result of `parse` for a file's bytes and name; None if it cannot be read, for a reason that the
-        verdict has."""
+        """The result of `parse` for a file's bytes and name; None if the file cannot be read: the verdict has
+        the reason."""
         try:
             return parse(self.files[kind].within(self.ours.limit(kind)), self.files[kind].name)
         except CommandFailure:
             return None
 
     def stage(self, tool):
-        """Their points, and the indices of the vertices that are not ours within the digits they show. None
-        are compared if there are more or fewer triangles, or if the page has not all of ours."""
+        """Their points, and the indices of vertices that differ from ours in the digits they show. No vertex
+        is compared if the counts of triangles differ, or if the page draws only every n-th triangle."""
         theirs, text = self.read(KINDS[tool], read_points), self.inspection.lines[tool]
         if theirs is None or self.inspection.step > 1:
             return None
@@ -58,7 +58,7 @@ class Theirs:
             b"".join(row) for row in colors)).decode()
 
     def words_of(self, file):
-        """A file's verdict; of one that is right after a wrong one, what it was judged by."""
+        """A file's verdict; if the file is right after a wrong one, with the file it was judged by."""
         before = [
             other.file for other in self.verdict.files[:self.verdict.files.index(file)]
             if other.verdict in FAILED]

@@ -1,4 +1,4 @@
-// A student's stages over ours: the judge's verdict, and what differs.
+// A student's stages over ours: the judge's verdict, and the differences.
 
 import {element} from "./element.js";
 import {bytesOf, intsOf, realsOf} from "./pack.js";
@@ -7,7 +7,7 @@ const MOST_LISTED = 500;  // vertices of a stage
 const FACES = [["our image", "show theirs"], ["their image", "show what differs"], ["where theirs differs", "show ours"]];
 
 export class TheirsPanel {
-  // `select(name)` is called for a triangle that is chosen.
+  // Calls `select(name)` when a triangle is chosen.
   constructor({box, theirs, panels, pictures, captions, button, select}) {
     Object.assign(this, {box, theirs, select});
     box.append(element("p", {}, `${theirs.folder}: ${theirs.sentence}.`), this.fileTable());
@@ -44,7 +44,7 @@ export class TheirsPanel {
       element("table", {}, element("thead", {}, element("tr", {}, ...["triangle", "vertex", "their line", "theirs", "ours"].map(head => element("th", {scope: "col"}, head)))), element("tbody", {}, ...rows)));
   }
 
-  // The image, theirs, and what differs, one after the other.
+  // The button shows in turn our image, their image and the pixels that differ.
   listenToFaces(button, title, pictures) {
     const rgb = bytesOf(this.theirs.picture), ours = pictures.fragments.rgb;
     let face = 0;

@@ -1,7 +1,7 @@
 // A parallel view of space that is turned, moved and brought nearer.
 
-const FARTHEST = 20;  // in sizes of the frustum or the cube: how far triangles around it may shrink it
-const LEFT_AROUND = 1.14;  // for labels
+const FARTHEST = 20;  // triangles are kept in sight up to this many sizes of the frustum or cube around it
+const LEFT_AROUND = 1.14;  // a margin for labels
 
 // The box around points, triples of numbers, and the length of its diagonal.
 function boxOf(points) {
@@ -34,7 +34,7 @@ export class Turntable {
     this.measure();
   }
 
-  // How it is turned and moved, for another one.
+  // Its turn and place, for another Turntable.
   get pose() { return {yaw: this.yaw, pitch: this.pitch, zoom: this.zoom, shift: this.shift, isClose: this.isClose}; }
 
   set pose(pose) {
@@ -42,7 +42,7 @@ export class Turntable {
     this.measure();
   }
 
-  // What is to be in sight: guide and points, triples of numbers; the points no farther out than a multiple of the guide's box.
+  // The triples of numbers to fit into the view: guide and points, with points moved to at most FARTHEST sizes of the guide's box.
   inSight() {
     const guide = this.guide.flat(2), box = boxOf(guide), reach = [0, 1, 2].map(i => FARTHEST * (box.high[i] - box.low[i]));
     const near = this.points.map((x, at) => Math.max(box.low[at % 3] - reach[at % 3], Math.min(box.high[at % 3] + reach[at % 3], x)));
@@ -50,7 +50,7 @@ export class Turntable {
     return this.isClose ? [boxOf(near).size < box.size ? near : guide] : [guide, near];
   }
 
-  // `size` is the height of the pane in units of the space. Chooses it and the center for what is to be in sight.
+  // Chooses the center and `size`, the height of the pane in units of the space, to fit inSight().
   measure() {
     const shown = this.inSight(), boxes = shown.map(boxOf);
     this.middle = [0, 1, 2].map(i => (Math.min(...boxes.map(box => box.low[i])) + Math.max(...boxes.map(box => box.high[i]))) / 2);
@@ -71,7 +71,7 @@ export class Turntable {
     this.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, this.pitch + pitch));
   }
 
-  // By a factor, so that what is at pixel (x, y) stays there.
+  // Zooms by a factor about pixel (x, y).
   approach(factor, x = this.width / 2, y = this.height / 2) {
     this.zoom *= factor;
     this.shift = [[x - this.width / 2, this.shift[0]], [y - this.height / 2, this.shift[1]]].map(([at, shift]) => at - factor * (at - shift));

@@ -1,4 +1,4 @@
-// A wireframe of a stage's triangles that turns. It shows their positions; hidden surfaces are zbuf's business.
+// A wireframe of a stage's triangles that can be turned. Hidden lines are drawn, too.
 
 import {KINDS} from "./fates.js";
 import {GridIndex} from "./grid_index.js";
@@ -22,8 +22,8 @@ function joined(a, b) {
 }
 
 export class Wireframe {
-  // `pane` has a canvas and another one above it, for marks. It begins as it was turned and moved by a `pose`, if there is one.
-  // `kindOf(name)` is what became of a triangle or a sphere, one of KINDS.
+  // `pane` has a canvas and another one above it, for marks. The first view is `pose`, if there is one, else `start`. `kindOf(name)` is
+  // the fate of a triangle or a sphere, one of KINDS.
   constructor(pane, stage, {start, pose}, kindOf, palette) {
     Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, rays: [], theirs: null, index: null, isDirty: false});
     [this.canvas, this.mark] = pane.querySelectorAll("canvas");
@@ -38,8 +38,8 @@ export class Wireframe {
   // Room for the pixels and the nearness of this many points.
   places(count) { return [0, 1, 2].map(() => new Float32Array(count)); }
 
-  // Draws other triangles over these. If there are as many, in the same order (`isAlike`), only those that have one of the `vertices`
-  // that differ, which are marked.
+  // Draws other triangles over these and marks the `vertices` that differ. If both have the same triangles in the same order (`isAlike`),
+  // only triangles with a vertex that differs are drawn.
   layOver(points, isAlike, vertices) {
     const all = Int32Array.from({length: points.length / 9}, (_, i) => i), differing = new Set(vertices.map(vertex => Math.floor(vertex / 3)));
     this.theirs = {points, isAlike, vertices: vertices.subarray(0, MOST_MARKED), differing, triangles: isAlike ? [...differing] : all, places: this.places(points.length / 3)};
@@ -102,7 +102,7 @@ export class Wireframe {
     });
   }
 
-  // From each of our vertices that differs a dotted line to theirs, and a dot there.
+  // Draws a dotted line from each of our vertices that differs to theirs, and a dot at theirs.
   drawDifferences(context) {
     const {vertices, places: [x, y]} = this.theirs, color = this.palette.word("--theirs"), radius = 2.5 * this.scale;
     Object.assign(context, {strokeStyle: color, fillStyle: color, lineWidth: this.scale});
@@ -153,7 +153,7 @@ export class Wireframe {
     }
   }
 
-  // Marks triangle `name`, all pieces of it, in two tones, one of which stands out from any color.
+  // Marks all pieces of triangle `name` in two tones, one of which stands out from any color.
   highlight(name) {
     this.highlighted = name;
     const context = this.mark.getContext("2d"), {palette} = this, pieces = this.stage.piecesOf(name);
@@ -167,7 +167,7 @@ export class Wireframe {
     for (const ray of this.rays) this.drawRay(context, ray);
   }
 
-  // A line to what the ray meets, with a dot there; or one that fades, half a pane long, of a ray that leaves the scene.
+  // Draws a line to the ray's end and a dot there; if the ray leaves the scene, a fading line of half a pane.
   drawRay(context, {kind, from, to, towards}) {
     const reach = this.view.size / 2 / this.view.zoom, end = to || from.map((at, i) => at + reach * (towards[i] - at));
     const [x, y] = this.view.place(...from), [x1, y1] = this.view.place(...end), tone = "--ray-" + kind, parts = to ? 1 : FADING;
@@ -206,7 +206,7 @@ export class Wireframe {
     }
   }
 
-  // Of the triangles and spheres under a point of the canvas, the one whose center is nearest to the viewer; -1 if there is none.
+  // The number of the triangle or sphere under a point of the canvas whose center is nearest to the viewer; -1 if there is none.
   triangleAt(x, y) {
     this.index = this.index || new GridIndex(this.x, this.y, this.names.length, this.canvas.width, this.canvas.height);
     let [found, nearest] = this.stage.spheres.at(x, y);

@@ -40,8 +40,8 @@ def ply(mesh):
 
 
 def stl(mesh):
-    """The binary form: 80 bytes of anything, a count, then 50 bytes a triangle. It has no normals but those
-    of triangles, which every reader makes itself: they are left 0. Nor has it colors."""
+    """The binary form: 80 bytes of anything, a count, then 50 bytes a triangle. It has no colors, and normals
+    only of triangles: they are 0 here, since every reader calculates them."""
     parts = [HEADER.encode().ljust(80, b"\0"), struct.pack("<I", len(mesh.triangles))]
     for triangle in mesh.triangles:
         corners = [x for i in triangle for x in mesh.vertices[i]]
