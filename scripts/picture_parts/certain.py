@@ -1,5 +1,5 @@
-"""Draws every pixel as exact arithmetic shows it: with 12 digits, then what these leave uncertain with all,
-and what is left then as the exact program says."""
+"""Draws every pixel as exact arithmetic shows it: first with 12 digits, then uncertain pixels with all
+digits, and pixels that are still uncertain by exact_pixels."""
 import argparse
 import array
 import dataclasses
@@ -16,7 +16,7 @@ from lib.rim.output_file import expect_writable, own_descriptor, target_of, writ
 from lib.running.pipe_tools import ToolFailure
 from lib.showing.pictures import size_of, with_pixels_of
 
-DIGITS = "12"  # of the first run; 7 take a tenth less, and leave pixels of most large pictures uncertain
+DIGITS = "12"  # of the first run; 7 save a tenth of the time, but most large pictures have uncertain pixels
 MOST_LISTED = 100
 FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)\Z", re.DOTALL)
 
@@ -36,8 +36,8 @@ def refuse(parser, options):
 
 
 class Certainty:
-    """The report of zbuf --certify: how many pixels there are, how many are uncertain, and the places of
-    these, or of the first."""
+    """The report of zbuf --certify: the counts of all and of uncertain pixels, and the places of uncertain
+    ones, or of the first."""
     def __init__(self, path, width):
         with open(path) as file:
             _, certain, _, uncertain, *places = file.read().split()
@@ -58,8 +58,8 @@ class Certainty:
 
 @dataclasses.dataclass
 class Run:
-    """One drawing, with some number of digits: the notes, zbuf's certainty and picture file, and if it was
-    all digits, the number of the triangle that each pixel shows, -1 where there is none."""
+    """One drawing, with some number of digits: its notes, certainty and picture file, and after a run with
+    all digits the number of the triangle that each pixel shows, or -1."""
     digits: str
     notes: list
     certainty: Certainty
@@ -72,8 +72,8 @@ class Run:
 
 
 class CertainPicture:
-    """A picture that options ask for. `commands` gives the tools with their words for options, `draw` runs
-    them and gives their notes."""
+    """A picture by options. `commands` returns the tools' command lines for options, `draw` runs them and
+    returns their notes."""
     def __init__(self, options, tools, commands, draw):
         self.options, self.tools, self.commands, self.draw = options, tools, commands, draw
         self.kind = next(filter(None, FORMAT.match(options.output).groups()))
@@ -97,7 +97,7 @@ class CertainPicture:
                        numbers(owners, size_of(picture)) if is_last else None)
 
     def run_again(self, first):
-        """A run with all digits that keeps what the first has called certain; the first, if it is refused."""
+        """A run with all digits that keeps the first's certain pixels; the first if a tool refuses."""
         try:
             run = self.run("exact")
         except ToolFailure as failure:
@@ -143,15 +143,15 @@ def content(path):
 
 
 def numbers(path, size):
-    """The triangle numbers of a file by zbuf --triangle-array, for a picture of this size."""
+    """The triangle numbers in a file of zbuf --triangle-array, for a picture of this size."""
     found = array.array("q")
     found.frombytes(content(path)[-found.itemsize * math.prod(size):])
     return found
 
 
 def draw_for_certain(options, *tools_and_calls):
-    """Draws the picture, says how much of it is certain, and gives the notes of the last run. The rest are
-    arguments of CertainPicture."""
+    """Draws the picture, prints how much of it is certain, and returns the notes of the last run. The other
+    arguments are for CertainPicture."""
     is_stream = options.image == "-" or own_descriptor(target_of(options.image)) == 1
     if not is_stream:
         expect_writable(options.image)
@@ -160,7 +160,7 @@ def draw_for_certain(options, *tools_and_calls):
     if run.certainty.uncertain_count:
         run = drawing.run_again(run)
     if run.certainty.uncertain_count:
-        from picture_parts.decided import decide  # which few pictures need
+        from picture_parts.decided import decide  # few pictures need it
         tried = decide(drawing, run)
     write_file("/dev/stdout" if is_stream else options.image, run.picture)
     print(told(run.certainty, size_of(run.picture)[0], tried), file=sys.stderr if is_stream else sys.stdout)
@@ -175,7 +175,7 @@ def state_of(options):
 
 
 def told(certainty, width, tried):
-    """The line on a picture for its user; pixels are uncertain that were `tried` so."""
+    """The line about a picture for its user; `tried` says how far uncertain pixels were tried."""
     count, places = certainty.uncertain_count, certainty.places[:MOST_LISTED]
     total = certainty.pixel_count
     text = f"{total - count:,} of {total:,} pixels are what exact arithmetic shows"

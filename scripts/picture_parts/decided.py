@@ -1,4 +1,4 @@
-"""Draws the pixels that all digits leave uncertain as the exact program says."""
+"""Decides pixels that are uncertain with all digits by exact_pixels, and draws them."""
 import collections
 
 from lib.maths.window import Window
@@ -11,7 +11,7 @@ TOO_MUCH = "too much for the exact program"
 
 
 def decide(drawing, run):
-    """Changes the Run of a CertainPicture, and reports how far the pixels that stay uncertain were tried."""
+    """Corrects the Run of a CertainPicture, and says how far pixels that stay uncertain were tried."""
     if run.certainty.uncertain_count > MOST_PIXELS or len(data := drawing.scene()) > MOST_BYTES:
         return f"{run.tried} ({TOO_MUCH})"
     places, width = run.certainty.places, size_of(run.picture)[0]
@@ -21,7 +21,7 @@ def decide(drawing, run):
         seen = owners(scene, window, [(place % width, place // width) for place in places])
     except TooMuch:
         return f"{run.tried} ({TOO_MUCH})"
-    right, wrong = set(), collections.defaultdict(set)  # wrong ones by what should be there
+    right, wrong = set(), collections.defaultdict(set)  # wrong ones by the triangle to show
     for (column, row), found in seen.items():
         number, place = found[0] if found else NOTHING, row * width + column
         if run.owners and run.owners[place] == number:

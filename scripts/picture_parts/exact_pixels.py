@@ -1,4 +1,4 @@
-"""Which triangle a pixel's center shows if no stage rounds, straight from the scene."""
+"""The triangle that a pixel's center shows if no stage rounds, straight from the scene."""
 import bisect
 import collections
 import functools
@@ -9,12 +9,12 @@ from lib.maths.matrices import IDENTITY, Projection, applied, product, view_matr
 from lib.maths.vectors import cross, dot
 from lib.text.scene import camera, find_triangles
 
-ROUNDED = 1e-14  # of the sums of four products in doubles, more than they may lose
+ROUNDED = 1e-14  # a bound of the relative rounding error of sums of four products in doubles
 SMALLEST = 1e-300
-NEAR = 0.001  # of a pixel, more than its place loses in doubles
-CUT_WITHIN = 1024  # parts of the distance of the near plane: what is as near to the eye is cut there (P7)
+NEAR = 0.001  # a bound of the rounding error of a pixel's place in doubles, in pixels
+CUT_WITHIN = 1024  # triangles nearer to the eye plane than near / 1024 are cut at the near plane (P7)
 
-FEW_BITS, MOST_BITS = 256, 4096  # the latter are slow, and tell more only of ties
+FEW_BITS, MOST_BITS = 256, 4096  # the latter are slow, and decide only near ties
 MOST_STEPS = 5_000_000  # of some microseconds
 STEPS_OF_A_MATRIX, STEPS_OF_A_CANDIDATE, STEPS_OF_A_TRIANGLE = 300, 100, 10
 
@@ -24,8 +24,8 @@ class TooMuch(Exception):
 
 
 def owners(scene, window, pixels):
-    """{(column, row): the (number, SceneTriangle) that is seen there, or None} of the pixels that MOST_BITS
-    decide; `scene` is one that `model` has accepted, as text."""
+    """{(column, row): the (number, SceneTriangle) seen there, or None} for the pixels that MOST_BITS decide;
+    `scene` is the text of a scene that `model` has accepted."""
     found, left = {}, None
     for bits in (FEW_BITS, MOST_BITS):
         Ball.bits = bits
@@ -46,9 +46,9 @@ class Fragment:
         self.depth, self.is_sure = depth, is_sure
 
     def hides(self, other):
-        """True if it certainly does."""
+        """True if this fragment certainly hides the other."""
         try:
-            if self.clip is other.clip or self.depth == other.depth:  # if the same triangle, no digits matter
+            if self.clip is other.clip or self.depth == other.depth:  # equal triangles need no digits
                 return self.is_sure and self.number < other.number
         except Undecided:
             return False
@@ -68,7 +68,7 @@ class ExactPixels:
         self.steps = 0
 
     def candidates(self, pixels):
-        """{pixel: [(number, SceneTriangle), ...]} of triangles that may be there, by doubles with a bound."""
+        """{pixel: [(number, SceneTriangle), ...]}: the triangles that may be there, by bounds in doubles."""
         columns_of, found = collections.defaultdict(list), {pixel: [] for pixel in pixels}
         for column, row in sorted(pixels):
             columns_of[row].append(column)
@@ -93,7 +93,7 @@ class ExactPixels:
             raise TooMuch
 
     def matrices_of(self, triangle):
-        """The matrix of its transforms; matrices of earlier triangles are used again."""
+        """The matrix of the triangle's transforms, exact and in doubles; earlier triangles' are reused."""
         missing, in_force = [], triangle.in_force
         while line_of(in_force) not in self.matrices and in_force:
             missing.append(in_force)
@@ -111,7 +111,7 @@ class ExactPixels:
             [in_doubles(x * scale) for x in matrix[i]] for i, scale in zip((0, 1, 3), (*self.scales, 1))]
 
     def seen(self, pixel, triangles):
-        """Those of the triangles that may be seen by Z5 to Z8, and whether this is decided: one or none."""
+        """The triangles that may be seen by Z5 to Z8, and True if that is decided: one or none."""
         try:
             fragments = [found for triangle in triangles if (found := self.fragment(pixel, *triangle))]
         except Undecided:
@@ -141,9 +141,9 @@ class ExactPixels:
         return Fragment(number, triangle, clip, depth, is_sure)
 
     def edges_of(self, triangle):
-        """Its corners in clip space, unscaled; its edges, as factors of x, y and 1 that are positive inside,
-        if it has a positive area; and this area. All are multiplied so that where x and y have one
-        irrational scale, it stands in few of them."""
+        """The triangle's corners in clip space, unscaled; its edges as factors of x, y and 1, positive inside
+        if the area is positive; and its area. Edges and area are multiplied by a factor that keeps an
+        irrational scale of x and y in few of the numbers."""
         matrix, _ = self.matrices_of(triangle)
         key = line_of(triangle.in_force), *map(tuple, triangle.points)
         if key not in self.edges:
@@ -159,7 +159,7 @@ class ExactPixels:
         return not depth < self.window.front and depth < self.window.rear
 
     def is_left(self, clip, depth):
-        """True if cutting the triangle by P7 leaves what is at this depth; Undecided on the cut."""
+        """True if cutting the triangle by P7 leaves its point at this depth; Undecided on the cut."""
         if self.projection.is_parallel or (depth + 1).sign > 0:
             return True
         is_cut = any(w < self.projection.near / CUT_WITHIN for *_, w in clip)
@@ -173,8 +173,8 @@ def to_view_space(scene):
 
 
 def unscaled(projection):
-    """The matrix to clip space, without the scales of x and y if they may be irrational; these; and the first
-    by the second."""
+    """The matrix to clip space, without the scales of x and y if these may be irrational; the two scales; and
+    the first divided by the second."""
     matrix = projection.matrix()
     if projection.kind != "perspective":
         return matrix, (Ball(1), Ball(1)), Ball(1)
@@ -196,7 +196,7 @@ def line_of(in_force):
 
 
 def in_doubles(x):
-    """A double near x, and its distance from it, with what a product with it loses."""
+    """A double near x, and a bound of its error, with the rounding of a product with it."""
     x = ball(x)
     double = float(x)
     radius = float(Ball.around(x.radius, 0, x.exponent)) if x.exact is None else 0
@@ -204,11 +204,11 @@ def in_doubles(x):
 
 
 class Outline:
-    """The part of the window where a triangle may be, in doubles with their errors."""
+    """The part of the window where a triangle may be, in doubles with error bounds."""
     def __init__(self, matrix, points, grid):
-        """`matrix` leads to clip space; of it only the rows for x, y and w, as in_doubles."""
+        """`matrix` is the rows of x, y and w of the matrix to clip space, as in_doubles()."""
         self.grid = grid
-        self.corners = []  # x, y and w, and how far these may be wrong
+        self.corners = []  # x, y and w, and their error bounds
         for words in points:
             p = [*map(float, words), 1.0]
             self.corners.append(([sum(a * b for (a, _), b in zip(row, p)) for row in matrix], [
@@ -216,7 +216,7 @@ class Outline:
         self.has_numbers = all(math.isfinite(x) for corner in self.corners for part in corner for x in part)
 
     def range_of(self, pixels, axis):
-        """The first and the end of those of the sorted columns (axis 0) or rows (1) that it may reach."""
+        """The range of the sorted columns (axis 0) or rows (1) that the triangle may reach, as indices."""
         if not self.has_numbers:
             return 0, len(pixels)
         if all(p[2] + e[2] <= 0 for p, e in self.corners):
@@ -240,5 +240,5 @@ class Outline:
             error = (abs(a) + a_error) * d_error + (abs(b) + b_error) * c_error + a_error * abs(d) + \
                 b_error * abs(c) + ROUNDED * (abs(a * d) + abs(b * c)) + SMALLEST
             side = a * d - b * c
-            signs.add((1 if side > 0 else -1) if abs(side) > error else 0)  # 0, too, if they are no numbers
+            signs.add((1 if side > 0 else -1) if abs(side) > error else 0)  # 0 for NaN, too
         return not signs >= {1, -1}

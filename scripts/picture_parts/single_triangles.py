@@ -7,28 +7,28 @@ from lib.running.pipe_tools import ToolFailure
 from lib.text.stage_text import header_and_body
 from picture_parts.exact_pixels import to_view_space
 
-NOTHING = -1  # where no triangle is seen, as zbuf has it
+NOTHING = -1  # the number for a pixel without a triangle, as zbuf writes it
 EXACT = ("--digits", "exact")
-GROWTHS = (0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3)  # parts of it; the least is taken by which it covers a center
+GROWTHS = (0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3)  # relative; tried until the triangle covers the center
 
 
 class SingleTriangles:
     def __init__(self, tools, scene, draw):
-        """`scene` is text that model takes; `draw` makes a picture file, and the numbers of the triangles
-        that its pixels show, of a text of project."""
+        """`scene` is text that model takes; `draw` makes of a text of project a picture file and the numbers
+        of the triangles that its pixels show."""
         self.tools, self.draw = tools, draw
         self.to_view_space = to_view_space(scene)
         self.header, self.body = header_and_body(
             tools.output("model", *EXACT, stdin=scene.encode(errors="surrogateescape")))
 
     def drawn(self, number, triangle, places):
-        """Pairs of a picture file that shows triangle `number` alone, and those of the places that are drawn
-        there. If it is NOTHING, these are all."""
+        """Pairs of a picture file that shows triangle `number` alone, and the places that show it there; all
+        places if `number` is NOTHING."""
         text = self.in_view_space(number)
         for growth in GROWTHS:
             try:
                 picture, owners = self.draw(self.projected(text, triangle, growth))
-            except ToolFailure:  # of a coordinate that is too large
+            except ToolFailure:  # a coordinate is too large
                 return
             found = {place for place in places if owners[place] == number}
             yield picture, found
@@ -43,8 +43,8 @@ class SingleTriangles:
         return self.tools.output("view", *EXACT, stdin="\n".join([*lines, ""]).encode())
 
     def projected(self, text, triangle, growth):
-        """The text of project of a text of view whose triangle, if any, is put where no rounding has moved
-        it, larger by a part about its middle."""
+        """The text of project for a text of view, whose triangle, if any, gets its exact corners, moved away
+        from its middle by the part `growth`."""
         header, body = header_and_body(text)
         points = self.exact_points(triangle) if triangle else []
         middle = [sum(axis) * Fraction(1, 3) for axis in zip(*points)]
@@ -54,6 +54,6 @@ class SingleTriangles:
         return self.tools.output("project", *EXACT, stdin="\n".join([*header, *body]).encode())
 
     def exact_points(self, triangle):
-        """Its corners in view space."""
+        """The triangle's corners in view space."""
         matrix = product(self.to_view_space, triangle.matrix(exactly))
         return [applied(matrix, [exactly(word) for word in words])[:3] for words in triangle.points]

@@ -6,12 +6,11 @@ from trade_parts.timing import CHEAPER, TIE, UNTOLD
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """A setting with its cost and its losses. Rows are in the order of their settings: the simpler one
-    first."""
+    """A setting with its cost and its losses. Rows are in the order of their settings, simpler ones first."""
     setting: object
     seconds: object  # Quartiles
-    ratio: float  # the CPU time over the default's
-    net: float  # the same without the start of four programs
+    ratio: float  # of the CPU time to the default's
+    net: float  # the same, both without the start of four programs
     size: int  # bytes in the three pipes
     loss: object  # losses.Loss
     covered: int  # pixels of the exact picture
@@ -23,13 +22,13 @@ class Row:
 
 @dataclasses.dataclass(frozen=True)
 class Limits:
-    """The user's limits; None is: no matter."""
+    """The user's limits; None is no limit."""
     percent_wrong: float = None
     ratio: float = None
 
     def over(self, row):
-        """How many times too much a row takes or loses; at most 1 meets the limits. A pixel more keeps this
-        finite for a limit of 0."""
+        """The factor by which a row exceeds the limits; at most 1 meets them. An added pixel keeps it finite
+        for a limit of 0."""
         pixel = 100 / row.covered
         over_wrong = 0 if self.percent_wrong is None else (row.percent_wrong + pixel) / (self.percent_wrong +
                                                                                          pixel)
@@ -44,25 +43,25 @@ class Choice:
     row: object
     ties: tuple = ()  # rows that cost the same, as far as anybody notices
     untold: tuple = ()  # rows that may be cheaper: the times do not decide
-    lucky: tuple = ()  # rows that are wrong with the eye moved, and by how many pixels
+    lucky: tuple = ()  # rows with too many wrong pixels when the eye is moved, and their number
 
 
 def least_wrong(rows, limits):
-    """The limits with the fewest wrong pixels to be had, if none were asked for."""
+    """The limits; if wrong pixels have none, it is the fewest that the other limits allow."""
     within = [row.percent_wrong for row in rows if limits.are_met_by(row)]
     return dataclasses.replace(
         limits, percent_wrong=min(within)) if within and limits.percent_wrong is None else limits
 
 
 def simplest_first(rows):
-    """By the number of options to type; of as many, the order of `rows` stays."""
+    """The rows by their number of options to type; equal ones keep their order."""
     return sorted(rows, key=lambda row: len(row.setting.words()))
 
 
 def cheapest(rows, verdict):
-    """The Choice among `rows`. `verdict(a, b)` compares the CPU times of the settings a and b. A
-    setting gives way only to one that is cheaper beyond the noise. If one that may be cheaper is left, so
-    that another run could name it, the simplest row is chosen, and `untold` tells why."""
+    """The Choice among `rows`. `verdict(a, b)` compares the CPU times of the settings a and b. A setting
+    gives way only to one that is cheaper beyond the noise. If another may still be cheaper, so that another
+    run could name it, the simplest row is chosen, and `untold` has the others."""
     rows = simplest_first(rows)
     best, untold = rows[0], []
     for row in rows[1:]:
@@ -80,7 +79,7 @@ def cheapest(rows, verdict):
 
 
 def steady(rows, verdict, limits, wrong_if_moved):
-    """The Choice among `rows` that meets the limits with the eye moved a little, too; None if none does."""
+    """The Choice among `rows` with few enough wrong pixels also when the eye is moved; else None."""
     rows, lucky = list(rows), []
     while rows:
         choice = cheapest(rows, verdict)

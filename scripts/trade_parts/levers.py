@@ -22,7 +22,7 @@ SAMPLINGS = ("basic", "jittered", "adaptive")  # of trace, which has no coverage
 
 
 def settings(rule, with_dear=False, without=()):
-    """Those with the rule `rule`, by their levers, then those of the other one that matter. `without` are
+    """The settings with the rule `rule`, lever by lever, then some with the other rule. `without` are the
     levers that the user has set."""
     base = dataclasses.replace(DEFAULT, coverage=rule)
     yield from (dataclasses.replace(base, digits=digits) for digits in DIGITS)

@@ -27,9 +27,9 @@ class Loss:
 
 
 class Layers:
-    """How far apart two layers must be at the farthest vertex in the picture, so that their depths differ."""
+    """The distance at which two layers at the farthest vertex in the picture differ in depth."""
     def __init__(self, camera, window, vertices):
-        """The last line of a camera in words, the Window of a config, and the exact vertex lines."""
+        """`camera` is the words of the projection, `vertices` are the exact vertex lines."""
         keyword, words = (camera[0], camera[1:]) if camera[0] in KEYWORDS else ("perspective", camera)
         self.near, self.far = window_of({keyword: words})[-2:]
         self.is_parallel, self.window = keyword == "ortho", window
@@ -55,7 +55,7 @@ def is_of_header(line):
 
 
 class Truth:
-    """The exact picture, and what settings lose against it."""
+    """The exact picture, and the losses of settings against it."""
     def __init__(self, pipe, rule, window, is_smooth):
         self.pipe, self.setting = pipe, exact(rule)
         self.base = dataclasses.replace(DEFAULT, coverage=rule)
@@ -73,7 +73,7 @@ class Truth:
             self.layers = Layers(pipe.camera()[3], window,
                                  (line for _, corners in triangle_lines(text) for line in corners))
         self.smooth = {"samples": SAMPLES_OF_TRUTH} if is_smooth else {}
-        self.colors = {}  # by whether trace draws
+        self.colors = {}  # by is_traced
         self.felt = {}  # by setting
         self.moved = None  # pipes with the eye moved a little, and their exact marks
 
@@ -95,8 +95,8 @@ class Truth:
         return self.moved
 
     def wrong_if_moved(self, setting):
-        """The most wrong pixels of the pictures with the eye moved a little: with some digits all pixels may
-        be right by luck."""
+        """The most wrong pixels in a picture with the eye moved a little: with few digits all pixels may be
+        right by luck."""
         most = 0
         for pipe, marks in self.moved_pictures():
             most = max(most, sum(map(operator.ne, pipe.owners(setting), marks)))
@@ -104,7 +104,7 @@ class Truth:
         return most
 
     def uncertain(self, setting):
-        """How many pixels `zbuf --certify` does not call certain; None where it is refused."""
+        """The number of pixels that `zbuf --certify` calls uncertain; None if it is refused."""
         path = self.pipe.folder / "uncertain.txt"
         certified, bounded = (dataclasses.replace(setting, certify=word) for word in (str(path), "-"))
         self.pipe.forget_texts(bounded.of_texts)
@@ -125,7 +125,7 @@ class Truth:
         return sum(map(abs, map(operator.sub, self.pipe.colors(setting), true))) / (3 * self.covered)
 
     def feels(self, setting):
-        """As changes() has it, and both of two levers."""
+        """True if the setting changes something; of two levers, if each does."""
         if setting not in self.felt:
             base = dataclasses.replace(self.base, digits=setting.digits)
             single = [
@@ -135,8 +135,8 @@ class Truth:
         return self.felt[setting]
 
     def changes(self, setting):
-        """True if the lever that differs from the default, if clipping, culling, epsilon or shading, changes
-        the picture or text; for other levers, unless the tools refuse them."""
+        """True if clipping, culling, epsilon or shading changes the text or the picture, or if --certify is
+        not refused; True for other levers."""
         try:
             if setting.certify != DEFAULT.certify:
                 return bool(self.pipe.text(setting))
@@ -162,8 +162,8 @@ class Truth:
 
 
 def losses(truth, settings, progress):
-    """{setting: Loss} of those that the scene feels, in their order. A text is kept only as long as its
-    settings are looked at."""
+    """{setting: Loss} for the settings that matter in the scene, in their order. A text is kept only while
+    settings need it."""
     settings, found = list(settings), {}
     progress("shading")
     unfelt = {setting for setting in settings if setting.is_of_color and not truth.feels(setting)}

@@ -1,4 +1,4 @@
-"""The plot of trade: what each setting takes beside what it loses, a row a setting."""
+"""The plot of trade: each setting's cost beside its losses, in a row."""
 import dataclasses
 import math
 
@@ -32,7 +32,7 @@ class Axis:
 
 @dataclasses.dataclass(frozen=True)
 class PowerAxis:
-    """0 at the left, and powers of ten behind it."""
+    """0 at the left, and powers of ten to its right."""
     left: float
     width: float
     low: int
@@ -53,7 +53,7 @@ class PowerAxis:
 
 
 def power_axis(left, width, values):
-    """With a place for all these values."""
+    """A PowerAxis with room for all these values."""
     powers = [math.log10(value) for value in values if value] or [0]
     low = math.floor(min(powers))
     return PowerAxis(left, width, low, max(math.ceil(max(powers)), low + 1))
@@ -87,7 +87,7 @@ def row_of(row, y, axes, start_up, is_chosen):
 
 
 def last_of(row):
-    """Its value in the last panel: its levels, if colors were compared, else its gap."""
+    """A row's value in the last panel: its levels if colors were compared, else its gap."""
     return row.loss.gap if row.loss.levels is None else row.loss.levels
 
 

@@ -34,14 +34,14 @@ def pixels(row):
 
 
 def pixels_of_uncertain(row):
-    """Wrong pixels as a share of the uncertain ones, where these are known and not 0."""
+    """The count of wrong pixels, followed by that of uncertain ones if these are known and not 0."""
     wrong = pixels(row)
     count, *share = wrong.split(" ", 1)
     return " ".join([f"{count}/{row.loss.uncertain}", *share]) if row.loss.uncertain else wrong
 
 
 def cells(row, unit):
-    """As in HEADER; the last one only if colors were compared."""
+    """The cells of a row under HEADER; the last only if colors were compared."""
     gap, levels = row.loss.gap, row.loss.levels
     return [
         str(row.setting.under_default_coverage), "-" if math.isnan(row.net) else f"{row.net:.2f}",
@@ -89,7 +89,7 @@ def about_pixels(choice):
 
 
 def about_ties(choice):
-    """Which settings cost as much, or may cost less; empty if there is none."""
+    """A sentence on the settings that cost as much, or may cost less; empty if there is none."""
     if choice.untold:
         return ("\nToo busy to tell which is cheapest, or too few rounds: this is the simplest.\n"
                 f"These may be cheaper:{names(choice.untold)}\n"
@@ -110,7 +110,7 @@ def answer(choice, is_met, limits, command_line, times):
 
 
 def notes(rows):
-    """The notes of the stages, each once after the settings with which they do."""
+    """The notes of the stages, each once, after the settings that cause it."""
     found = {}
     for row in rows:
         for note in row.loss.notes:
@@ -122,7 +122,7 @@ def notes(rows):
 
 
 def report(rows, times):
-    """A table for each coverage rule and for trace, and what the times are worth."""
+    """A table for each coverage rule and for trace, and a sentence on the reliability of the times."""
     header = HEADER if times.unit == CPU_TIME else ("net", times.unit, *HEADER[2:])
     lines, width = [], len(cells(rows[0], times.unit))
     for title in dict.fromkeys(map(title_of, rows)):

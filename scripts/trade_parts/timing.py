@@ -14,13 +14,13 @@ ROUNDS_OF_DEAR = 3  # settings that cost several times the default
 EMPTY, AGAIN = "empty", "again"  # the scene without triangles; the default once more, which shows the noise
 CHEAPER, TIE, DEARER, UNTOLD = "cheaper", "tie", "dearer", "untold"
 CPU_TIME = "CPU time"
-NOTICED = 0.9  # who saves less than a tenth of the CPU time saves nothing
+NOTICED = 0.9  # a ratio above it, less than a tenth saved, counts as no saving
 CHANCE = 0.01  # that a median lies outside its interval
 
 
 def median_interval(values):
-    """Where the median lies of what these are a sample of: in 99 of 100 samples between two of their order
-    statistics (W. R. Thompson, 1936). Anywhere, if they are too few."""
+    """A 99 % confidence interval of the median, between two order statistics of the sample (W. R. Thompson,
+    1936); unbounded if the sample is too small."""
     values, count = sorted(values), len(values)
     outside, rank = 0.0, -1
     while rank + 1 < count / 2 and outside + 2 * math.comb(count, rank + 1) / 2**count <= CHANCE:
@@ -50,7 +50,7 @@ class Times:
         return median_interval(self.runs[DEFAULT])[1] == math.inf
 
     def ratios(self, setting, other):
-        """Round by round, since other load on the machine slows all runs of a round; as many as both have."""
+        """The ratios in rounds that both have: other load on the machine slows all runs of a round."""
         return [a / b for a, b in zip(self.runs[setting], self.runs[other])]
 
     def ratio(self, setting):
@@ -64,8 +64,8 @@ class Times:
                    self.seconds[setting].median - self.start_up) / (self.seconds_of_default - self.start_up)
 
     def verdict(self, setting, other):
-        """The CPU time of a setting relative to another, by the rounds, which pair them: by a sign test it is
-        less, and the median saves what is noticed."""
+        """A verdict on the CPU time of a setting and another, paired by rounds: cheaper if a sign test finds
+        it less, and its median saves at least the tenth of NOTICED."""
         ratios = self.ratios(setting, other)
         low, high = median_interval(ratios)
         median = statistics.median(ratios)
@@ -75,8 +75,7 @@ class Times:
 
 
 class Counts(Times):
-    """Instructions or bytes of each setting and of the empty scene, in place of times: the same in every run.
-    """
+    """Instructions or bytes of each setting and of the empty scene, in place of times: alike in every run."""
     def __init__(self, counts, unit):
         super().__init__({setting: [count] for setting, count in counts.items()})
         self.unit = unit
@@ -89,7 +88,7 @@ class Counts(Times):
 
 
 def counted(pipe, turns, progress):
-    """The Counts of instructions if valgrind is there and the bytes of the three texts if not."""
+    """The Counts of instructions, or of the bytes of the three texts without valgrind."""
     if shutil.which("valgrind") is None:
         return Counts(
             {
@@ -104,8 +103,8 @@ def counted(pipe, turns, progress):
 
 
 def measured(pipe, settings, rounds, progress):
-    """The Times of all settings. A round runs each once, in a new order, so that other load on the machine
-    affects all alike."""
+    """The Times of all settings. A round runs each setting once, in a new order, so that other load on the
+    machine affects all alike."""
     dice, empty = random.Random(1), pipe.empty_scene()
     turns = [(EMPTY, DEFAULT, empty), (AGAIN, DEFAULT, None),
              *((setting, setting, None) for setting in dict.fromkeys([DEFAULT, *settings]))]
