@@ -12,8 +12,7 @@ def points_of(words):
 
 
 class Calculation:
-    """Matrices, and the triangle's points in each space. `clipped` and `ndc` have what is left of it, piece
-    by piece."""
+    """Matrices, and the triangle's points in each space; `clipped` and `ndc` have its clipped pieces."""
     def __init__(self, stages, triangle):
         settings, camera = stages.settings, stages.camera()
         self.model_matrix = triangle.matrix()

@@ -1,4 +1,4 @@
-"""Why a pixel is uncertain: how far rounding may have moved a triangle there, and what lies within that."""
+"""Why a pixel is uncertain: how far rounding may have moved a triangle there, and what is as near as that."""
 from lib.explaining.calculation import Calculation
 from lib.explaining.layout import INDENT
 from lib.maths.exact import double, measured
@@ -6,7 +6,7 @@ from lib.maths.window import PixelOfTriangle
 
 
 def certainty_lines(stages, triangle, shown, number, fragments):
-    """Lines about triangle `number`, of which `shown` is a PixelOfTriangle, if zbuf --certify calls the pixel
+    """Lines about triangle `number`, if zbuf --certify calls the pixel of `shown`, its PixelOfTriangle,
     uncertain."""
     bounds = stages.bounds_if_uncertain(*shown.pixel)
     if not bounds:
@@ -29,8 +29,8 @@ def certainty_lines(stages, triangle, shown, number, fragments):
 
 
 def reach(bounds, stages, calculation, shown):
-    """How far, to first order, the bounds let edges of the triangle move at the pixel, in pixels, and its
-    depth there."""
+    """The distances that the bounds let the triangle's edges at the pixel (in pixels) and its depth there
+    move, to first order."""
     absolute, relative, *rounded = bounds
     error = max(absolute + relative * max(map(abs, map(double, vertex))) for vertex in stages.view_lossless)
     projection, grid = calculation.projection, shown.window.grid

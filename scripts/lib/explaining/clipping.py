@@ -3,7 +3,7 @@ exactly."""
 import dataclasses
 import string
 
-# A point p = (x y z w) is inside a plane where its distance is at least 0.
+# Distances of a point p = (x y z w) from the planes, at least 0 inside.
 PLANES = {
     "near": lambda p: p[3] + p[2],
     "far": lambda p: p[3] - p[2],
@@ -11,20 +11,20 @@ PLANES = {
     "right": lambda p: p[3] - p[0],
     "bottom": lambda p: p[3] + p[1],
     "top": lambda p: p[3] - p[1],}
-NEAREST_UNCUT = 1024  # --clip auto cuts what is nearer to the eye plane than near / 1024
+NEAREST_UNCUT = 1024  # --clip auto cuts triangles with a corner nearer to the eye plane than near / 1024
 
 
 @dataclasses.dataclass
 class Vertex:
     name: str  # 0, 1, 2 for the triangle's corners, letters for cuts
     point: tuple  # in clip space
-    edge: str  # of the triangle, or the plane, along which the polygon goes on from here
-    cut: str = ""  # what was cut here, and by which plane
+    edge: str  # the triangle's edge or the plane along which the polygon goes on from here
+    cut: str = ""  # the edge cut here, and the plane, in words
 
 
 @dataclasses.dataclass
 class Clipped:
-    """The polygon that is left; `fate` is passed, culled, outside or cut, and `reason` says why."""
+    """The clipped polygon; `fate` is passed, culled, outside or cut, and `reason` says why."""
     fate: str
     reason: str
     polygon: list
@@ -49,8 +49,8 @@ def winding(points):
 
 
 def cut_at(plane, polygon):
-    """The part of a polygon inside a plane (Sutherland and Hodgman, 1974); nothing if that is an edge or a
-    corner."""
+    """The part of a polygon inside a plane (Sutherland and Hodgman, 1974); empty if the part is only an edge
+    or a corner."""
     distance = PLANES[plane]
     kept, has_inside = [], False
     for here, there in zip(polygon, polygon[1:] + polygon[:1]):

@@ -3,7 +3,7 @@ from fractions import Fraction
 
 from lib.maths.exact import short
 
-NEGLIGIBLE = Fraction(1, 10**100)  # beside the largest entry of a matrix: what rounded sines leave of a 0
+NEGLIGIBLE = Fraction(1, 10**100)  # of a matrix's largest entry: a 0 with the error of rounded sines
 MIN_LEFT_WIDTH = 42
 INDENT = "  "
 
@@ -23,7 +23,7 @@ def aligned_left(rows):
 
 
 def on_the_point(column):
-    """The words of numbers, padded so that their decimal points line up."""
+    """Numbers as words, padded so that their decimal points line up."""
     behind = max(len(word) - len(word.partition(".")[0]) for word in column)
     padded = [word + " " * (behind - (len(word) - len(word.partition(".")[0]))) for word in column]
     width = max(map(len, padded))

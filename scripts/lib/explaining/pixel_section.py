@@ -6,7 +6,7 @@ from lib.maths.window import OWNING, PixelOfTriangle
 
 def pixel_section(stages, window, pieces, number, pixel):
     """Lines about the pixel and triangle `number`, whose pieces are pairs of names and points in NDC; the
-    Fragments there; and the PixelOfTriangle of the piece that covers the pixel, or is nearest to it."""
+    pixel's Fragments; and the PixelOfTriangle of the piece that covers the pixel, or is nearest to it."""
     fragments, rule, shown = stages.fragments(*pixel), stages.settings.coverage, None
     x, y = window.grid.x_of(pixel[0]), window.grid.y_of(pixel[1])
     lines = [
@@ -103,8 +103,8 @@ def nearest_lines(pixel):
 
 
 def winner_lines(fragments, number, max_lines):
-    """The fragments as the depth test met them, and the last one kept; the triangle's own are marked. If they
-    are too many for `max_lines`, the winner, the triangle's own and the first ones are shown."""
+    """The fragments in the order of the depth test, and the last one kept; the triangle's own are marked. If
+    there are more than `max_lines`, the winner, the triangle's own and the first ones are shown."""
     if not fragments:
         return ["no triangle covers this pixel: it shows the background"]
     rows, seen = [], None

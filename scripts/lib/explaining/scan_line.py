@@ -64,7 +64,7 @@ def numbers_of_row(array, width, row):
 
 
 def edges_of(depths):
-    """(column, is it a left edge, polygon, depth) of the first of some neighbors, and of the pixel after."""
+    """(column, is_left, polygon, depth) for the first pixel of each run of a polygon, and the next one."""
     for polygon, by_column in depths.items():
         for column, depth in by_column.items():
             if column - 1 not in by_column:
@@ -74,14 +74,14 @@ def edges_of(depths):
 
 
 def corners_of(text, wanted):
-    """(number, three points) of each triangle wanted in a text of project, or piece of one."""
+    """(number, three points) of each wanted triangle, or piece of one, in a text of project."""
     for number, lines in triangle_lines(io.BytesIO(text)):
         if number in wanted:
             yield number, [[decimal_or_double(word.decode()) for word in line.split()[:3]] for line in lines]
 
 
 def edge_table(triangles, window, rows, row):
-    """The edges, but horizontal ones, that a row is the first to cross, from left to right."""
+    """The edges, but horizontal ones, whose first row is this one, from left to right."""
     found = []
     for polygon, corners in triangles:
         places, (first, last) = [window.place(p) for p in corners], rows[polygon]
@@ -104,7 +104,7 @@ def polygon_table(triangles, rows, depths):
 
 
 def shading_info(text, wanted):
-    """The colors of the polygons wanted, or of pieces of them, where the scene has some."""
+    """The colors of wanted polygons or pieces of them, if the scene has colors."""
     columns = re.search(rb"^attributes (.*)", text, re.M)
     if not columns or b"color" not in columns[1].split():
         return []

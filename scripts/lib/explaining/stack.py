@@ -1,5 +1,5 @@
-"""The stack of matrices of a scene, after every command that changes it, as the sheet's table shows it: T1,
-R1 and S1 name the transforms, a product its factors, from left to right as in the code."""
+"""The stack of matrices after every command of a scene that changes it, as in the assignment's table: T1, R1
+and S1 name transforms, and a product names its factors, from left to right as in the code."""
 import textwrap
 
 from lib.explaining.layout import matrix_lines
@@ -8,7 +8,7 @@ from lib.maths.matrices import TRANSFORMS
 from lib.text.scene import commands
 
 WIDTH = 79
-MAX_FACTORS = 8  # of a product that is written out
+MAX_FACTORS = 8  # the most of a product that is written out
 LEFT = 34  # columns before the stack
 
 
@@ -59,7 +59,7 @@ def product_name(factors):
 
 
 def row(line, words, stack):
-    """The lines of a row; words that are too long for their column have a line of their own."""
+    """The lines of a row; words too long for their column have a line of their own."""
     left = f"{line:4}  {words}"
     rest = textwrap.wrap(stack, WIDTH - LEFT, break_on_hyphens=False)
     above = []

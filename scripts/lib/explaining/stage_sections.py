@@ -11,8 +11,8 @@ CORNERS = "012"
 
 
 def vertex_lines(rows, printed, points, digits):
-    """Rows of words, a vertex each. Where the tool `printed` another number than exact arithmetic, the exact
-    ones follow."""
+    """Rows of words, one for each vertex. If the tool `printed` other numbers than exact arithmetic gives,
+    the exact ones follow."""
     lines = []
     for line, words, point in zip(aligned(rows), printed, points):
         lines.append(line)
@@ -111,7 +111,7 @@ def window_section(stages, calculation, window):
 
 
 def extent(calculation, window, places, depths):
-    """A line on the triangle's size in the picture, or on why it shows nowhere."""
+    """A line on the triangle's size in the picture, or the reason why it is not visible."""
     columns, rows = zip(*places)
     beyond = {
         "left of the picture": max(columns) < -0.5, "right of the picture": min(columns) > window.width - 0.5,

@@ -44,7 +44,7 @@ class Settings:
 
 
 class Stages:
-    """A scene in world space, from which a single triangle goes through the other stages."""
+    """A scene, and a single triangle of it on its way through the stages."""
     def __init__(self, tools, scene, config, settings):
         self.tools, self.scene, self.config, self.settings = tools, scene, config, settings
         self.lossless = tools.output("model", *EXACT, scene)
@@ -84,18 +84,18 @@ class Stages:
             return done.stderr.decode(errors="replace")
 
     def fragments(self, column, row):
-        """Every Fragment of the whole scene at a pixel, in the order they come."""
+        """Every Fragment of the whole scene at a pixel, in the order of arrival."""
         report = self.zbuf(self.projected_whole(EXACT), "--probe", f"{column},{row}")
         return [Fragment(int(n), depth, fate) for n, depth, fate in FRAGMENT.findall(report)]
 
     def projected_whole(self, digits, *of_model):
-        """The text of project of the whole scene; `digits` are the option of model and view."""
+        """The text of project for the whole scene; `digits` are words for model and view."""
         project = ["project", "--digits", self.settings.digits, *self.settings.of_project]
         return self.tools.through(["model", *digits, *of_model, self.scene], ["view", *digits], project)
 
     def bounds_if_uncertain(self, column, row):
         """The numbers of the text's `bounds` if zbuf --certify calls the pixel uncertain, with the same
-        digits in every stage; None if not, or where bounds are refused."""
+        digits in every stage; None if it is certain, or bounds are refused."""
         if self.settings.coverage != "center":
             return None
         try:
@@ -109,13 +109,13 @@ class Stages:
 
 
 def words_of(lines):
-    """The words of the x, y and z in vertex lines."""
+    """x, y and z of vertex lines, as words."""
     return [line.split()[:3] for line in lines]
 
 
 def vertex_lines(data):
-    """The three vertex lines of each triangle of a stage text; the whole triangles of its `clipped` blocks do
-    not count."""
+    """The three vertex lines of each triangle of a stage text, without the whole triangles of its `clipped`
+    blocks."""
     text = data.decode()
     lines = text.split("\n")
     return [[lines[vertex.line - 1] for vertex in triangle]

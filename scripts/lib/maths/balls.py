@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from lib.maths import exact
 
-GUARD_BITS = 64  # of sums of series, whose terms are fewer than 2**32, and each wrong by few units
+GUARD_BITS = 64  # for sums of series: fewer than 2**32 terms, each wrong by few units
 
 
 class Undecided(Exception):
@@ -13,7 +13,7 @@ class Undecided(Exception):
 
 
 class Ball:
-    """A fraction, `exact`; or, where this is None, a number at most `radius` from `middle`, both in units of
+    """A fraction, `exact`; or, if `exact` is None, a number at most `radius` from `middle`, both in units of
     2**exponent."""
     __slots__ = "exact", "middle", "radius", "exponent"
     bits = 4096  # of every middle
@@ -23,7 +23,7 @@ class Ball:
 
     @staticmethod
     def around(middle, radius, exponent):
-        """Rounded to as many bits as are kept."""
+        """A Ball, rounded to `bits` bits."""
         self = Ball.__new__(Ball)
         spare = max(0, middle.bit_length() - Ball.bits, radius.bit_length() - Ball.bits)
         self.exact, self.exponent = None, exponent + spare
@@ -35,7 +35,7 @@ class Ball:
         return Ball.around(low + high, high - low, exponent - 1)
 
     def rounded(self):
-        """The same as a middle, a radius and an exponent."""
+        """The same Ball as a middle, a radius and an exponent."""
         if self.exact is None:
             return self
         top, bottom = self.exact.numerator, self.exact.denominator
@@ -130,7 +130,7 @@ def exactly(word):
 
 @exact.trimmed.register
 def _(x: Ball):
-    """Not exact any more, if its fraction has grown very long."""
+    """x, rounded if its fraction has grown very long."""
     length = x.exact and max(x.exact.numerator.bit_length(), x.exact.denominator.bit_length())
     return x.rounded() if length and length > 4 * Ball.bits else x
 
@@ -149,7 +149,7 @@ def _(x: Ball):
 
 @exact.sine_cosine_below_45.register
 def _(degrees: Ball):
-    """By the series of exp(i x), in whole numbers of units; of exact degrees."""
+    """The sine and cosine of exact degrees, by the series of exp(i x), in whole units."""
     if not degrees.exact:
         return Ball(0), Ball(1)
     small = max(0, degrees.exact.denominator.bit_length() - degrees.exact.numerator.bit_length())

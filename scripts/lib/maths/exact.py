@@ -10,7 +10,7 @@ DIGITS = 120
 CONTEXT = decimal.Context(prec=DIGITS, Emin=decimal.MIN_EMIN, Emax=decimal.MAX_EMAX)
 SHORT = decimal.Context(prec=7, Emin=decimal.MIN_EMIN, Emax=decimal.MAX_EMAX)
 MAX_DENOMINATOR_BITS = 4096
-DECIMALS_IN_TEXT = 7  # up to which zbuf's exact rule takes a number as the decimal in the text
+DECIMALS_IN_TEXT = 7  # the most at which zbuf's exact rule takes a number as the decimal in the text
 MAX_EXACT_DECIMAL = Decimal("1e22")
 
 
@@ -30,7 +30,7 @@ def as_decimal(x, context=CONTEXT):
     return context.divide(Decimal(x.numerator), Decimal(x.denominator))
 
 
-@functools.singledispatch  # lib.maths.balls has others of these
+@functools.singledispatch  # lib.maths.balls registers variants
 def trimmed(x):
     """x, to DIGITS digits if its denominator has grown very long."""
     return x if x.denominator.bit_length() <= MAX_DENOMINATOR_BITS else Fraction(as_decimal(x))
@@ -63,7 +63,7 @@ PI = pi()
 
 @functools.singledispatch
 def sine_cosine_below_45(degrees):
-    """For angles from -45 to 45 degrees, by the series of exp(i x)."""
+    """Sine and cosine of an angle from -45 to 45 degrees, by the series of exp(i x)."""
     with decimal.localcontext(CONTEXT):
         x = as_decimal(degrees * PI / 180)
         sums, term, k = [Decimal(0)] * 4, Decimal(1), 0  # of the terms in 1, i, -1, -i
@@ -75,8 +75,8 @@ def sine_cosine_below_45(degrees):
 
 
 def sine_cosine(degrees):
-    """Exact for multiples of 90 degrees; the sine of 30 degrees is exactly 1/2, and sine and cosine of 45 are
-    the same."""
+    """Sine and cosine, exact for multiples of 90 degrees; the sine of 30 degrees is exactly 1/2, and those of
+    45 degrees are equal."""
     quarters = round(degrees / 90)
     rest = degrees - 90 * quarters
     if abs(rest) == 45:
@@ -120,7 +120,7 @@ def short(x):
 
 
 def measured(x, decimals=4):
-    """x with some decimals; in scientific notation if it is huge, or they would hide that it is not 0."""
+    """x with some decimals; in scientific notation if it is huge, or so small that it would read as 0."""
     if abs(x) >= 10**15:
         return f"{as_decimal(x):.6e}"
     text = fixed(x, decimals)

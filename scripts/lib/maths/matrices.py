@@ -86,7 +86,7 @@ class Projection:
                                                                                              ZERO))
 
     def window(self):
-        """How x and y are scaled and moved so that the window becomes [-1, 1]."""
+        """The scales and offsets of x and y that map the window to [-1, 1]."""
         if self.kind == "perspective":
             fov_y, aspect = self.numbers[:2]
             y_scale = cotangent(fov_y / 2)

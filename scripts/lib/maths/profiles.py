@@ -1,7 +1,7 @@
 """Profiles of chess pieces, which a lathe turns about the y axis; the side of a square of the board is 1."""
 import math
 
-# Profiles: curves through points (radius, height), bottom to top, with a crease between two of them.
+# Profiles: curves through points (radius, height), bottom to top, with creases between the curves.
 FOOT = [[(0.33, 0), (0.33, 0.07)], [(0.33, 0.07), (0.31, 0.12), (0.25, 0.155)], [(0.25, 0.155), (0.25, 0.19)]]
 
 
@@ -36,8 +36,8 @@ KING = [
 
 
 def curve(points, steps):
-    """(radius, height, and the outward normal in their plane) along a Catmull-Rom spline through the points;
-    two make a line."""
+    """(radius, height, outward normal in their plane) along a Catmull-Rom spline through the points; two
+    points make a line."""
     padded = [
         tuple(2 * p - q for p, q in zip(points[0], points[1])), *points,
         tuple(2 * p - q for p, q in zip(points[-1], points[-2]))]
@@ -56,8 +56,7 @@ def curve(points, steps):
 
 
 def joined(profile):
-    """The curves of a profile, with a straight line where one does not begin at the end of the one before
-    it."""
+    """The curves of a profile, with a straight line from the end of each to the next one's beginning."""
     for before, points in zip([None, *profile], profile):
         if before and before[-1] != points[0]:
             yield [before[-1], points[0]]

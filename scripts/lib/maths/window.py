@@ -1,7 +1,6 @@
 """The window transform of a config.txt, and which pixels a triangle covers, exactly.
 
-A point of the window is (column, row), row 0 at the top; the pixel (column, row) has its center at just these
-numbers."""
+A point of the window is (column, row), row 0 at the top; whole numbers are the centers of pixels."""
 import dataclasses
 import math
 from fractions import Fraction
@@ -52,13 +51,13 @@ class Grid:
 @dataclasses.dataclass
 class Edge:
     name: str
-    side: str  # left, right, top or bottom: where it bounds the triangle
+    side: str  # the side of the triangle that it bounds: left, right, top or bottom
     value: Fraction  # distance times length; positive inside, 0 on the edge
     square: Fraction  # of its length in pixels
 
     @property
     def distance(self):
-        """The pixel's center, in pixels."""
+        """The distance of the pixel's center, in pixels."""
         return Fraction(as_decimal(self.value) / as_decimal(root(self.square)))
 
     @property
@@ -67,7 +66,7 @@ class Edge:
 
 
 def side_of(step_right, step_down):
-    """The side an edge bounds, from how its function grows inwards to the right and downwards."""
+    """The side that an edge bounds, from the growth of its edge function to the right and downwards."""
     if step_right:
         return "left" if step_right > 0 else "right"
     return "top" if step_down > 0 else "bottom"
@@ -94,13 +93,13 @@ class PixelOfTriangle:
 
     @property
     def distance(self):
-        """How deep inside the center is, in pixels; negative outside."""
+        """The distance of the center from the nearest edge, in pixels; negative outside."""
         return min(edge.distance for edge in self.edges) if self.has_area else -math.inf
 
     def is_covered(self, rule):
-        """True by the rule `center` if the center is inside or on top and left edges alone, exactly; by the
-        rule `nearest` if it is one of the pixels of the row from the one nearest to the left end to the one
-        nearest to the right, in zbuf's doubles."""
+        """By the rule `center`, True if the center is inside, or on top and left edges alone, exactly; by the
+        rule `nearest`, True if the pixel is in its row's span, from the pixel nearest to the left end to the
+        one nearest to the right end, in zbuf's doubles."""
         if rule == "center":
             return self.has_area and all(edge.is_owned for edge in self.edges)
         span = self.span_in_doubles()
@@ -108,20 +107,20 @@ class PixelOfTriangle:
 
     @property
     def weights(self):
-        """The weights of the three vertices at the pixel's center: each is the share of the area between
-        the center and the opposite edge."""
+        """The weights of the three vertices at the pixel's center: each is the area between the center and
+        the opposite edge, as a share of the triangle's."""
         ab, bc, ca = (edge.value / abs(self.doubled_area) for edge in self.edges)
         return bc, ca, ab
 
     def depth(self, rule):
-        """The depth of the triangle's plane at the pixel's center, exactly; but by the rule `nearest` the
-        depth where the row crosses the triangle, if that is a single point."""
+        """The depth of the triangle's plane at the pixel's center, exactly; by the rule `nearest`, if the row
+        crosses the triangle in a single point, the depth there."""
         end = self.single_crossing(rule)
         return end if end is not None else sum(weight * p[2] for weight, p in zip(self.weights, self.points))
 
     def single_crossing(self, rule):
-        """The depth where the rule `nearest`, in zbuf's doubles, finds that the row meets the triangle in a
-        single point: at a corner, or edge-on. Else None."""
+        """The depth of the single point (a corner, or an edge-on triangle) in which the row crosses the
+        triangle by the rule `nearest`, in zbuf's doubles; else None."""
         span = self.span_in_doubles() if rule == "nearest" else None
         if span is None or span.depth is None:
             return None
@@ -129,19 +128,19 @@ class PixelOfTriangle:
         return Fraction(span.depth) if exact is None or exact.depth is None else exact.depth
 
     def span(self):
-        """The rule `nearest`, exactly: a Span or None if the row passes by."""
+        """The exact Span of the rule `nearest`, or None if the row misses the triangle."""
         return span_on_row(self.window.grid, self.points, self.pixel[1])
 
     def span_in_doubles(self):
-        """The same in doubles, step by step as zbuf calculates it."""
+        """The same Span in doubles, step by step as zbuf calculates it."""
         return span_on_row(self.window.grid_in_doubles, [tuple(map(float, p)) for p in self.points],
                            self.pixel[1])
 
 
 @dataclasses.dataclass
 class Span:
-    """Where a row enters and leaves a triangle, as columns, and the pixels nearest to that. If both are a
-    single point, its depth, else None."""
+    """The columns where a row enters and leaves a triangle, and the pixels nearest to them; `depth` is that
+    of the point if both are a single one, else None."""
     left: object
     right: object
     first: int
@@ -173,8 +172,8 @@ def span_on_row(grid, points, row):
 
 
 def crossings(points, y):
-    """The x and z at which edges that are not horizontal cross the line at y, from their lower end, by y, x
-    and z."""
+    """The sorted (x, z) where edges, but horizontal ones, cross the line at y, interpolated from the lower
+    end (by y, then x, then z)."""
     found = []
     for p, q in zip(points, points[1:] + points[:1]):
         low, high = sorted((p, q), key=lambda v: (v[1], v[0], v[2]))

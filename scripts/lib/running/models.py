@@ -8,23 +8,23 @@ from lib.rim.input_file import read_input
 from lib.rim.output_file import write_file
 from lib.running.pipe_tools import Tools
 
-# The last ones are of formats that mesh2scene refuses, and names how to convert.
+# The last ones are formats that mesh2scene refuses with a hint how to convert them.
 ENDINGS = (".obj", ".stl", ".ply", ".gltf", ".glb", ".3mf", ".3ds", ".dae", ".fbx", ".off", ".amf", ".x3d")
 KEPT = []  # folders, until the program ends
 
 
 def words_of_outputs(outputs):
-    """Options of mesh2scene, which then refuses a model that reads one of these files, or None."""
+    """Options that make mesh2scene refuse a model that reads one of these files, which may be None."""
     return [word for path in outputs if path and os.path.isfile(path) for word in ("--writes", path)]
 
 
 def take_model(options, outputs, size="800x600"):
-    """If SCENE is a model file, puts the scene that mesh2scene makes of it in its place, framed for
-    CONFIG. Without one, it makes a CONFIG of this size. It may read none of `outputs`."""
+    """If SCENE is a model file, replaces it by the scene that mesh2scene makes of it, framed for CONFIG;
+    without a CONFIG, makes one of this size. The model may read none of `outputs`."""
     path = options.scene
     if not path.lower().endswith(ENDINGS) or not os.path.isfile(path):
         return
-    options.model = path  # which no output may replace
+    options.model = path  # no output may replace it
     KEPT.append(tempfile.TemporaryDirectory())
     if options.config:
         found = re.match(rb"\s*(\d+)\s+(\d+)", read_input(options.config))

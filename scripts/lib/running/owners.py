@@ -1,4 +1,4 @@
-"""Which triangle each pixel shows: every triangle is drawn in a color of its own, its mark."""
+"""The triangle that each pixel shows: every triangle is drawn in a color of its own, its mark."""
 import array
 
 from lib.rim.command import CommandFailure
@@ -21,8 +21,8 @@ def write_marked(projected, path):
 
 
 def owners(tools, marked, config, words, image):
-    """The mark of the triangle that each pixel shows, or NOBODY; from the top left. `marked` is a file by
-    write_marked, `words` are options of zbuf, and `image` is the path of a .ppm to write."""
+    """The mark of the triangle that each pixel shows, or NOBODY, from the top left. write_marked wrote the
+    file `marked`; `words` are options of zbuf, and `image` is the path of a .ppm to write."""
     tools.run("zbuf", *words, "--z-buffer", "none", "--image", image, config, marked)
     _, _, rows = read_picture(image)
     return array.array("I",

@@ -17,8 +17,8 @@ TRACING_TOOLS = ("model", "view", "trace")
 
 @dataclasses.dataclass(frozen=True)
 class Setting:
-    """Options of the tools; a value that is the default's is not written. With a sampling, trace draws in
-    place of project and zbuf."""
+    """Options of the tools; default values are not written. With a sampling, trace draws in place of project
+    and zbuf."""
     digits: str = "7"
     precision: str = "extended"
     clip: str = "auto"
@@ -32,7 +32,7 @@ class Setting:
     sampling: str = "none"
 
     def words(self, *names):
-        """The words of the options with these names, or of all."""
+        """The words of the options with these names, or of all options."""
         defaults = {field.name: field.default for field in dataclasses.fields(self)}
         return [
             word for name in names or defaults if getattr(self, name) != defaults[name]
@@ -79,12 +79,12 @@ def exact(rule):
 class Pipe:
     """A scene and a config on their way through the tools; `folder` holds the files in between."""
     def __init__(self, tools, scene, config, of_project, folder, of_camera=(), of_view=()):
-        """`of_project` and `of_camera` are options of the user's for project, and for trace in its place."""
+        """`of_project` and `of_camera` are the user's options for project, and for trace in its place."""
         self.tools, self.scene, self.config = tools, scene, config
         self.of_project, self.of_camera, self.of_view = of_project, of_camera, of_view
         self.folder = pathlib.Path(folder)
         self.texts = {}  # by Setting.of_texts: (the path of project's text, bytes in the pipes, notes)
-        self.opaque = []  # words for zbuf to write a BMP of a background with an alpha; of the first text()
+        self.opaque = []  # words for zbuf to write a BMP of a background with an alpha; set by text()
 
     def words(self, tool, setting):
         """The options of a tool."""
@@ -95,7 +95,7 @@ class Pipe:
             *(self.opaque if tool in ("zbuf", "trace") else [])]
 
     def text(self, setting):
-        """The path of project's text, the bytes in the three pipes, and what the tools noted on the way."""
+        """The path of project's text, the bytes in the three pipes, and the tools' notes."""
         key = setting.of_texts
         if key not in self.texts:
             source, size, notes = None, 0, []
@@ -120,7 +120,7 @@ class Pipe:
                       self.folder / "marks.ppm")
 
     def colors(self, setting):
-        """The picture of a setting, as the bytes of its pixels; of trace, without what zbuf has not."""
+        """The picture of a setting, as the bytes of its pixels; by trace, without effects that zbuf lacks."""
         image = self.folder / "colors.ppm"
         output = ["--z-buffer", "none", "--image", image, self.config]
         if setting.is_traced:
@@ -135,13 +135,13 @@ class Pipe:
         return self.folder / f"marked {setting.of_texts}.txt"
 
     def remove_texts(self, setting):
-        """Makes room for others; what text() has found stays known."""
+        """Makes room for others; the results of text() are kept."""
         if setting in self.texts:
             self.texts[setting][0].unlink()
         self.marked(setting).unlink(missing_ok=True)
 
     def forget_texts(self, setting):
-        """The same, so that text() makes them anew."""
+        """Removes the texts so that text() makes them anew."""
         if setting in self.texts:
             self.texts.pop(setting)[0].unlink(missing_ok=True)
         self.marked(setting).unlink(missing_ok=True)
@@ -153,7 +153,7 @@ class Pipe:
                 errors="replace").split("\n", 4)[:4]]
 
     def empty_scene(self):
-        """The path of the scene without its triangles. What its run takes, every run takes."""
+        """The path of the scene without its triangles. The cost of its run is part of every run."""
         path = self.folder / "empty.txt"
         path.write_text("".join(" ".join(line[line[0] in ("eye", "look", "up", "perspective"):]) + "\n"
                                 for line in self.camera()) + "end\n")
@@ -175,7 +175,7 @@ class Pipe:
                     ["--eye", *map(repr, eye)])
 
     def instructions(self, setting, scene=None):
-        """The instructions of a run of the whole pipe by callgrind, tool by tool."""
+        """The instructions of a run of the whole pipe, counted by callgrind."""
         source, count = None, 0
         for tool in TOOLS:
             target, words = self.folder / f"counted {tool}", self.words(tool, setting)

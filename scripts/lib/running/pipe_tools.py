@@ -20,7 +20,7 @@ class ToolFailure(CommandFailure):
 
 
 class ToolOutOfMemory(ToolFailure, MemoryError):
-    """One for which a limit is to blame, or the machine."""
+    """A ToolFailure because of a limit or too little memory, not of the input."""
 
 
 class ToolCrash(CommandFailure):
@@ -29,7 +29,7 @@ class ToolCrash(CommandFailure):
 
 
 def default_folder():
-    """Where an installed command, or one called through `pipeline`, has the tools beside it; else
+    """The folder of the tools: the command's own if it is installed or called through `pipeline`, else
     build/release/bin of this source tree."""
     called = pathlib.Path(sys.argv[0])
     for folder in (called.parent, called.resolve().parent):
@@ -51,7 +51,7 @@ OPAQUE_NOTE = "the scene's background is drawn opaque: a BMP has no alpha"
 
 
 def opaque_background(text):
-    """Words for zbuf that show the background of a tool's stage text in full, if it has an alpha, which only
+    """Words for zbuf to draw the background of a tool's stage text opaque, if it has an alpha, which only a
     PNG holds."""
     found = TRANSPARENT.search(text[:1 << 16].split(b"\n\n")[0])
     channels = map(float, found.groups()[1:]) if found else ()
@@ -59,16 +59,16 @@ def opaque_background(text):
 
 
 def with_opaque_background(text):
-    """The stage text, its background without an alpha."""
+    """The stage text with its background's alpha removed."""
     return TRANSPARENT.sub(rb"\1", text, count=1) if opaque_background(text) else text
 
 
 PIPE = ("model", "view", "project", "zbuf", "trace")
-# The options by which a tool refuses a part of a text, if a tool before it is killed.
+# The options that make a tool refuse a text that is cut short because a tool before it was killed.
 FRAMING = {"model": ["--framed"], **dict.fromkeys(("join-seen", "zbuf", "trace"), ["--expect-framed"])}
-# A pipe in a job of sh, which knows the status of the last tool alone. `run` calls a function with such a
-# pipe: `record` gets the status of each stage that fails and, indented, all that they print on stderr, in
-# memory, as the disk may be full. `fail` prints it for failure_of_jobs; $1 is the job's output, $2 its name.
+# A pipe in a job of sh, which has only the last tool's status. `run` calls a function with such a pipe:
+# `record` gets the status of each stage that fails and, indented, the stderr of all stages, in memory, as the
+# disk may be full. `fail` prints it for failure_of_jobs; $1 is the job's output, $2 its name.
 STAGES_IN_SHELL = r'''
 stage() {
   "$bin/$@" 3>&- && return
@@ -89,7 +89,7 @@ fail() {
 }
 '''
 STATUS = r"^(\w+): status (-?\d+)$"
-# Of --timing, of trace's --probe, and of stages in sh.
+# Lines of --timing, of trace's --probe, and of stages in sh.
 NO_REASON = re.compile(r": note: |^\w+: \d+ triangles? in |^\d+,\d+: |" + STATUS)
 
 
@@ -107,8 +107,8 @@ def name_of_signal(number):
 
 
 def expect_success(*pipe):
-    """Raises the error of the first tool that was killed, else of the first that failed: others have only
-    lost their input or their reader."""
+    """Raises the error of the first tool that was killed, else of the first that failed: the others only lost
+    their input or their reader."""
     failed = [tool for tool in pipe if tool.status]
     for tool in sorted(failed, key=lambda tool: (tool.status == -signal.SIGPIPE, tool.status > 0)):
         if tool.status < 0:
@@ -120,7 +120,7 @@ def expect_success(*pipe):
 
 
 def failure_of_jobs(printed):
-    """Why the first job failed in which a tool did; empty if there is none."""
+    """The reason why the first job failed in which a tool failed; empty if there is none."""
     job, _, record = printed.split("\n\n")[0].partition("\n")
     statuses, log = dict(re.findall(STATUS, record, re.M)), re.findall("^  (.*)", record, re.M)
     own = {tool: "\n".join(line for line in log if f"{tool}: " in line) for tool in statuses}
@@ -138,8 +138,8 @@ def checked(done, tool):
 
 
 class Tools:
-    """The tools in a folder, by default $BIN, else those that belong to the command that runs. For a command
-    of many pipes, zbuf and trace draw on one thread each."""
+    """The tools in a folder, by default $BIN, else default_folder(). For a command of many pipes, zbuf and
+    trace draw on one thread each."""
     def __init__(self, folder=None, has_many_pipes=False):
         self.one_thread = ["--threads", "1"] if has_many_pipes else []
         # Absolute, since a bare name would be looked up on the PATH, where `view` is an editor.
@@ -148,7 +148,7 @@ class Tools:
             raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
 
     def expect(self, *tools, png=False):
-        """Raises the ToolFailure of a build that lacks a tool, or PNG where the last one is to write it."""
+        """Raises a ToolFailure if the build lacks a tool, or PNG though the last tool is to write it."""
         for tool in tools:
             if not os.access(self.folder / tool, os.X_OK):
                 raise ToolFailure(f"no {tool} in {self.folder}: 'cmake --build --preset release' builds it")
@@ -167,8 +167,8 @@ class Tools:
         return self.run(tool, *words, stdin=stdin).stdout
 
     def pipe(self, *calls, stdin=subprocess.DEVNULL, stdout=None, tee=lambda source: source, cwd=None):
-        """Runs tools at once, each a list of its name and its words, which reads what the one before writes,
-        by way of `tee`; as Done, with their CPU `seconds`. More than one frame their text."""
+        """Runs tools at once, each a list of its name and its words; each reads the output of the one before
+        it, by way of `tee`. Returns them as Done, with CPU `seconds`. Several tools frame their text."""
         self.expect(*(tool for tool, *_ in calls))
         with contextlib.ExitStack() as stack:
             runs, source = [], stdin
@@ -201,7 +201,7 @@ class Tools:
         return stdin
 
     def write(self, path, tool, *words):
-        """Runs a tool with its stdout in a file; its notes."""
+        """Runs a tool with its stdout in a file; returns its notes."""
         with open(path, "wb") as file:
             [done] = self.pipe([tool, *words], stdout=file)
         return done.notes

@@ -1,4 +1,4 @@
-"""Scenes with spheres, for commands that show what project and zbuf do: those draw triangles alone."""
+"""Scenes with spheres, for commands that show project and zbuf, which draw triangles alone."""
 import os
 import stat
 
@@ -11,8 +11,8 @@ REFUSED = "expected triangles alone, found a sphere: "
 
 def expect_no_spheres(tools, path, name=None, way=None):
     """Raises a CommandFailure that names the place of a sphere in a scene, by `name` if the file is a copy,
-    and tells a `way` to draw it, if the command knows one that model's message lacks. Whatever else is wrong
-    with the scene is left to others."""
+    and a `way` to draw it, if the command has one that model's message lacks. Other errors in the scene are
+    left to the tools."""
     if not has_the_word(path, b"sphere"):
         return
     try:
@@ -25,8 +25,8 @@ def expect_no_spheres(tools, path, name=None, way=None):
 
 
 def has_the_word(path, word):
-    """True if a regular file holds the bytes: a matter of milliseconds, where model takes its time. Not by
-    mmap: signals do not interrupt it, and SIGBUS ends it if the file shrinks."""
+    """True if a regular file holds the bytes: takes milliseconds, while model takes long. Not by mmap, which
+    signals do not interrupt, and which SIGBUS ends if the file shrinks."""
     try:
         with open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK)) as file:
             data, is_regular = b"", stat.S_ISREG(os.fstat(file.fileno()).st_mode)

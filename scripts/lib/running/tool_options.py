@@ -9,6 +9,6 @@ def add_options_of_project(group):
 
 
 def words_of_project(options):
-    """The words of these options; None is the tool's default."""
+    """The words of the options of project that were given."""
     given = {"--aspect": options.aspect, "--clip": options.clip, "--cull": options.cull}
     return [word for option, value in given.items() if value for word in (option, value)]

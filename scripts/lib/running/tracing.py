@@ -1,4 +1,4 @@
-"""The options of trace that commands pass on, and what --trace leaves without a meaning."""
+"""The options of trace that commands pass on, and a check for options that mean nothing to trace."""
 
 VALUES = {
     "--sampling": ("basic|regular|jittered|adaptive", "where the rays of a pixel go"),
@@ -25,9 +25,9 @@ def add_trace_options(parser):
 
 
 def trace_words(parser, options, meaningless=(), others=()):
-    """The words for trace; `others` are more options of the command that are for trace alone. Ends the
-    program if there are some without --trace, or with it one of the options in `meaningless`, pairs of a
-    given option (or None) and why it means nothing to trace."""
+    """The words for trace; `others` are further options of the command for trace alone. Ends the program if
+    options for trace are given without --trace, or with --trace an option in `meaningless`, pairs of a given
+    option (or None) and the reason why it means nothing to trace."""
     words = [
         word for option in (*VALUES, *others) for word in (option, getattr(options, attribute(option)))
         if getattr(options, attribute(option)) is not None]

@@ -1,4 +1,4 @@
-"""Measured figures: what is typical of several, and how they are shown."""
+"""Measured figures: their quartiles, and their digits."""
 import dataclasses
 import statistics
 

@@ -8,14 +8,14 @@ BLOCK = re.compile(r"\s*([-*+]|\d+\.)\s|[|#<>]|!\[|```|\*\*[A-Z]\d+\*\*")  # of 
 
 
 def words_of(text):
-    """Its words; code between backquotes is not broken."""
+    """The words of a text; code between backquotes is one word."""
     return [
         word.replace("\0", " ")
         for word in re.sub(r"`[^`]*`", lambda code: code[0].replace(" ", "\0"), text).split()]
 
 
 def filled(text):
-    """The text, in which a paragraph with a line that is too long is broken anew from there."""
+    """The text with each paragraph refilled from its first line that is too long."""
     lines, result, is_code = text.split("\n"), [], False
     while lines:
         line = lines.pop(0)

@@ -8,7 +8,7 @@ import zlib
 from lib.rim.command import CommandFailure
 from lib.rim.input_file import name_of, read_input
 
-MAX_SIDE = 65535  # as zbuf draws; a column of millions of rows takes gigabytes in Python
+MAX_SIDE = 65535  # zbuf's own limit; a column of millions of rows takes gigabytes in Python
 MAX_PNG_PIXELS = 1 << 25  # a PNG of a few KB may claim millions, and Python is slow to filter bytes
 PPM_HEADER = re.compile(rb"P6" + rb"(?:\s|#[^\n]*\n)+(\d{1,9})" * 3 + rb"\s")
 MAX_PPM_HEADER = 4096
@@ -20,7 +20,7 @@ class PictureError(CommandFailure):
 
 
 def expect_size(width, height, size=None):
-    """Raises a PictureError if no picture may have these sides, or this one should have another `size`."""
+    """Raises a PictureError if the sides are out of range, or are not those of a given `size`."""
     if width <= 0 or height <= 0:
         raise PictureError(f"expected a width and a height of at least 1, found {width} x {height}")
     if size and size != (width, height):
@@ -71,10 +71,10 @@ def read_ppm(data, size, _):
 
 
 def paeth(row, above, size):
-    """A row of which each byte was stored minus its predictor: whichever of a (left), b (above) and c (above
-    left) is nearest to a + b - c."""
+    """A row with the filter Paeth undone: each byte was stored minus its predictor, whichever of a (left), b
+    (above) and c (above left) is nearest to a + b - c."""
     if not any(row):
-        return above  # where the pixels on the left are those above, so is the next
+        return above  # from the left on, each pixel is predicted as the one above
     out = bytearray(len(row))
     for channel in range(size):
         a, c, column = 0, 0, bytearray()
@@ -121,8 +121,7 @@ def png_chunks(data):
 
 
 def laid_over(row, behind):
-    """A row of red, green, blue and alpha (straight: colors are not multiplied by it) over one color, as
-    RGB."""
+    """A row of red, green, blue and straight alpha (not multiplied into colors) over one color, as RGB."""
     out = bytearray(len(row) // 4 * 3)
     for channel in range(3):
         out[channel::3] = bytes(
@@ -171,9 +170,9 @@ def is_picture(data):
 
 
 def picture_of(data, path, behind=None, size=None):
-    """The picture in the bytes of a file, whatever its name; what is transparent shows the color `behind`,
-    three bytes, or is refused. If the header has another `size`, a width and a height, nothing is
-    unpacked."""
+    """The picture in the bytes of a file, whatever its name. Transparent pixels show the color `behind`, as
+    three bytes; without it, alpha is an error. If the header has another `size` than a given width and
+    height, nothing is unpacked."""
     if not is_picture(data):
         raise PictureError(f"{name_of(path)}: expected a BMP, PPM or PNG")
     try:
@@ -199,7 +198,7 @@ def png(width, height, rows):
 
 
 def png_of_lines(width, height, channels, lines, level=9):
-    """The same of rows with their filters."""
+    """The bytes of a PNG of rows with their filters."""
     header = struct.pack(">IIBBBBB", width, height, 8, 6 if channels == 4 else 2, 0, 0, 0)
     pixels = zlib.compress(b"".join(lines), level)
     return PNG_SIGNATURE + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(b"IEND", b"")
@@ -213,7 +212,7 @@ def size_of(picture):
 
 
 def with_pixels_of(picture, others):
-    """A picture file as zbuf writes it, with pixels of others like it: pairs of such a file and places."""
+    """A picture file as zbuf writes it, with pixels of other such files: pairs of a file and places."""
     width, height = size_of(picture)
     if picture[:2] == b"\x89P":  # no filter of zbuf's looks at the row above, so other rows stay as they are
         *_, size, lines = png_lines(picture)
@@ -233,7 +232,7 @@ def with_pixels_of(picture, others):
 
 
 def copy_pixels(lines, others, places, width, size):
-    """Copies the pixels at the places, from rows with their filters into such rows."""
+    """Copies the pixels at the places; all rows have their filters."""
     for row in {place // width for place in places}:
         for of in (lines, others):
             of[row] = bytearray(b"\0" + unfiltered(of[row][0], of[row][1:], None, size))

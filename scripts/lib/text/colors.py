@@ -30,7 +30,7 @@ whitesmoke=f5f5f5 yellow=ffff00 yellowgreen=9acd32
 
 
 def tools_color(word):
-    """The hexadecimal digits of a name, or of #rgb, #rgba, #rrggbb or #rrggbbaa; any other word as it is."""
+    """The hexadecimal digits of a name, or of #rgb, #rgba, #rrggbb or #rrggbbaa; other words unchanged."""
     known = word.lower().replace("grey", "gray")
     if word.startswith("#"):
         digits = word[1:]

@@ -6,7 +6,7 @@
         print([vertex.numbers[:3] for vertex in triangle])
     print(stage_text.write(text), end="")
 
-docs/stage-text.md defines the text. Of a triangle that project has cut, its pieces are read, not the whole.
+docs/stage-text.md defines the text. If project has cut a triangle, its pieces are read, not the whole.
 """
 import dataclasses
 import math
@@ -47,7 +47,7 @@ class StageText:
 
 def write(text, decimals=7):
     """The text of a StageText without spheres: coordinates, colors and normals with `decimals` decimals, w
-    with as many digits as it takes."""
+    with the digits that it needs."""
     lines, expected = [" ".join(words) for words in text.header_lines], 0
     is_fixed = [True] * 3
     for word in text.header.get("attributes", []):
@@ -69,7 +69,7 @@ def shortest(x):
 
 
 def real(word):
-    """The value of a word that the tools accept as a number, too: decimal and finite."""
+    """The value of a word, which has to be a number for the tools, too: decimal and finite."""
     value = float(word)
     if not (math.isfinite(value) and word.isascii() and "_" not in word):
         raise ValueError

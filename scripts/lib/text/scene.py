@@ -1,5 +1,4 @@
-"""One triangle of a scene: its line, its numbers, and the transforms in force. `model` has accepted the scene
-before."""
+"""The triangles of a scene that `model` has accepted: line, numbers, and the transforms in force."""
 import dataclasses
 import functools
 import itertools
@@ -30,12 +29,12 @@ class Command:
 class SceneTriangle:
     line: int
     points: list  # the x, y and z of three vertices, as written
-    columns: list  # how many numbers each vertex has besides
+    columns: list  # the count of each vertex's further numbers
     in_force: object  # the last transform and those before it: (Command, (Command, ...)), or None
 
     @property
     def transforms(self):
-        """The Commands, as they stand in the scene."""
+        """The Commands, in the order of the scene."""
         return listed(self.in_force)
 
     def matrix(self, number=double):

@@ -7,12 +7,11 @@ FOURTH_LINE = " in the scene's fourth line"
 
 
 def note_on_squares(projection, config):
-    """The note on a projection, the words of a header line, and the text of a config of zbuf, if a square
-    that faces the camera is drawn more than 1 % off square: by how much, and how to correct it. Else an empty
-    text."""
+    """A note if a projection (the words of a header line) and the text of a config draw a square that faces
+    the camera more than 1 % off square: by how much, and how to correct it. Else an empty text."""
     columns, rows, left, bottom, *_ = [*map(float, re.sub(r"#.*", "", config).split()), -1, -1]
     keyword, *words = projection
-    # Width over height of the window that has square pixels, and of the one that there is.
+    # The aspect that a window with square pixels would have.
     square, has_ratio = columns * bottom / (rows * left), words[4:] == ["ratio"]
     if keyword == "perspective":
         horizontal, vertical = tangents({keyword: words})

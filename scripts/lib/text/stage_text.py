@@ -9,7 +9,7 @@ from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import name_of
 from lib.text import plain_stage_text
 
-# Beginnings of lines of a scene, not of a stage text, in which the word triangle is followed by one number.
+# Beginnings of lines of a scene. In a stage text, the word triangle is followed by one number.
 SCENE_COMMAND = re.compile(
     rf"^[ \t]*(?:(?:{'|'.join(TRANSFORMS)}|push|pop)\b|triangle[ \t\r]*(?:#|$)|triangle[ \t]+[^\s#]+[ "
     r"\t]+[^\s#])", re.M)
@@ -21,8 +21,8 @@ class StageTextError(CommandFailure):
 
 
 def text_of(data, path):
-    """The bytes of a file as text. Bytes that are not UTF-8 do no harm in a comment, and are no number
-    elsewhere."""
+    """The bytes of a file as text. Bytes that are not UTF-8 are harmless in a comment; elsewhere they are no
+    numbers."""
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or is_utf16(data):
         raise StageTextError(f"{name_of(path)}: this is UTF-16: save it as UTF-8")
     if b"\0" in data:
@@ -64,7 +64,7 @@ def parse_stage_text(text, path, may_have_spheres=False):
 
 
 def header_of(data):
-    """{keyword: words} of the lines that a tool's text begins with; of several with one keyword the first."""
+    """{keyword: words} of the header lines of a tool's text; if a keyword is repeated, its first line."""
     header = {}
     for line in itertools.takewhile(lambda line: line[:1].isalpha(), io.BytesIO(data)):
         keyword, *words = line.decode(errors="replace").split()
@@ -73,16 +73,16 @@ def header_of(data):
 
 
 def header_and_body(data):
-    """The lines of a tool's text of world or view space: those of its header, and the others, of which each
-    triangle has three and a blank one."""
+    """The header lines of a tool's text of world or view space, and the other lines: three and a blank one
+    for each triangle."""
     lines = data.decode().split("\n")
     begin = next((i for i, line in enumerate(lines) if not line[:1].isalpha()), len(lines))
     return lines[:begin], lines[begin:]
 
 
 def triangle_lines(lines):
-    """(number, its three vertex lines) of each triangle, or piece of one, as they come; `lines` are the bytes
-    of a text that a tool has written, however long."""
+    """Yields (number, its three vertex lines) of each triangle, or piece of one; `lines` are the lines of a
+    tool's text as bytes, of any length."""
     number, corners, passed_over = 0, [], 0
     for line in lines:
         if line[:1] in b"-0123456789":
