@@ -27,7 +27,7 @@ async function bundled(entry, isInFolder, format = "esm") {
   return outputFiles[0].text;
 }
 
-// A script in a page ends at the first "</script", and a page's own comments begin with "<!--".
+// In a page, a script ends at the first "</script", and "<!--" begins a comment.
 const inPage = script => script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 
 function pageOf(policy, style, script) {
@@ -51,12 +51,12 @@ const single = pageOf(`script-src ${hashOf(inner)} ${frame} 'wasm-unsafe-eval'; 
   [...Object.entries(data).map(([name, bytes]) => `<script type="application/octet-stream" id="${name}-data">${bytes.toString("base64")}</script>`), `<script type="module">${inner}</script>`].join("\n"));
 const folder = pageOf(`script-src 'self' ${frame} 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'`, style, '<script type="module" src="main.js"></script>');
 
-// In the one page, they are a comment.
+// In the single page, the licenses are a comment.
 const licenses = `${read(root, "LICENSE")}\n${read(licensesFile)}`, page = `${single}\n<!--\n${licenses.replaceAll("-->", "->")}-->\n`;
 const files = {"index.html": folder, "main.js": await bundled("main.js", true), "LICENSES.txt": licenses,
   ...Object.fromEntries(Object.entries(data).map(([name, bytes]) => [`${name}.bin`, bytes]))};
 
-// Ends with a message unless a path is free, or is of a kind, and has, if it is a folder, nothing but our files.
+// Throws an error unless a path is free, or is a page of ours: a file, or a folder with nothing but our files.
 function expectOurs(place, isFolder) {
   const status = fs.lstatSync(place, {throwIfNoEntry: false});
   if (!status) return;
@@ -65,7 +65,7 @@ function expectOurs(place, isFolder) {
   if (!isPage || hasMore) throw new Error(`${place} is in the way, and none of this page's`);
 }
 
-// Writes all beside their places, and then moves them there.
+// Writes all files beside their places, and then moves them there.
 function install() {
   const places = {single: path.join(target, "playground.html"), folder: path.join(target, "playground")};
   expectOurs(places.single, false);

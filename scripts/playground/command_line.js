@@ -9,7 +9,7 @@ const OPTION = /^ {2}(?:-\w,)?(--[a-z-]+)(?: (\S+(?: [A-Z]\S*)*))?(?: {2,}|$)/;
 const FILES = {model: "< scene.txt", zbuf: "config.txt", trace: "config.txt"};
 const TOOLS = [...STAGES, "trace"];
 
-// [words, what they do] of the options of a tool, of the text of its --help-all: a choice has one for each of its values.
+// [words, description] for each option in a tool's --help-all; an option with a choice of values has a pair for each value.
 export function optionsIn(help) {
   const lines = help.split("\n"), found = [];
   lines.forEach((line, i) => {
@@ -27,7 +27,7 @@ export function optionsIn(help) {
 }
 
 export class CommandLine {
-  // `helpOf(tool)` gives a promise of its --help; `changed` is called after each edit.
+  // `helpOf(tool)` returns a promise of the tool's help. Calls `changed` after each edit.
   constructor(box, helpOf, changed) {
     Object.assign(this, {inputs: new Map(), parts: new Map()});
     TOOLS.forEach((tool, i) => {
@@ -75,6 +75,6 @@ export class CommandLine {
     this.isTraced = typeof words.trace === "string";
   }
 
-  // As a shell takes it.
+  // The pipe as a shell's command line.
   get text() { return (this.isTraced ? ["model", "view", "trace"] : STAGES).map(tool => [tool, ...wordsOf(this.inputs.get(tool).value).map(quoted), ...(FILES[tool] ? [FILES[tool]] : [])].join(" ")).join(" | "); }
 }

@@ -1,4 +1,4 @@
-// A text with line numbers, of which only the visible lines are in the document, and a tool's messages at their lines.
+// A text with line numbers, and a tool's messages at their lines. Only the visible lines are in the document.
 
 import {autocompletion, completeFromList} from "@codemirror/autocomplete";
 import {defaultKeymap, history, historyKeymap, isolateHistory} from "@codemirror/commands";
@@ -31,7 +31,7 @@ const theme = EditorView.theme({
 });
 
 export class Editor {
-  // `changed` is called after each edit of the reader's.
+  // Calls `changed` after each edit of the reader's.
   constructor(box, name, changed) {
     this.isOwn = false;
     const language = name === "scene.txt" ? [scenes, syntaxHighlighting(colors), autocompletion({override: [completeFromList(COMPLETIONS)]})] : [scenes, syntaxHighlighting(colors)];
@@ -47,7 +47,7 @@ export class Editor {
 
   get text() { return this.view.state.doc.toString(); }
 
-  // It can be undone.
+  // The reader can undo the change.
   set text(text) {
     if (text === this.text) return;
     this.isOwn = true;

@@ -1,4 +1,4 @@
-// One panel that fills the window: after a double click on its caption or F8 in it, and until either comes again, or Escape.
+// A double click on a panel's caption, or F8 in it, lets it fill the window, until the same again or Escape.
 
 const PANELS = "figure, #pixel, #texts > section, #drawer, #source > section, #own", CAPTIONS = "figcaption, h2, summary, #tabs, .enlarge";
 
@@ -11,7 +11,7 @@ export class Enlarging {
       else if (event.key === "Escape" && this.id && !event.defaultPrevented) this.show("");
       else return;
       event.preventDefault();
-      event.stopPropagation();  // Escape lets go of nothing else
+      event.stopPropagation();  // or Escape would release the selection, too
     }, {capture: true});
   }
 

@@ -1,11 +1,11 @@
-// Keeps the reader's work in the browser: for this tab, which may be loaded again, and for the next one that is opened.
+// Keeps the reader's work in the browser: for this tab if it is reloaded, and for the next tab that is opened.
 
 const STORE = "playground";
-const TAB = () => sessionStorage, BROWSER = () => localStorage;  // a browser may forbid even to name them
-const MOST = 5e6;  // characters of a scene, for which no browser has room
+const TAB = () => sessionStorage, BROWSER = () => localStorage;  // functions, since even the names may throw
+const MOST = 5e6;  // characters of a scene; browsers have no room for more
 
-// Keeps a state under the hash of the address; of all tabs only if it is work, and no sample or stranger's link. Returns whether the next
-// tab finds it.
+// Keeps a state and the hash of the address for this tab and, if the state is the reader's work, not a sample or a link, for other tabs.
+// True if other tabs have it, too.
 export function keep(state, isWork) {
   if (state.scene.length > MOST) return false;
   const text = JSON.stringify({hash: location.hash, state, isWork});
@@ -19,8 +19,8 @@ export function keep(state, isWork) {
   return isWork;
 }
 
-// {state, isWork} of this tab before it was loaded again, else of the last one; null if the address has a state of its own. `checked(state)`
-// returns a state or throws.
+// {state, isWork} of this tab before a reload, else of the tab that kept work last; null if there is none, or the address has its own.
+// `checked(state)` returns a state or throws.
 export function kept(checked) {
   for (const store of [TAB, BROWSER]) {
     try {

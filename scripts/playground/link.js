@@ -1,4 +1,4 @@
-// The state of the page as the end of an address: JSON, deflated, in the letters of base64 that an address may have.
+// The state of the page as the hash of an address: JSON, deflated, in base64 with letters that an address may have.
 
 const PREFIX = "#p=", STAGES_OF_ONES_OWN = ["model", "view", "project", "zbuf"], KINDS = ["js", "text"];
 const LONGEST = 60000;  // characters that browsers and mail programs pass on
@@ -7,7 +7,7 @@ const MOST_BYTES = 1 << 24;       // of a state
 const LONGEST_LINE = 100000;      // that an editor can show
 const LONGEST_BEGINNING = 1 << 16;  // of a scene, with the comments before its camera
 
-// All bytes of a stream, which may be far more than went in: an error beyond MOST_BYTES.
+// All bytes after a transform, which may be far more than before; an error beyond MOST_BYTES.
 async function through(bytes, transform) {
   const parts = [], reader = new Blob([bytes]).stream().pipeThrough(transform).getReader();
   let size = 0;
@@ -21,7 +21,7 @@ async function through(bytes, transform) {
   return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
-// Null for a state that is too long for an address.
+// The hash for a state, or null if it is too long for an address.
 export async function hashOf(state) {
   const bytes = await through(new TextEncoder().encode(JSON.stringify(state)), new CompressionStream("deflate-raw"));
   if (bytes.length > LONGEST / 4 * 3 - PREFIX.length) return null;
@@ -37,7 +37,7 @@ export async function stateOf(hash) {
   return checked(JSON.parse(new TextDecoder().decode(bytes)));
 }
 
-// A state from elsewhere, with texts where there have to be texts and nothing else.
+// A state from elsewhere, reduced to the known fields; an error if one has the wrong type.
 export function checked(state) {
   const {version, scene, config, words, mine, others} = state || {};
   if (![version, scene, config].every(text => typeof text === "string") || typeof words !== "object" || words === null) throw new Error("it is none of this page's");
@@ -66,7 +66,7 @@ export function kindOf(text) {
   return words.length > 1 && words.length < 7 && words.every(isNumber) ? "config" : "";
 }
 
-// An error if a text has a line that would take the editor minutes.
+// Throws an error if a text has a line so long that the editor would take minutes.
 export function expectLines(text) {
   for (let at = 0, end; at <= text.length; at = end + 1) {
     end = text.indexOf("\n", at);

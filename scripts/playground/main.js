@@ -1,4 +1,4 @@
-// The playground: a scene, a config and options at the left, what every stage makes of them at the right.
+// The playground: a scene, a config and options at the left, the output of every stage at the right.
 
 import {element} from "../inspect_parts/element.js";
 import {Inspector} from "../inspect_parts/inspector.js";
@@ -27,7 +27,7 @@ class Playground {
     this.given = samples;
     this.inspector = null;
     this.editors = {scene: new Editor(one("#scene"), "scene.txt", () => this.editedInput()), config: new Editor(one("#config"), "config.txt", () => this.editedInput())};
-    this.isWork = false;  // of the reader's, more than a sample or a link
+    this.isWork = false;  // true if the reader has changed the sample or the link
     this.own = new OwnPanel(this, mistakes);
     this.enlarging = new Enlarging();
     this.client = new PipeClient(module, worker, {drawn: picture => this.preview(picture), answered: answer => this.show(answer), busy: isBusy => { one("#stop").hidden = !isBusy; }});
@@ -71,7 +71,7 @@ class Playground {
 
   keep() { return keep(this.state, this.isWork); }
 
-  // A state that came with a link or a file.
+  // Opens a state from a link or a file.
   open(state, isWork = false) {
     if (this.isWork) this.keep();
     this.isWork = isWork;
@@ -87,7 +87,7 @@ class Playground {
     one("#samples").value = name;
   }
 
-  // The words of scenes and configs, and the pages that say more.
+  // Lists the words of scenes and configs, and the pages on them.
   fillLanguage(pages) {
     for (const [title, rows] of ROWS)
       one("#language table").append(element("tbody", {}, element("tr", {}, element("th", {colspan: 2, scope: "rowgroup"}, title)), ...rows.map(([words, line]) => element("tr", {}, element("td", {}, element("code", {}, words)), element("td", {}, line)))));
@@ -100,7 +100,7 @@ class Playground {
     one("#link").onclick = () => this.copyLink();
     one("#save").onclick = () => this.saveState();
     one("#words").onclick = () => { const {hidden} = one("#language"); one("#language").hidden = !hidden; one("#words").setAttribute("aria-expanded", hidden); };
-    // The moment before the page goes: what cannot be kept is asked about.
+    // Before the page closes: the browser asks if work cannot be kept.
     window.addEventListener("beforeunload", event => { if (!this.keep() && this.isWork) event.preventDefault(); });
     document.addEventListener("visibilitychange", () => this.keep());
     one("#picture").onclick = () => one("#image").toBlob(blob => this.save("out.png", blob));
@@ -118,7 +118,7 @@ class Playground {
     document.addEventListener("drop", event => { event.preventDefault(); this.take(event.dataTransfer.files); });
   }
 
-  // Files dropped on the page: what Save wrote, a scene and a config by their names, or a model with the files that it names.
+  // Takes files dropped on the page: one by Save, a scene and a config by their names, or a model with the files that it names.
   async take(files) {
     const model = [...files].find(({name}) => MODEL.test(name));
     for (const file of model ? [model] : files) {
@@ -149,13 +149,13 @@ class Playground {
     this.work({[kind]: text});
   }
 
-  // Changes parts of the state, for work of the reader's.
+  // Changes parts of the state, which then counts as the reader's work.
   work(parts) {
     this.isWork = true;
     this.state = {...this.state, ...parts};
   }
 
-  // What a stage wrote last, or what model reads.
+  // The last output of a stage; for model, the scene.
   textOf(tool) {
     const stage = this.inspector && this.inspector.data.stages.find(other => other.tool === tool);
     return tool === "scene" ? this.editors.scene.text : stage ? stage.text : "";
@@ -216,7 +216,7 @@ class Playground {
     this.run();
   }
 
-  // The picture of a run whose other panels are still to come.
+  // Shows the picture of a run before its other panels.
   preview(picture) {
     if (this.inspector && this.inspector.pixels.preview(picture)) one("#glass").classList.add("ahead");
   }
@@ -227,13 +227,13 @@ class Playground {
     this.client.run({scene, config, words, own: this.own.stage});
   }
 
-  // What the worker answers: the data of an Inspector, or the stage that failed.
+  // Shows the worker's answer: the data of an Inspector, or the stage that failed.
   show({data, failed, messages}) {
     this.keep();
     this.showMessages(messages, failed);
     one("#glass").classList.toggle("stale", Boolean(failed));
     one("#glass").classList.remove("ahead");
-    if (failed && this.inspector) this.inspector.pixels.showImage(this.inspector.data.pixels);  // not one of a newer run
+    if (failed && this.inspector) this.inspector.pixels.showImage(this.inspector.data.pixels);  // in place of a newer run's preview
     if (failed && !this.inspector) one("#waiting").textContent = "Nothing to show yet: the messages say why.";
     if (failed) return;
     const kept = this.inspector && this.inspector.dispose(), parts = one("#inspector").content.cloneNode(true);

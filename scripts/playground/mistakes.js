@@ -1,4 +1,4 @@
-// Names the mistakes of a reader's stage: each is made in a stage that is right, and what makes the same of the same input is named.
+// Names the mistakes of a reader's stage: each known mistake is made in a right stage, and named if the output is the reader's.
 
 import {StageText} from "../inspect_parts/stage_data.js";
 import {difference, tidied} from "./own_stage.js";
@@ -12,7 +12,7 @@ const ROTATE = `{
   }`;
 const RIGHT = {...TEMPLATES, model: TEMPLATES.model.replace("{ next(); three(); }", ROTATE)};
 
-// Of tests/conformance/mistakes.txt: what stands in the right stage, and what a mistake has there, once or more.
+// Mistakes of tests/conformance/mistakes.txt: pairs of a text in the right stage and its replacement.
 export const MISTAKES = {
   "model/push-and-pop-ignored": ["m = saved.pop()", "saved.pop()"],
   "model/push-of-the-identity": ["saved.push(m)", "saved.push(m), m = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]"],
@@ -65,7 +65,7 @@ export const MISTAKES = {
   "zbuf/mirrored": ["columns + column;", "columns + columns - 1 - column;"],
 };
 
-// A right stage with a mistake.
+// The code of a right stage with a mistake.
 export function codeOf(name) {
   const pairs = [...MISTAKES[name]];
   let code = RIGHT[name.split("/")[0]];
@@ -73,7 +73,7 @@ export function codeOf(name) {
   return code;
 }
 
-// The names of the mistakes of a stage whose `text` was made of the inputs.
+// The names of the mistakes that make `text` of the inputs.
 export async function mistakesIn(tool, text, inputs) {
   const names = Object.keys(MISTAKES).filter(name => name.startsWith(`${tool}/`));
   const all = `return JSON.stringify([${names.map(name => `(input, config) => {${codeOf(name)}}`)}].map(stage => { try { return stage(input, config); } catch { return ""; } }))`;

@@ -1,4 +1,4 @@
-// The reader's own stages: a text for each stage in each kind. One of them runs in the place of ours.
+// The reader's own stages: a text for each stage, as JavaScript and as output. One of them replaces ours.
 
 import {element} from "../inspect_parts/element.js";
 import {Editor} from "./editor.js";
@@ -10,7 +10,7 @@ const BEFORE = {model: "scene", view: "model", project: "view", zbuf: "project"}
 const one = selector => document.querySelector(selector);
 
 export class OwnPanel {
-  // `page` has `textOf(stage)`, `config`, `isTraced`, `edited()` for an edit here, and `run()` for another stage in place of ours.
+  // `page` has `textOf(stage)`, `config`, `isTraced`, `edited()`, called after an edit here, and `run()`, called when the stage changes.
   // `mistakes` are sentences about mistakes, {name: sentence}.
   constructor(page, mistakes) {
     Object.assign(this, {page, mistakes, drafts: new Map(), stage: null, runs: 0});
@@ -26,14 +26,14 @@ export class OwnPanel {
 
   get name() { return `${this.tool.value} ${this.kind.value}`; }
 
-  // What of it belongs to the state of the page: texts that are the reader's, also those that have not run, first the one that is chosen.
+  // The panel's part of the page's state: all texts of the reader's, whether run or not; the chosen one is `mine`.
   get state() {
     const all = [...this.drafts].map(([name, text]) => ({tool: name.split(" ")[0], kind: name.split(" ")[1], text}));
     const mine = all.find(({tool, kind}) => `${tool} ${kind}` === this.name), others = all.filter(other => other !== mine);
     return {...(mine ? {mine} : {}), ...(others.length ? {others} : {})};
   }
 
-  // A stage of a state waits for Run: it may be someone else's.
+  // A stage that comes with a state runs only after Run: it may be someone else's code.
   set state({mine, others = []}) {
     const before = this.state.mine;
     if (mine ? !before || ["tool", "kind", "text"].some(key => mine[key] !== before[key]) : this.kind.value === "text") this.forget();
@@ -43,20 +43,20 @@ export class OwnPanel {
     [this.tool.value, this.kind.value, this.editor.text] = [mine.tool, mine.kind, mine.text];
   }
 
-  // What the reader has written; or something to begin with: code, or the stage's own text.
+  // Shows the reader's text, or one to begin with: a template, or our stage's output.
   offer() {
     this.set(null);
     this.editor.text = this.drafts.get(this.name) ?? (this.kind.value === "js" ? TEMPLATES[this.tool.value] : this.page.textOf(this.tool.value));
   }
 
-  // What ran is another stage now; a text runs at once, code on Run.
+  // After an edit, a text runs at once, code on Run.
   edited() {
     this.drafts.set(this.name, this.editor.text);
     this.page.edited();
     if (this.stage && this.kind.value === "text") this.run(); else if (this.stage) this.set(null); else this.forget();
   }
 
-  // Lets go of the stage, and of one that is still running.
+  // Drops the stage, and ignores the result of a run still under way.
   forget() {
     ++this.runs;
     this.stage = this.sentence = null;
@@ -66,7 +66,7 @@ export class OwnPanel {
     this.editor.mark([]);
   }
 
-  // Code that ran, or runs, runs again when its new input is there.
+  // Code that has run, or is running, will run again on its new input.
   awaitInput() {
     const isAgain = this.isAgain || this.isRunning || (this.stage && this.kind.value === "js");
     if (isAgain) this.forget();

@@ -1,10 +1,10 @@
-// A stage of the reader's own in the place of ours: what of it differs, for the inspector's panel on theirs.
+// The differences between a stage of the reader's own and ours, for the inspector's panel on theirs.
 
 import {StageText} from "../inspect_parts/stage_data.js";
 
 const IMAGE_PLACE = 4;  // of the inspector's captions
 const LONGEST_NUMBER = 16, LONGEST_HEAD = 1000;  // characters of a picture's text
-const AXES = "xyz", TOLERANCE = 1e-6;  // of 7 decimals made from 7 decimals, times the size of the number beyond 1
+const AXES = "xyz", TOLERANCE = 1e-6;  // for 7 decimals calculated from 7 decimals; relative for numbers beyond 1
 
 // A text as our tools write it: no comments, no carriage returns, one blank between words.
 export const tidied = text => text.split("\n").map(line => line.replace(/#.*/, "").trim().replace(/[ \t]+/g, " ").replace(/^\+/, "").replace(/^(-?)\./, "$10.")).join("\n");
@@ -12,7 +12,7 @@ export const tidied = text => text.split("\n").map(line => line.replace(/#.*/, "
 const pointsOf = text => Float64Array.from(text.firstLines.flatMap(first => text.pointsAt(first, 3).flatMap(words =>
   [0, 1, 2].map(i => words[i] === undefined ? NaN : Number(words[i])))));
 
-// How their text of a stage differs from ours: the indices of vertices, in words the first difference, and the lines of the vertices.
+// The differences between their text of a stage and ours: indices of vertices, the first difference in words, and the vertices' lines.
 export function difference(theirText, ourText) {
   const theirs = new StageText(tidied(theirText)), ours = new StageText(ourText), points = pointsOf(theirs), right = pointsOf(ours);
   const lines = Int32Array.from(theirs.firstLines.flatMap(first => [0, 1, 2].map(v => first + v))), isCompared = points.length === right.length;
@@ -28,7 +28,7 @@ export function difference(theirText, ourText) {
   return {points, lines, isCompared, differing: Int32Array.from(differing), first};
 }
 
-// The red, green and blue of every pixel of a PPM text, P3; an error if it is none of that size.
+// The red, green and blue of every pixel of a PPM text, P3; throws an error if it is no PPM of that size.
 function pixelsIn(text, columns, rows) {
   if (text.length > LONGEST_NUMBER * 3 * columns * rows + LONGEST_HEAD) throw new Error("it is longer than such a picture");
   const [kind, width, height, largest, ...numbers] = text.replace(/#.*/g, "").split(/\s+/).filter(word => word);
@@ -40,7 +40,7 @@ function pixelsIn(text, columns, rows) {
   return Uint8Array.from(numbers, Number);
 }
 
-// What the inspector calls theirs, of a picture that is drawn by the reader's own zbuf.
+// The inspector's `theirs` for a picture by the reader's own zbuf.
 export function theirPictureOf(text, {columns, rows, pixels}) {
   let picture = null, sentence = "", remarks = "", first = -1, count = 0;
   const colorOf = (rgb, p) => [...rgb.subarray(3 * p, 3 * p + 3)].join(" ");
@@ -65,7 +65,7 @@ function theirsIn({tool, place, sentence, remarks, picture, isGood, count, stage
   };
 }
 
-// What the inspector calls theirs. `picture` has the pixels of their picture, or is null, because of `failure`.
+// The inspector's `theirs` for a text. `picture` is the pixels of the picture made of it, or null because of `failure`.
 export function theirsOf(tool, place, differences, picture, ourPixels, failure) {
   const {first, differing, isCompared, lines} = differences;
   let pixels = 0;

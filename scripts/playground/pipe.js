@@ -1,19 +1,19 @@
-// A scene sent through the pipe: what a shell makes of `model < scene.txt | view | project | zbuf config.txt`, and what the inspector shows.
+// Sends a scene through the pipe, as a shell runs `model < scene.txt | view | project | zbuf config.txt`, and makes the inspector's data.
 
 import {difference, theirPictureOf, theirsOf} from "./own_stage.js";
 import {partOf} from "./thinning.js";
 import {textOf} from "./tools.js";
 
 export const STAGES = ["model", "view", "project", "zbuf"];
-const BELTS = "8";  // of the facets that project and zbuf get in place of a sphere
+const BELTS = "8";  // of facets in place of a sphere, for project and zbuf
 const TITLES = {model: "world space", view: "view space", project: "normalized device coordinates"};
-const MOST_TRIANGLES = 2000000;  // and numbers of them, which the panels count up to
-const MOST_DRAWN = 20000;        // of them in a panel
+const MOST_TRIANGLES = 2000000;  // and the largest number of one, since the panels have tables up to it
+const MOST_DRAWN = 20000;        // triangles in a panel
 const FILES = {model: "stage1.txt", view: "stage2.txt", project: "stage3.txt", zbuf: "z_buffer.txt"}, SAVED_IMAGE = "out.bmp";
 const EXACT = ["--digits", "exact"];
 const IMAGE = "out.ppm", COUNTS = "counts.txt", FRAGMENTS = "fragments.txt", TRIANGLES = "triangles.npy", DEPTHS = "depths.npy";
 
-// A stage has failed: `messages` come from all stages so far.
+// The failure of a stage; `messages` come from all stages so far.
 export class StageFailure extends Error {
   constructor(tool, status, messages) { super(`${tool}: exit status ${status}`); Object.assign(this, {tool, status, messages}); }
 }
@@ -26,7 +26,7 @@ const pairsOf = text => text.split("\n").filter(line => line).map(line => line.s
 export class Pipe {
   constructor(tools) { Object.assign(this, {tools, kept: new Map()}); }
 
-  // Runs a stage, unless it has run with the same words on the same input, for the same `place`.
+  // Runs a stage, unless its last run for this `place` had the same words and input.
   async stage(tool, words, input, files, place = tool) {
     const key = [...words, ...Object.values(files)], before = this.kept.get(place);
     if (before && before.input === input && isEqual(before.key, key)) return before;
@@ -37,8 +37,8 @@ export class Pipe {
     return result;
   }
 
-  // The data of an Inspector, and the messages of every stage. If it `isQuick`, of the fragments of a pixel there is only the one that is seen:
-  // the others take ten times as long as the picture. `drawn` is called with the picture, before all else. Throws a StageFailure.
+  // The data of an Inspector, and the messages of every stage. With `isQuick`, only the visible fragment of each pixel is listed: all
+  // fragments take ten times as long as the picture. Calls `drawn` with the picture as soon as it is there. Throws a StageFailure.
   async run({scene, config, words, own}, isQuick, drawn) {
     const isTraced = typeof words.trace === "string";
     if (/(^| )--rows\b/.test(words.zbuf)) throw new Error("--rows draws a part of the picture, which this page cannot show");
@@ -52,7 +52,7 @@ export class Pipe {
     for (const tool of STAGES) {
       const isLast = tool === "zbuf", own = wordsOf(words[tool]);
       if (isTraced ? tool === "project" : isLast) {
-        // The picture and nothing else, which takes a fifth of the time.
+        // The picture alone takes a fifth of the time.
         const by = isTraced ? "trace" : tool, all = ["config.txt", ...wordsOf(words[by]), "-o", IMAGE, .../--z-buffer/.test(words[by]) ? [] : ["--z-buffer", "none"]];
         const drawing = await this.stage(by, all, isTraced ? results[1].output : input, {"config.txt": config}, "picture");
         if (isTraced || drawing.status !== 0) taken(drawing, IMAGE);
@@ -61,7 +61,7 @@ export class Pipe {
       }
       const all = isLast ? ["config.txt", ...own, "-o", IMAGE, ...logs, "--stats", COUNTS] : [...own, "--stats", COUNTS];
       const done = await this.stage(tool, all, input, isLast ? {"config.txt": config} : {});
-      // Beside trace, project and zbuf run for the panels alone.
+      // If trace draws, project and zbuf run for the panels alone.
       taken(isTraced && done.status === 0 && results.length > 1 ? {...done, text: ""} : done, COUNTS);
       results.push(done);
       input = tool === "view" && isTraced ? await this.faceted(results, scene) : done.output;
@@ -73,7 +73,7 @@ export class Pipe {
     return {data, messages, isQuick: logs[0] !== "--fragments" && !isLarge};
   }
 
-  // The files of `pipeline stages`, which passes lossless texts on, and what they are made of; without project and zbuf if trace draws.
+  // The files that `pipeline stages` writes (from lossless texts), with scene and config; without project's and zbuf's if trace draws.
   async filesOf({scene, config, words}) {
     const files = {"scene.txt": scene, "config.txt": config}, isTraced = typeof words.trace === "string";
     const run = async (tool, all, input) => {
@@ -91,7 +91,7 @@ export class Pipe {
     return {...files, [FILES.zbuf]: drawn.output, [SAVED_IMAGE]: drawn.read(SAVED_IMAGE)};
   }
 
-  // A text of the reader's in place of a stage's, and what the stages after it make of it.
+  // Sends the reader's text, in place of a stage's output, through the later stages; the inspector's `theirs`.
   async withOwn({tool, text}, results, {config, words, picture: ours}) {
     if (tool === "zbuf") return theirPictureOf(text, ours);
     const place = STAGES.indexOf(tool);
@@ -106,7 +106,7 @@ export class Pipe {
     return theirsOf(tool, place, difference(text, textOf(results[place].output)), picture, ours.pixels, done.text.split("\n")[0]);
   }
 
-  // What project reads: the text of view, with facets in place of spheres.
+  // The input of project: the text of view, with facets in place of spheres.
   async faceted(results, scene) {
     if (!/^sphere$/m.test(textOf(results[1].output))) return results[1].output;
     const world = await this.stage("model", ["--facets", BELTS], scene, {}, "faceted model");
@@ -157,7 +157,7 @@ function numbersOf(bytes, Numbers) {
   return new Numbers(bytes.slice(at).buffer);
 }
 
-// Of each pixel the fragment that is seen.
+// The visible fragment of each pixel.
 function seenOf(triangles, depths) {
   const names = Int32Array.from(numbersOf(triangles, BigInt64Array), Number), begins = new Int32Array(names.length + 1);
   names.forEach((name, p) => { begins[p + 1] = begins[p] + (name >= 0); });

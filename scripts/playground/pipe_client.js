@@ -1,11 +1,11 @@
-// The page's end of the worker: one run at a time, of the newest state.
+// The page's connection to the worker: runs the newest state, one run at a time.
 
-const PAUSE = 250;  // milliseconds without an edit, before the slow part
-const SOON = 400;   // until it can be stopped
+const PAUSE = 250;  // milliseconds without an edit before the slow part of a run
+const SOON = 400;   // milliseconds of a run before Stop is offered
 
 export class PipeClient {
-  // `module` is the compiled WebAssembly.Module, `workerAddress` where the worker's script is. `drawn` is called with the picture of a run,
-  // `answered` with all of its answer, `busy` with whether one has been under way for a while.
+  // `module` is the compiled WebAssembly.Module, `workerAddress` the address of the worker's script. Calls `drawn` with the picture of a
+  // run, `answered` with its whole answer, and `busy` with true when a run has taken a while, with false at its end.
   constructor(module, workerAddress, {drawn, answered, busy}) {
     Object.assign(this, {module, workerAddress, drawn, answered, busy, id: 0, running: null, next: null, waiting: new Map()});
     this.start();
@@ -18,7 +18,7 @@ export class PipeClient {
     this.worker.postMessage({module: this.module});
   }
 
-  // At first quickly; if nothing else is to be done for a while, with all that belongs to it.
+  // Runs a state, at first quickly; after a pause without another state, with all fragments.
   run(state) {
     clearTimeout(this.later);
     this.isPending = false;
@@ -58,7 +58,7 @@ export class PipeClient {
     this.isPending = answer.isQuick && !this.next;  // the slow part
     if (this.isPending) this.later = setTimeout(() => { this.isPending = false; this.next = {state: this.state, isQuick: false}; this.send(); }, PAUSE);
     this.send();
-    if (this.running !== null) return;  // there is something newer: of this, the picture was all
+    if (this.running !== null) return;  // a newer state runs: of this one, only the picture is shown
     try {
       this.answered(answer);
     } catch (error) {
@@ -72,14 +72,14 @@ export class PipeClient {
     this.busy(false);
   }
 
-  // A worker that ends by itself is started again, if it has ever answered.
+  // Starts a worker that has crashed again, if it has ever answered.
   fail(event) {
     event.preventDefault();
     const line = event.message || "the browser does not start a worker here";
     if (this.hasAnswered) this.stop(line); else this.answered({failed: "page", messages: [{tool: "page", line}]});
   }
 
-  // Ends what runs, whatever it is doing.
+  // Ends the worker with all its runs, and starts a new one.
   stop(why = "stopped") {
     this.worker.terminate();
     this.end();

@@ -1,4 +1,4 @@
-// What the page needs besides itself, deflated: in files beside it if it is IN_FOLDER (build.mjs), else in the page, in base64.
+// The page's data, deflated: in files beside it if it is IN_FOLDER (build.mjs), else within the page, in base64.
 
 import {bytesOf} from "../inspect_parts/pack.js";
 
@@ -19,5 +19,5 @@ async function dataOf(name) {
 export const texts = async () => (await dataOf("texts")).json();
 const moduleOf = name => async () => WebAssembly.compile(await (await dataOf(name)).arrayBuffer());
 export const toolModule = moduleOf("tools"), importerModule = moduleOf("mesh2scene");
-// A worker from the page's own text is under the page's policy; one from a file would have none.
+// A worker made from a blob is under the page's policy; a worker from a file would have none.
 export const workerAddress = async () => URL.createObjectURL(new Blob([await (await dataOf("worker")).text()], {type: "text/javascript"}));

@@ -1,11 +1,11 @@
-// Runs the reader's JavaScript where it can harm nothing: in a worker, in a frame with its own origin; the page's policy and the frame's
-// own let it load nothing; its time is limited. The frame's script is the text of FRAME, whose hash is in the policy (build.mjs).
+// Runs the reader's JavaScript where it can harm nothing: in a worker, in a frame with its own origin, under policies of page and frame
+// that let it load nothing, and for a limited time. FRAME is the frame's script; its hash is in the page's policy (build.mjs).
 
 const LONGEST = 5000;   // milliseconds
 const MOST_OUT = 1 << 26;  // characters
 const MOST_PRINTED = 1000;  // lines, and characters of one
 
-// What follows the reader's function in its worker.
+// The code that follows the reader's function in its worker.
 const CALL = `{
   let count = 0;
   const wordOf = value => { try { return typeof value === "string" ? value : JSON.stringify(value) ?? String(value); } catch { return String(value); } };
@@ -29,7 +29,7 @@ export const FRAME = `onmessage = ({data: {code}, ports: [port]}) => {
     worker.onmessage = worker.onerror = null;
     worker.terminate();
     const {text, error, line, column} = data || {};
-    port.postMessage(typeof text === "string" ? {text} : typeof error === "string" ? {error: error.slice(0, 300), line, column} : {error: "it answers by itself"});
+    port.postMessage(typeof text === "string" ? {text} : typeof error === "string" ? {error: error.slice(0, 300), line, column} : {error: "it calls postMessage"});
   };
   worker.onerror = event => answer({error: event.message || "the code cannot be read", line: event.lineno - 1, column: event.colno});
   worker.onmessage = ({data}) => {
@@ -38,8 +38,8 @@ export const FRAME = `onmessage = ({data: {code}, ports: [port]}) => {
   port.onmessage = ({data}) => worker.postMessage(data);
 };`;
 
-// What the code returns of the inputs; `print` is called with each line that it prints. An error, with its line and column where these are
-// known, after LONGEST milliseconds or with what went wrong.
+// The text that the code returns for the inputs. Calls `print` with each line that it prints. Rejects with an error, with line and column
+// if they are known, if the code fails or has not ended after LONGEST milliseconds.
 export function runCode(code, inputs, print) {
   const frame = document.createElement("iframe");
   frame.setAttribute("sandbox", "allow-scripts");

@@ -1,13 +1,13 @@
-// What the panels get of a stage's text: all of it, or of a long one its header, all spheres, and one triangle in `step`.
+// The part of a stage's text that the panels get: all, or of a long text the header, all spheres, and one triangle in `step`.
 
 import {textOf} from "./tools.js";
 
 const MINUS = 45, ZERO = 48, NINE = 57, LINE_FEED = 10;
 const startsWith = (bytes, at, word) => bytes[at] === word.charCodeAt(0) && [...word].every((letter, i) => bytes[at + i] === letter.charCodeAt(0));
 
-// {text, numbers, pieces, distinct, count, spheres}: the numbers of its lines (0 for one that was added; null for the whole text), how many
-// triangles or pieces the stage wrote, of how many triangles, one more than the last number, and how many spheres. A pass over bytes: as
-// strings, the lines of a million triangles fill a browser's memory.
+// {text, numbers, pieces, distinct, count, spheres}: the part, its lines' numbers (0 for an added line; null for the whole text), the
+// counts of pieces written and of the triangles they belong to, the last triangle's number plus 1, and the count of spheres. Reads bytes:
+// as strings, the lines of a million triangles would fill a browser's memory.
 export function partOf(bytes, step) {
   const found = {pieces: 0, distinct: 0, count: 0, spheres: 0}, parts = [], numbers = [];
   let corners = 0, before = -1;  // lines of the triangle that are still to come, and the last name

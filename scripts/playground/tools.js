@@ -1,4 +1,4 @@
-// The tools, compiled to WebAssembly: a fresh instance for each run is what a process is to a shell.
+// The tools, compiled to WebAssembly: each run has an instance of its own, as it has a process in a shell.
 
 const FIFO = 0o010000, KIND = 0o170000, FOLDER = 0o040555;  // S_IFIFO, S_IFMT, and S_IFDIR to read
 const CRASHED = 70;  // the status of a tool that ran out of memory or stack
@@ -11,11 +11,11 @@ export class Tools {
   // `createTool` is the factory that Emscripten makes, `module` the compiled WebAssembly.Module.
   constructor(createTool, module) { Object.assign(this, {createTool, module, spares: new Map()}); }
 
-  // Makes an instance for the next run of each of these, while there is time.
+  // Makes an instance for the next run of each of these tools ahead of time.
   prepare(names) { for (const name of names) if (!this.spares.has(name)) this.spares.set(name, this.createTool(this.settingsOf(name))); }
 
-  // Runs a tool in a folder that has the `files`, {name: text or bytes}, with `input` on its standard input. A pipe is what it has at its
-  // ends if `isPiped` says so. Returns status, output and messages as bytes, and `read(name)`, for the files it wrote (null if there is none).
+  // Runs a tool in a folder with the `files`, {name: text or bytes}, and with `input` on its standard input. `isPiped` says whether
+  // standard input and output are pipes. Returns status, output and messages as bytes, and `read(name)`, a file it wrote or null.
   async run(name, words, given) {
     this.prepare([name]);
     const tool = this.spares.get(name);
@@ -33,7 +33,7 @@ function resultOf(tool, words, {input = "", files = {}, isPiped = [false, false]
   const {FS} = tool;
   FS.mkdir("/work");
   FS.chdir("/work");
-  const descriptors = {lookup: (_, name) => FS.getStreamChecked(Number(name)).node};  // which Emscripten has not
+  const descriptors = {lookup: (_, name) => FS.getStreamChecked(Number(name)).node};  // Emscripten lacks /dev/fd
   FS.mkdir("/dev/fd");
   FS.mount({mount: () => Object.assign(FS.createNode(null, "/", FOLDER, 0), {node_ops: descriptors, stream_ops: {}})}, {}, "/dev/fd");
   for (const [path, data] of Object.entries(files)) FS.writeFile(path, bytesOf(data));
@@ -53,7 +53,7 @@ function resultOf(tool, words, {input = "", files = {}, isPiped = [false, false]
     status = trap.status;
   }
   const contents = node => node.contents ? Uint8Array.from(node.contents.subarray(0, node.usedBytes)) : new Uint8Array();
-  // Read now: what refers to the instance keeps all of its memory.
+  // Read now: a later reference to the instance would keep all of its memory.
   const written = new Map(FS.readdir("/work").filter(path => FS.isFile(FS.stat(path).mode) && !(path in files)).map(path => [path, FS.readFile(path)]));
   return {status, output: contents(out), messages: contents(messages), written, read: path => written.get(path) || null};
 }

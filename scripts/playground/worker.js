@@ -1,4 +1,4 @@
-// Runs the pipe beside the page, so that the page stays alive and can end it.
+// Runs the pipe in a worker, so that the page stays responsive and can end it.
 
 import createTool from "all-tools";
 import createImporter from "mesh2scene";
@@ -9,9 +9,9 @@ import {zipOf} from "./zip.js";
 
 let pipe = null, tools = null;
 
-// What is asked for: {module} once, then {id, state, isQuick} for a run, which first answers with its picture, {id, help} for the text of a
-// tool's --help-all, {id, saved}, a state, for a zip of its files, {id, model}, for the scene that mesh2scene makes of files, or {id, single},
-// for all that one run of a tool gives.
+// Messages from the page: {module} once; then {id, state, isQuick} for a run, answered first with its picture; {id, help} for a tool's
+// --help-all; {id, saved}, a state, for a zip of its files; {id, model} for the scene that mesh2scene makes of files; and {id, single} for
+// the result of one run of a tool.
 self.onmessage = async ({data: {module, id, state, isQuick, help, saved, model, single}}) => {
   if (module) {
     tools = new Tools(createTool, module);

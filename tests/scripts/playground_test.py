@@ -792,7 +792,7 @@ class ThePage(PageTest):
                            ("return x(", "SyntaxError|the code cannot be read"), ("return 'a'.repeat(1e8)",
                                                                                   "it returned too much"),
                            ("postMessage({error: {toString: null}}); for (;;);",
-                            "it answers by itself"), ("for (;;) postMessage(null);", "it answers by itself"),
+                            "it calls postMessage"), ("for (;;) postMessage(null);", "it calls postMessage"),
                            ("throw new Error('x y '.repeat(1e6));",
                             "^.{200,400}$"), (f"importScripts('{address}')", "NetworkError"),
                            (f"const r = new XMLHttpRequest(); r.open('GET', '{address}', false); "
