@@ -1,12 +1,12 @@
 #!/bin/sh
-# Part of make-release, in its root, without a network: builds the sources in /src, in /build, and packs in /build/out.
-# Its word is the version.
+# Part of make-release, run in its root without a network: builds the sources in /src in /build, and packs in /build/out.
+# $1 is the version.
 set -eu
 version=$1
 umask 022
 cd /build
 
-# The options after the first word are cmake's.
+# Configures build folder $1; the other words are options for cmake.
 configure() {
   arch=$1
   shift
@@ -14,13 +14,13 @@ configure() {
     -DPIPELINE_STATIC_PNG="/usr/lib/$arch-linux-gnu/libpng.a" -DPIPELINE_STATIC_ZLIB="/usr/lib/$arch-linux-gnu/libz.a" "$@"
 }
 
-# Packs the folder pack/$1: who unpacks it owns it, and nothing in it depends on when or by whom it was packed.
+# Packs the folder pack/$1. Whoever unpacks it owns it; time and user of packing leave no trace.
 pack() {
   tar -C pack --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --mode=u+rwX,go=rX --format=gnu -cf - "$1" |
     xz -9e -T1 > "out/$1.tar.xz"
 }
 
-# Puts the program of a processor into the folder $3.
+# Puts the program of the build folder $1, stripped by $2, into the folder $3.
 put_program() {
   $2 -o "$3/libexec/pipeline/tools/all-tools" "$1/bin/all-tools"
 }
@@ -32,7 +32,7 @@ configure aarch64 -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DC
 cmake --build aarch64 --target all-tools
 
 cmake --install x86_64 --prefix /build/installed
-[ -s installed/share/doc/pipeline/THIRD-PARTY ]  # else cmake has said what has no license
+[ -s installed/share/doc/pipeline/THIRD-PARTY ]  # else cmake has named the parts without a license
 put_program x86_64 strip installed
 (cd x86_64 && cpack -D CPACK_INSTALL_CMAKE_PROJECTS= -D "CPACK_INSTALLED_DIRECTORIES=/build/installed;/usr" \
   -D CPACK_DEBIAN_COMPRESSION_TYPE=xz -B /build/deb)

@@ -1,10 +1,10 @@
-# Called by cpack before it packs: what Debian asks for and a plain installation does not have.
+# Called by cpack before it packs: adds files that Debian requires and a plain installation lacks.
 if(NOT CPACK_GENERATOR STREQUAL "DEB")
   return()
 endif()
 set(prefix "${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr")
 set(documents "${prefix}/share/doc/pipeline")
-# Debian looks for it under this name, and in this form.
+# Debian looks for the license under this name, and in this form.
 file(READ "${documents}/LICENSE" license)
 file(REMOVE "${documents}/LICENSE")
 string(REGEX MATCH "Copyright [(]c[)] ([^\n]*)\n+(.*)\n" _ "${license}")
@@ -20,14 +20,14 @@ Copyright: ${holder}
 License: Expat
  ${text}
 ")
-string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of SOURCE_DATE_EPOCH, if that is set
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # from SOURCE_DATE_EPOCH, if it is set
 file(WRITE "${documents}/changelog" "pipeline (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 
   * The changes are listed in CHANGELOG.md.
 
  -- ${CPACK_PACKAGE_CONTACT}  ${date}
 ")
-# A text of lintian's own, so that `lintian --show-overrides` gives the reason, too.
+# The reasons are comments in the file, so that `lintian --show-overrides` shows them.
 file(WRITE "${prefix}/share/lintian/overrides/pipeline"
 "# Each picture starts four programs: linked statically, one starts in two thirds of the time. A distribution that prefers
 # shared libraries configures with -DPIPELINE_STATIC_TOOLS=OFF; dpkg-shlibdeps then finds them.

@@ -1,8 +1,8 @@
-# cpack makes a Debian package of what is installed; cpack --config CPackSourceConfig.cmake, an archive of the sources.
+# cpack makes a Debian package of the installed files; cpack --config CPackSourceConfig.cmake, an archive of the sources.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME pipeline)
 if(NOT CPACK_PACKAGE_CONTACT)
-  # An address that cannot exist; who distributes the package sets his own.
+  # An address that cannot exist; distributors set their own.
   set(CPACK_PACKAGE_CONTACT "The pipeline authors <maintainers@pipeline.invalid>")
 endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "raster graphics pipeline as four Unix filters")
@@ -28,7 +28,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 
 set(CPACK_SOURCE_GENERATOR TGZ)
 set(CPACK_SOURCE_PACKAGE_FILE_NAME pipeline-${PROJECT_VERSION})
-# Those that .gitignore names.
+# The files that .gitignore names.
 set(CPACK_SOURCE_IGNORE_FILES "/[.]git(/|$)" ${PROJECT_SOURCE_DIR}/build/ ${PROJECT_SOURCE_DIR}/out/ ${PROJECT_SOURCE_DIR}/out[.]bmp
   ${PROJECT_SOURCE_DIR}/z_buffer[.]txt /__pycache__/)
 include(CPack)

@@ -9,7 +9,7 @@ from conform_parts.pages import depths_of, files_of, read_fields, read_page
 WIDTH = 110
 BLACK = (0, 0, 0)
 LETTERS = string.ascii_letters + string.digits + "+*%&$@!?:;<>()[]{}^~/|"
-# Files in the order of their sections; others, of mistakes, follow by name.
+# Files in the order of their sections; files of mistakes follow by name.
 ORDER = ("input.txt", "config.txt", "scene.txt", "expected.txt", "picture-nearest.bmp", "picture-center.bmp",
          "with-one-color.bmp", "depths-nearest.txt", "depths-center.txt")
 
@@ -39,7 +39,7 @@ def block(case):
 
 
 def alike(files, ending):
-    """The names of files with this ending, with equal files together."""
+    """The names of files with this ending, equal files in one group."""
     names = {}
     for name in files:
         if name.endswith(ending):
@@ -48,8 +48,8 @@ def alike(files, ending):
 
 
 def drawings(files):
-    """The sections of pictures, side by side if there is room, and the texts of depths in the places of their
-    pixels. Depths that a legend gives are taken out of the files."""
+    """The sections of pictures, side by side if there is room, and the texts of depths, each in the place of
+    its pixel. Depths given in a legend are removed from `files`."""
     columns, sections, texts = alike(files, ".bmp"), {}, {}
     rows = {name: read_bmp(files[name]) for names in columns for name in names}
     is_narrow = sum(len(rows[names[0]][0]) + 2 for names in columns) - 2 <= WIDTH
@@ -89,7 +89,7 @@ def drawing(columns, rows, depths):
 
 
 def in_place(rows):
-    """Depths in the places of their pixels; nothing if they are too wide."""
+    """Depths in the places of their pixels; empty if they are too wide."""
     size = max(len(depth) for row in rows for _, depth in row)
     lines = [" ".join(depth.rjust(size) for _, depth in row) for row in rows]
     return "".join(line.rstrip() + "\n" for line in lines) if len(lines[0]) <= WIDTH else ""
@@ -102,7 +102,7 @@ def in_runs(text):
 
 
 def escaped(text):
-    """A text with the escapes of Python; a backslash at the end of a line takes the line feed away."""
+    """A text with the escapes of Python; a backslash at the end of a line removes the line feed."""
     *lines, last = (line.encode("unicode_escape").decode() for line in text.split("\n"))
     lines += [last + "\\"] if last else []
     lines = (re.sub(" {200,}", lambda run: f"\\{{{len(run[0])}}}", line) for line in lines)

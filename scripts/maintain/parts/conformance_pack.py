@@ -1,5 +1,5 @@
-"""A case of the conformance pack, and its files: what the specification's program answers, and which mistakes
-the case catches."""
+"""A case of the conformance pack, and its files: the outputs of the specification's program, and the mistakes
+that the case catches."""
 import dataclasses
 import os
 import pathlib
@@ -14,14 +14,13 @@ from conform_parts.cases import CONFIG, RULES, STAGES, read_mistakes, without_he
 from conform_parts.judge import same_digits, same_picture  # noqa: E402
 from conform_parts.pages import files_of, read_fields, read_page  # noqa: E402
 
-OTHER_FORMULAS = "zbuf/other-formulas"  # a habit with which a program must not fail, either
-# And habits; the pack has the pictures of the center rule, too.
+OTHER_FORMULAS = "zbuf/other-formulas"  # a habit: a program that has it must not fail
+# Includes habits. zbuf/center is left out, since the pack has the pictures of that rule, too.
 MISTAKES = {
     stage: [None, *(name for name in read_mistakes(stage) if name != "zbuf/center")]
     for stage in STAGES}
-# Cases that also hold what comes out with each mistake that they catch: a text, or a picture where that alone
-# is wrong. A flat depth is most often a corner's, or the mean of them; FLAT has a triangle where these are
-# one.
+# Cases that also hold the output of each mistake that they catch: a text, or a picture if only that is wrong.
+# A flat depth is mostly that of one corner or the corners' mean; in FLAT's triangle these are equal.
 FLAT = "depth-slopes-both-ways"
 WITNESSES = {
     "model": ("arm-of-three-joints", "axis-1-2-3", "order-scale-rotate-translate", "stack-pops-in-a-row",
@@ -36,8 +35,8 @@ STUDENT = os.environ.get("STUDENT", SOURCE / "build/release/tests/baselines/stud
 
 @dataclasses.dataclass
 class Case:
-    """The part of a case that a person writes; the rest is calculated. `open_nearest` is of coverage by that
-    rule alone."""
+    """The part of a case that a person writes; the rest is calculated. `open_nearest` concerns coverage by
+    the rule `nearest` alone."""
     stage: str
     name: str
     why: str
@@ -86,7 +85,7 @@ class Case:
         return {key: value for key, value in fields.items() if value}
 
     def expected(self):
-        """The outputs, of the specification's program."""
+        """The outputs of the specification's program."""
         if self.stage != "zbuf":
             with tempfile.TemporaryDirectory() as folder:
                 scene = pathlib.Path(folder, "scene.txt")
@@ -120,7 +119,7 @@ class Case:
                 raise SystemExit(f"{self.stage}/{self.name}: not refused")
 
     def catches(self, files):
-        """The mistakes that make a student's program fail the case. Without a mistake it must not fail."""
+        """The mistakes with which a student's program fails the case. Without a mistake it must not fail."""
         if not self.is_plain:
             return []
         failing = [mistake for mistake in MISTAKES[self.stage] if self.is_failed_with(mistake, files)]

@@ -13,7 +13,7 @@ from unittest import mock
 
 @dataclasses.dataclass
 class Option:
-    """An option, an operand or a command: its names, what it takes, and what it does, a paragraph each."""
+    """An option, an operand or a command: its names, its argument, and its description in paragraphs."""
     names: list
     argument: str
     paragraphs: list
@@ -51,7 +51,7 @@ def help_of(program, name):
 
 
 def python_help(program, name):
-    """The output of a command in Python with --help-all, but each option as in a tool's --help-fields."""
+    """The output of a command in Python with --help-all, with options as in a tool's --help-fields."""
     words = [name, "--help-all"]
     with mock.patch.object(sys, "argv", words), mock.patch.dict(os.environ, {"COLUMNS": "120"}), \
             mock.patch.object(argparse.HelpFormatter, "_format_action", fields_of), \
@@ -63,7 +63,7 @@ def python_help(program, name):
 
 
 def fields_of(formatter, action):
-    """A line: names and what the option takes, a tab, what it does."""
+    """A line: names and argument of an option, a tab, its description."""
     head = ",".join(action.option_strings) or formatter._format_action_invocation(action)
     if action.option_strings and action.nargs != 0:
         head += " " + formatter._format_args(action, formatter._get_default_metavar_for_optional(action))
@@ -92,7 +92,7 @@ def parse(text, name):
 
 
 def blocks_of(text):
-    """Lines between blank lines; the usage and `Exit status` begin blocks of their own."""
+    """Blocks of lines between blank lines; usage and `Exit status` begin blocks of their own."""
     block = []
     for line in [*text.splitlines(), ""]:
         starts = re.match(r"(usage|exit status): ", line, re.I)

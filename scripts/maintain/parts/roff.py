@@ -10,7 +10,7 @@ def escaped(text):
 
 
 def guarded(line):
-    """A line that is no request of roff."""
+    """A line, escaped if roff would take it for a request."""
     return "\\&" + line if line[:1] in (".", "'") else line
 
 
@@ -43,7 +43,7 @@ class Page:
         self.lines += wrapped(roff)
 
     def item(self, tag, paragraphs):
-        """A tag, and what belongs to it indented below. Both are roff."""
+        """Adds a tag and its paragraphs, indented below it; all are roff."""
         self.lines += [".TP", guarded(tag)]
         for i, paragraph in enumerate(paragraphs or ["\\&"]):
             self.lines += [".br"] * (i > 0) + wrapped(paragraph)
@@ -52,7 +52,7 @@ class Page:
         self.lines += [".IP \\(bu 2", *wrapped(roff)]
 
     def literal(self, lines):
-        """Plain lines, as they are."""
+        """Adds plain lines, unchanged."""
         if not self.lines[-1].startswith((".SH ", ".SS ")):
             self.lines.append(".PP")
         self.lines += [".RS 4", ".EX", *(guarded(escaped(line)) or "\\&" for line in lines), ".EE", ".RE"]
@@ -70,7 +70,7 @@ def italic(text):
 
 
 def add_markdown(page, text, link):
-    """The blocks of a Markdown text below its title. `link` turns a link's text and address into roff."""
+    """Adds a Markdown text without its title. `link` turns a link's text and address into roff."""
     inline = Inline(link)
     for block in re.split(r"\n{2,}", text.strip("\n")):
         lines = block.split("\n")
@@ -94,8 +94,8 @@ def add_markdown(page, text, link):
 
 
 def add_table(page, lines, inline):
-    """A row is an item: the first cell, and below it the others, by the names of their columns if there is
-    more than one."""
+    """Adds a table, an item for each row: the first cell, and below it the others, with the names of their
+    columns if there are several."""
     header, _, *rows = [[
         cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|",
                                                               line.strip().strip("|"))] for line in lines]

@@ -1,7 +1,6 @@
-// Draws the triangles of a bare NDC text in the most obvious way: it tests for every pixel of the bounding
-// box whether its center is in the triangle, all in doubles; each thread draws a part of the triangles into
-// a picture of its own, and the pictures are merged. Prints the seconds that drawing took, and how many
-// pixels show a triangle.
+// Draws the triangles of a bare NDC text in the most obvious way: it tests every pixel center in the bounding
+// box against the triangle, in doubles; each thread draws a part of the triangles into a picture of its own,
+// and the pictures are merged. Prints the seconds that drawing took, and how many pixels show a triangle.
 //
 // usage: draw_plainly WIDTH HEIGHT TRIANGLES THREADS
 
@@ -28,7 +27,7 @@ struct Point {
 };
 using Triangle = std::array<Point, 3>;
 
-/// All numbers in a text, whatever separates them.
+/// All numbers in a file, whatever separates them.
 std::vector<double> numbers_of(const char* path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};

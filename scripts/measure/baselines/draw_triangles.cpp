@@ -1,5 +1,5 @@
-// Draws the triangles of a bare NDC text as zbuf --coverage center does, without reading or writing, and
-// prints the seconds that drawing took: the counterpart of draw_plainly.
+// Draws the triangles of a bare NDC text as zbuf --coverage center does, and prints the seconds of drawing
+// alone, without reading and writing: the counterpart of draw_plainly.
 //
 // usage: draw_triangles WIDTH HEIGHT TRIANGLES THREADS
 

@@ -24,11 +24,11 @@ ROUNDED = [
 SETTINGS = [*ROUNDED, Setting(precision="double"), Setting("exact", "double")]
 MOST_DIGITS = 17
 STAGES = ("model", "view", "project")
-SPARSE = 32  # for the check of single digits, every 32nd triangle
+SPARSE = 32  # single digits are checked for every 32nd triangle
 
 
 def centered(setting):
-    """The setting, with pixels that belong to one triangle each."""
+    """The setting with the rule `center`, by which each pixel belongs to one triangle."""
     return dataclasses.replace(setting, coverage="center")
 
 
@@ -80,7 +80,7 @@ def uncertain_pixels(pipe, setting):
 
 
 def shortened(note):
-    """The stage, and what it is about."""
+    """A note in short: the stage and the subject."""
     stage, words = re.fullmatch(r"(\w+): note: (?:\S+:\d+:\d+: )?(.*)", note).groups()
     kinds = {
         "which of two surfaces": "close surfaces", "where the edges are": "moved edges",
@@ -89,8 +89,8 @@ def shortened(note):
 
 
 def digits_right(path, truth):
-    """How many digits of the vertices in NDC are right, relative to the scene's extent along the axis where
-    the fewest are; none if triangles are missing."""
+    """The number of right digits of the vertices in NDC, relative to the scene's extent, along the axis with
+    the fewest; none if triangles are missing."""
     extents = [
         max(p[i] for triangle in truth for p in triangle) - min(p[i] for triangle in truth for p in triangle)
         for i in range(3)]
@@ -118,8 +118,8 @@ def sparse(text):
 
 
 def wrong_without_note(tools, text, digits):
-    """How many stages print a digit that is not the specification's, of the numbers that the stage read, and
-    note nothing."""
+    """The number of stages that print a wrong digit, by the specification and the numbers that the stage
+    read, without a note."""
     data, count = sparse(text).encode(), 0
     for stage in STAGES:
         done = tools.run(stage, "--digits", digits, stdin=data)

@@ -1,15 +1,15 @@
 """The tables of scripts/measure/extremes, in Markdown."""
 from lib.showing.markdown import filled
 
-MODERATE = 45.0  # degrees: from here the angle of view goes to two extremes
-DIRECTIONS = {  # title of the column: axis, and whether a value belongs to it
+MODERATE = 45.0  # degrees: the angle of view between its two extremes
+DIRECTIONS = {  # title of the column: axis, and a function that is True for the column's values
     "distance": ("distance", lambda value: True), "far / near": ("depth", lambda value: True),
     "size": ("size", lambda value: True), "wide angle": ("angle", lambda value: value >= MODERATE),
     "narrow angle": ("angle", lambda value: value <= MODERATE)}
 
 
 def short(value):
-    """1e+08 is 1e8, and 0.001 is 1e-3."""
+    """A value in short: 1e+08 as 1e8, and 0.001 as 1e-3."""
     value = float(value)
     if 0.01 <= value <= 1000:
         return f"{value:g}"
@@ -33,8 +33,8 @@ class Results:
         return rows[::-1] if direction == "wide angle" else rows
 
     def first(self, direction, setting, column):
-        """Where pixels first differ, and whether a tool notes it: at once, from a more extreme value on, or
-        never. Empty if none do."""
+        """The first value with wrong pixels, and the first at which a tool notes it, if there is one; empty
+        if no pixels are wrong."""
         rows = self.towards(direction, setting)
         wrong = next((row for row in rows if int(row[column])), None)
         if wrong is None:
@@ -45,8 +45,8 @@ class Results:
         return f"{short(wrong['value'])} ({when})"
 
     def uncertain(self, direction, setting):
-        """Where pixels are first uncertain, and how many; where they are first wrong, and how many of the
-        uncertain ones; and where bounds are refused."""
+        """The first value with uncertain pixels, and their number; the first with wrong ones among them, and
+        their number; and the first at which bounds are refused."""
         rows = self.towards(direction, setting)
         known = [row for row in rows if row["uncertain_pixels"] != "refused"]
         if not known:
@@ -66,7 +66,7 @@ def code(setting):
 
 
 def table(results, cell):
-    """Without the settings that are refused everywhere."""
+    """The table, without settings that are refused everywhere."""
     rows = [[code(setting), *(cell(direction, setting) or "-" for direction in DIRECTIONS)]
             for setting in results.settings]
     lines = ["| setting | " + " | ".join(DIRECTIONS) + " |", "|---|" + "---|" * len(DIRECTIONS)]
@@ -79,7 +79,7 @@ def counts_of(results, column):
 
 
 def certainty(results):
-    """The pixels called certain that are wrong, as a sentence."""
+    """A sentence on pixels that are called certain but wrong."""
     counts = counts_of(results, "wrong_though_certain")
     found = f"{sum(counts):,}" if any(counts) else "none"
     return f"Of the pixels that it calls certain, in {len(counts)} pictures, {found} are wrong."
@@ -94,7 +94,7 @@ def promise(results):
 
 
 def tables(rows):
-    """For docs/accuracy.md; the cells are text."""
+    """The text for docs/accuracy.md; the cells of `rows` are text."""
     results = Results(rows)
     return filled(f"""The first value at which a pixel is wrong, and the first with a note:
 

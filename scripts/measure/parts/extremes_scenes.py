@@ -1,7 +1,7 @@
 """The scenes of scripts/measure/extremes: one object, and a camera that goes to the extreme along one axis.
 
-The object is a bumpy patch of two layers that fills the picture. The hidden layer comes first, so that it
-also wins where both depths are equal. It is turned by a command, and the camera faces it."""
+The object is a bumpy patch of two layers that fills the picture. The hidden layer comes first, so that equal
+depths show it, which is wrong. A command turns the patch, and the camera faces it."""
 import dataclasses
 import math
 
@@ -9,7 +9,7 @@ CELLS = 8
 SIZE = 96  # columns and rows of the picture
 GAP = 0.02  # between the layers
 FACING = (2 / 7, 3 / 7, 6 / 7)
-TURN = ("rotate", "31.002719133874 -3 2 0")  # from the z axis to there: by acos(6/7)
+TURN = ("rotate", "31.002719133874 -3 2 0")  # from the z axis to the patch's normal: by acos(6/7)
 MARGIN = 1.15  # of the picture around the patch
 
 AXES = {  # title, unit, values
@@ -46,8 +46,8 @@ def noise():
 
 
 def patch(width, height):
-    """Triangles of three points: the hidden layer, then the one above it, of half that width and with bumps
-    of that height."""
+    """Triangles of three points: the hidden layer, then the layer above it; `width` is half the patch's,
+    `height` the bumps'."""
     dice = noise()
     corners = [[((2 * (k + 0.4 * next(dice)) / CELLS - 1) * width,
                  (2 * (i + 0.4 * next(dice)) / CELLS - 1) * width, next(dice) * height)

@@ -8,7 +8,7 @@ from fractions import Fraction
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tests/reference"))
 import reference  # noqa: E402
 
-BITS = 300  # of a coordinate in NDC after the point: far more than decide any pixel
+BITS = 300  # of a coordinate in NDC after the point: far more than any pixel needs
 
 
 def settled(x, bits=BITS):
@@ -16,8 +16,8 @@ def settled(x, bits=BITS):
 
 
 def kept(vector):
-    """Rounds numbers with sines and roots, which are multiplied often, to fewer bits, but more than
-    coordinates need."""
+    """Rounds numbers with sines and roots, which grow by multiplication, to more bits than coordinates
+    need."""
     return tuple(settled(x, 4 * BITS) for x in vector)
 
 

@@ -28,7 +28,7 @@ def decimal(number):
 
 def triangles(count, reach, size, middle_z=0, columns=()):
     """Bare stage text: corners within `size` (x, y, z) of a middle that lies within `reach` of (0 0
-    middle_z), and more columns."""
+    middle_z), followed by `columns`."""
     integers, lines = Integers(), []
     for _ in range(count):
         middle = [offset + integers.within(limit) for offset, limit in zip((0, 0, middle_z), reach)]
@@ -51,13 +51,13 @@ def in_view(count, **columns):
 
 
 def across_the_frustum(count, **columns):
-    """In view space: about half of them cross planes of the frustum, including the near one, and some lie
+    """Triangles in view space: about half cross planes of the frustum, the near one included, and some lie
     outside."""
     return triangles(count, (2 * UNIT, 2 * UNIT, 3 * UNIT), (UNIT,) * 3, middle_z=-4 * UNIT, **columns)
 
 
 def mostly_outside(count):
-    """In view space: 97 % of them lie outside the frustum."""
+    """Triangles in view space, 97 % of them outside the frustum."""
     return triangles(count, (9 * UNIT, 9 * UNIT, 3 * UNIT), (UNIT // 50,) * 3, middle_z=-4 * UNIT)
 
 
@@ -75,7 +75,7 @@ def large_on_screen(count, **columns):
 
 
 def header(space, columns):
-    """The header, before the first triangle."""
+    """The header lines of a text in this space."""
     names = f"attributes {' '.join(columns)}\n" if columns else ""
     return {
         "scene": "",
@@ -91,7 +91,7 @@ def lit(space, make, count, repeats=1, columns=("color", "normal")):
 
 
 def small_and_lit(*columns):
-    """Without w, which of three random corners would differ as it does in no model."""
+    """Small triangles with lights. They have no w: random ones would differ more than a model's."""
     return header("screen", columns) + small_on_screen(8000, columns=columns)
 
 
@@ -201,7 +201,7 @@ TEXTS |= {
 @dataclasses.dataclass(frozen=True)
 class Row:
     name: str
-    words: str  # the tool and its arguments; of a pipe, " | " between two
+    words: str  # the tool and its arguments; a pipe has " | " between tools
     kernel: str = "avx2"
 
     @property

@@ -27,8 +27,8 @@ class RunFailed(Exception):
 
 
 def compiler_of(program):
-    """Name and version, from the section .comment. A program linked by clang contains objects of GCC's, too,
-    hence the order."""
+    """Name and version of the compiler, from the section .comment. Clang comes first, since a program that it
+    linked contains objects of GCC's, too."""
     content = program.read_bytes()
     for name, mark in (("clang", rb"clang version (\d[\d.]*)"), ("GCC", rb"GCC: \([^)]*\) (\d[\d.]*)")):
         if found := re.search(mark, content):
@@ -55,8 +55,8 @@ def no_count_at_all():
 
 
 def callgrind_count(words, folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, **environment):
-    """The instructions of one command in `folder`, in the same environment, except what is given, whatever
-    the caller's."""
+    """The instructions of one command in `folder`, in a fixed environment, not the caller's, with the given
+    variables."""
     done = subprocess.run(
         [shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", *words], cwd=folder,
         env={"PATH": "/usr/bin:/bin", "LC_ALL": "C",
@@ -70,7 +70,7 @@ def callgrind_count(words, folder, stdin=subprocess.DEVNULL, stdout=subprocess.D
 
 
 def count(row, folder):
-    """The instructions of a row's run in `folder`, whose bin/ has the tools; of a pipe all stages'."""
+    """The instructions of a row's run in `folder`, whose bin/ has the tools; for a pipe, of all stages."""
     def counted(stage, source, output):
         return callgrind_count(f"bin/{stage}".split(), folder, source, output, PIPELINE_KERNEL=row.kernel)
 
@@ -168,8 +168,8 @@ def write_counts(path, counts, rows):
 
 
 def hold(tools, path, accept=False, rows=ROWS):
-    """Compares the instructions of a folder's tools with a CSV file, or accepts them as its new counts; gives
-    the exit status."""
+    """Compares the instructions of a folder's tools with a CSV file, or accepts them as its new counts;
+    returns the exit status."""
     there = {row.tool for row in rows if (tools / row.tool).exists()}
     if missing := sorted({row.tool for row in rows} - there - {"mesh2scene"}):
         print(f"bench: {tools} has no {', '.join(missing)}; scripts/build-release builds the tools")
