@@ -1,5 +1,5 @@
-"""An assignment: its tests, for each a scene, a config and a weight, and what is right; and what
-assignment.txt says of points, hints, and the program that is handed in."""
+"""An assignment: its tests, each with a scene, a config, a weight and the right output; and the settings of
+assignment.txt for points, hints, and the program that is handed in."""
 import dataclasses
 import math
 import os
@@ -31,17 +31,17 @@ class Program:
     packages: list = dataclasses.field(default_factory=list)  # of Debian, which a kit installs
 
     def seconds(self, test_count):
-        """The most that it may take: where it is wrong without a known cause, it runs twice."""
+        """The most that the program may take; it runs twice if it is wrong without a known cause."""
         return CLOCK * (SECONDS_OF_BUILD + 2 * SECONDS_OF_RUN * test_count)
 
 
 @dataclasses.dataclass
 class Settings:
-    """The settings of assignment.txt; without it, as here."""
+    """The settings of assignment.txt; the defaults apply without one."""
     hints: str = "cause"
     points: dict = dataclasses.field(default_factory=dict)  # by the kind of a file
     weights: dict = dataclasses.field(default_factory=dict)  # by the name of a test
-    another_rule: float = 1.0  # what a file is worth that is right by another rule
+    another_rule: float = 1.0  # the value of a file that is right by another rule
     required: list = dataclasses.field(default_factory=list)  # kinds without which a test earns nothing
     program: Program = None
 
@@ -178,7 +178,7 @@ def amount(text, most=MOST_POINTS):
 
 
 def holds_tests(folder):
-    """True if there are folders in this folder, and each has a scene, which no hand-in needs."""
+    """True if this folder holds folders and each has a scene, which hand-ins lack."""
     try:
         have_scenes = [
             os.path.isfile(os.path.join(entry.path, "scene.txt")) for entry in os.scandir(folder)

@@ -34,8 +34,8 @@ def without_suffix(name):
 
 
 class Contents:
-    """The regular files, as `paths` of tuples of names; `remarks` list what else there was. An
-    archive among them, as Moodle hands them out, is looked into, but none in that."""
+    """The regular files, as `paths` of tuples of names; `remarks` list the other entries. Archives among the
+    files, as Moodle hands them out, are read, too, but not archives within these."""
     def __init__(self):
         self.files, self.skipped, self.inner, self.failed = {}, {}, {}, []
 
@@ -76,7 +76,7 @@ class Contents:
         return archive.read(parts, limit)
 
     def add(self, parts, handle, is_regular, kind=""):
-        """Notes an entry, unless it is one that is passed over."""
+        """Notes an entry, unless it is hidden or __MACOSX."""
         if any(part.startswith(".") and part != ".." or part == "__MACOSX" for part in parts):
             return
         why = "their paths lead out" if ".." in parts or not parts else "" if is_regular else kind
@@ -181,7 +181,7 @@ class TarContents(Contents):
 
 
 def unpacked(file):
-    """The tar file in a compressed one."""
+    """The tar file in a .tar.gz."""
     data = gzip.GzipFile(fileobj=file).read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:
         raise ContentsError(f"it swells to more than {MOST_BYTES >> 20} MiB")

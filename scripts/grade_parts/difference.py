@@ -1,4 +1,4 @@
-"""The pictures of a page: what is right, what the hand-in shows, and where it differs."""
+"""The pictures of a page: the right one, the hand-in's, and their differences."""
 import base64
 
 from lib.judging.verdict import UNREADABLE
@@ -42,8 +42,7 @@ def marked(rows, marks, step):
 
 
 def pictures(test, files, verdict):
-    """(caption, data: URI, share of the widest one's width) of the pictures of a test, as far as they can be
-    shown."""
+    """(caption, data: URI, width as a share of the widest's) for each picture of a test that can be shown."""
     theirs = None
     picture = [file for file in verdict.of("zbuf")
                if file.file == files["picture"].name] if "picture" in files else []

@@ -1,5 +1,5 @@
-"""Grades hand-ins in parallel, each in a process of its own with limits of time and memory: what a hand-in
-does to it, it does to itself, and costs it no test that was judged before."""
+"""Grades hand-ins in parallel, each in a process of its own with limits of time and memory: a hand-in that
+breaks its process harms itself alone, and keeps the tests judged before."""
 import contextlib
 import dataclasses
 import fcntl
@@ -30,7 +30,7 @@ from lib.running.pipe_tools import ToolCrash
 
 ENDED = "It could not be judged: its judge was ended, perhaps for lack of memory."
 LARGEST_FILE = 1 << 30  # that a tool may write for a hand-in
-LEAST_SECONDS = 6  # that start a judge; one that waits for something has an end, too
+LEAST_SECONDS = 6  # to start a judge; a judge that only waits is ended, too
 MEBIBYTE = 1 << 20
 
 
@@ -129,8 +129,8 @@ def grade(path, tests, level, limits, keep):
 
 
 def take_back_causes(graded, tests, level):
-    """Names no mistake of model that shows in another test, too, where the file is right, or wrong without a
-    cause: the hand-in does not make it, or not alone."""
+    """Removes a mistake of model as cause if another test that shows it has the file right, or wrong without
+    a cause: the hand-in does not make the mistake, or not alone."""
     files = [
         (made, test, file) for made, test in zip(graded.tests, tests) for file in made.verdict.of("model")]
     others = [test for _, test, file in files if file.is_good or file.verdict == WRONG and not file.causes]
@@ -143,15 +143,15 @@ def take_back_causes(graded, tests, level):
         if not against:
             continue
         file.remarks += [
-            f"as if: {cause}; but {against[cause.name]} shows that it is not that alone"
+            f"resembles: {cause}; but {against[cause.name]} rules it out as sole cause"
             for cause in file.causes if cause.name in against]
         file.causes = [cause for cause in file.causes if cause.name not in against]
         made.words, made.fixes = in_words(made.verdict, level), fixes(made.verdict, level)
 
 
 def judge_borders_first(graded, number, test, files, level):
-    """Judges a test again, of a hand-in that is right by another rule at the borders in some other one: one
-    scene must not call a mistake what another one tolerates."""
+    """Judges a test again if the hand-in is right by another rule at the borders in another test: one scene
+    must not call a mistake what another tolerates."""
     before, kinds = graded.tests[number].verdict, kinds_of(test.reference.config)
     verdict = Judge(files, test.reference, kinds, borders_first=True).judge()
     by_stage = Verdict([file for file in verdict.files if before.of(file.stage)])
@@ -182,7 +182,7 @@ def too_long(limits):
 
 
 def judge_files(contents, test, is_only_test):
-    """The Files of a test, the Verdict on them, and what was looked for if there are none."""
+    """The Files of a test, the Verdict on them, and the places searched if there are none."""
     files = files_for(contents, test, is_only_test)
     verdict = Judge(files, test.reference, test.kinds).judge()
     is_found = any(not file.is_missing for file in files.values())
@@ -194,7 +194,7 @@ def failed(tests, reason):
 
 
 def end_with_writers_of(reader, writer):
-    """Has the system kill this process group when grade is gone, the last that may write into the pipe."""
+    """Makes the system kill this process group when grade, the pipe's last writer, has ended."""
     os.close(writer)
     fcntl.fcntl(reader, fcntl.F_SETOWN, -os.getpgid(0))
     fcntl.fcntl(reader, fcntl.F_SETSIG, signal.SIGKILL)
@@ -252,7 +252,7 @@ class Running:
             self.end += limits.program.seconds(len(tests))
 
     def result(self):
-        """Its Graded, once it is done, has ended, or is out of time; None before."""
+        """The hand-in's Graded when its process is done, has ended or is out of time; None before."""
         while self.connection.poll():
             try:
                 received = self.connection.recv()
@@ -274,7 +274,7 @@ class Running:
         return graded
 
     def stop(self, others):
-        """Ends the process, and all that it has started and the `others` have not."""
+        """Ends the process and all processes that it has started, but not the `others`."""
         self.process.kill()
         self.process.join()
         end_all(keep={one.process.pid for one in others if one is not self})
@@ -286,7 +286,7 @@ class Running:
 
 
 def grade_all(hand_ins, tests, level, limits):
-    """Draws (HandIn, Graded), in the order in which they are done."""
+    """Yields (HandIn, Graded), in the order of completion."""
     waiting, running, start = list(reversed(hand_ins)), {}, time.time()
     users = [take_user() if limits.needs_user else None for _ in range(min(limits.jobs, len(hand_ins)))]
     adopt_orphans()

@@ -10,8 +10,8 @@ from lib.rim.command import shown
 from lib.rim.input_file import InputError
 
 LONGEST_LABEL = 60
-# How a folder may be named after a test, the first that any folder is: by its name, by that in other letters,
-# or by its number alone.
+# The ways to name a folder after a test: by its name, by its name in upper or lower case, or by its number
+# alone. The first way that a folder of the hand-in follows counts.
 SHORT, LONG = r"(?:test|scene|case|task|sample)?(\d+)", r"(\d+).*"
 NAMINGS = (lambda name, test: name == test, lambda name, test: plain(name) == plain(test),
            lambda name, test: number_of(name, SHORT) == number_of(test, LONG))
@@ -26,8 +26,8 @@ class HandIn:
 
 
 def find_hand_ins(folder, is_anonymous):
-    """The HandIns of a folder, sorted by name, and the names of files that are none. Anonymous ones are
-    numbered in an order that does not tell their names' order, the same in every run."""
+    """The HandIns of a folder, sorted by name, and the names of other files. Anonymous hand-ins are numbered
+    in an order that hides the order of their names, the same in every run."""
     try:
         entries = [(entry.name, entry.is_dir(follow_symlinks=False)) for entry in os.scandir(folder)
                    if not entry.name.startswith(".")]
@@ -50,14 +50,14 @@ def made(folder, name, number, digits, is_anonymous):
 
 
 def number_of(name, pattern):
-    """The number in a name of a form; the name itself if it has another one."""
+    """The number in a name that matches the pattern; the name itself if it does not."""
     found = re.fullmatch(pattern, plain(name), re.ASCII)
     return int(found[1]) if found else name
 
 
 def folder_of(paths, test_name, is_only_test):
-    """The folder of a test's files, as a tuple of names: the one of the test's name, or for the only test any
-    that has such files; the one that lies least deep. None if there is none."""
+    """The folder of a test's files, as a tuple of names: the least deep one with the test's name, or for the
+    only test any with such files. None if there is none."""
     folders = {}
     for *folder, name in paths:
         folders.setdefault(tuple(folder), []).append(name)

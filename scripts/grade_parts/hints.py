@@ -1,4 +1,4 @@
-"""How much of a Verdict is given away to its student."""
+"""The part of a Verdict that its student may see."""
 import dataclasses
 import re
 
@@ -10,13 +10,12 @@ LEVELS = ("none", "stage", "cause", "fix")
 
 
 def gives(level, what):
-    """True if a level of hints gives away what another one does."""
+    """True if a level of hints gives away at least as much as the level `what`."""
     return LEVELS.index(level) >= LEVELS.index(what)
 
 
 def shown_of(verdict, level):
-    """The Verdict without what the level keeps to itself; with `none`, only files that are missing or cannot
-    be read are left."""
+    """The Verdict as far as the level shows it; by `none`, only files that are missing or cannot be read."""
     if gives(level, "cause"):
         return verdict
     if level == "none":

@@ -1,5 +1,5 @@
 """Kits: an archive of the judge, the tools and an assignment, for a system that runs them on one hand-in.
-Each kind is a module, kit_KIND.py, with the files of its own and what is done there."""
+Each kind is a module, kit_KIND.py, with its own files and its main program."""
 import io
 import os
 import struct
@@ -43,7 +43,7 @@ BESIDE = 'os.path.join(os.path.dirname(os.path.realpath(__file__)), "pipeline/sc
 
 
 def files_of_judge():
-    """(name in TOP, bytes) of what judges."""
+    """(name in TOP, bytes) for each file of the judge."""
     for room in ROOMS:
         for path in sorted((HERE.parents[2] / room).rglob("*.py")):
             yield f"scripts/{path.relative_to(HERE.parents[2])}", path.read_bytes()
@@ -83,7 +83,7 @@ def write_kit(kind, folder, path):
 
 
 def runs_anywhere(data):
-    """True if a program asks for no loader of libraries: an ELF of 64 bits without PT_INTERP."""
+    """True if a program needs no dynamic loader: an ELF of 64 bits without PT_INTERP."""
     if not data.startswith(b"\x7fELF\x02\x01"):
         return False
     start, = struct.unpack_from("<Q", data, 32)

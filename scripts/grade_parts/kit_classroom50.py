@@ -15,7 +15,7 @@ WORDS = "Judges the student's checkout, the current folder, and writes result.js
 FROM_ENVIRONMENT = {
     "classroom": "CLASSROOM", "assignment": "ASSIGNMENT", "submission": "SUBMISSION_TAG",
     "commit": "COMMIT_URL", "release": "RELEASE_URL"}
-MOST_PARTS = 10_000  # of a point: with more, points are rounded down, but all of a test are at least one
+MOST_PARTS = 10_000  # of a point; if more are needed, points are rounded down, but a test has at least one
 RESULTS = ("result.json", "release-body.md")
 
 
@@ -28,7 +28,7 @@ def files(settings):
 
 
 def parts_of_a_point(tests):
-    """The smallest number by which all that a file can be worth is whole."""
+    """The smallest factor that makes every possible value of a file a whole number."""
     shares = [
         test.share(kind) * worth for test in tests for kind in test.kinds
         for worth in (1, test.settings.another_rule)] + [test.max_score for test in tests]
@@ -79,7 +79,7 @@ def allow_sandbox():
 
 def main():
     allow_sandbox()
-    # Those of the hand-in, which no failure may leave in place; rm removes folders in folders to any depth.
+    # A hand-in may bring results, which no failure may leave in place; rm removes folders of any depth.
     if left := subprocess.run(["rm", "-rf", "--", *RESULTS], capture_output=True, text=True).stderr:
         raise CommandFailure(left.splitlines()[0])
     graded, tests, _ = judged(os.getcwd())

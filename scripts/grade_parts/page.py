@@ -1,5 +1,5 @@
-"""The page of a hand-in, to be read or printed. It needs nothing else: no network, no script, and its
-pictures are in it."""
+"""The page of a hand-in, to be read or printed: one file that holds its pictures and needs no network and no
+script."""
 import html
 
 from grade_parts.hints import gives, shown_of
@@ -84,7 +84,7 @@ def section(test, level):
 
 
 def matrices(comparison):
-    """A fit.Comparison as two tables, which stand one below the other where there is no room."""
+    """A fit.Comparison as two tables, one below the other if the page is narrow."""
     if not hasattr(comparison, "theirs"):
         return f"<p>{html.escape(str(comparison).strip())}</p>"
     marked = "found in the points (* differs)", comparison.theirs, comparison.differing

@@ -1,5 +1,5 @@
-"""Programs that are handed in: built and run for every test, in a sandbox of bubblewrap; where root finds
-none that works, as in a container, each as a user of its own, who may read nothing of root's."""
+"""Programs that are handed in: built and run for every test, in a sandbox of bubblewrap; if that fails, as in
+a container, root runs each as its own user, who may read nothing of root's."""
 import argparse
 import contextlib
 import ctypes
@@ -23,14 +23,14 @@ from lib.rim.places import place
 
 FIRST_USER, USERS = 61184, 4336  # numbers that no package gives to a user, and a container has
 LOCAL = ("ext4", "xfs", "btrfs", "zfs", "overlay", "tmpfs", "devtmpfs", "mqueue", "f2fs")  # file systems
-DEPTH = 6  # of folders in one, in which those that all may write are looked for
+DEPTH = 6  # of the search for folders that all may write
 MOST_BYTES, MOST_FILES = 64 << 20, 500  # of a hand-in that is built
 MOST_LINES = 10  # of a compiler's messages, as shown
 MEMORY, PROCESSES = 1024, 64
 
 
 def protection(command, read, hidden, user):
-    """A Sandbox, or one of no words for the user. Raises a CommandFailure where there is neither."""
+    """A Sandbox, or one without words but with a user. Raises a CommandFailure if neither is possible."""
     asked = argparse.Namespace(read=list(read), env=[], sandbox="auto")
     box = confined.sandbox(command, asked, [pathlib.Path(path) for path in hidden])
     if box.words:
@@ -75,7 +75,7 @@ def succeeds(user, *words):
 
 
 def right_ones():
-    """The folders of what gives the right answer: the tools, and the reference beside the pack."""
+    """The folders of programs with the right answers: the tools, and the reference beside the pack."""
     return [*confined.folders_of_tools(), place("tests/conformance", "share/pipeline/conformance").parent]
 
 
@@ -107,8 +107,8 @@ def places_for_all():
 
 
 def remove_what_is_left(users, since):
-    """Removes what users have made since a time in such folders, and there in folders of programs, their
-    segments, semaphores and queues of System V, and their message queues of POSIX."""
+    """Removes all that users have made since a time: files in places_for_all(), segments, semaphores and
+    queues of System V, and message queues of POSIX."""
     theirs = [word for user in users for word in ("-o", "-uid", str(user))][1:]
     others = ["-uid", f"-{FIRST_USER}", "-o", "-uid", f"+{FIRST_USER + USERS - 1}"]
     # by -execdir, as a program may put links in place of folders; it takes only absolute ones on the PATH
@@ -131,8 +131,8 @@ def remove_what_is_left(users, since):
 
 
 def expect_runnable(user, program):
-    """Raises the Unusable of a program, or of the interpreter that its first line names, which is there, but
-    not for a user."""
+    """Raises Unusable if the program, or the interpreter in its first line, exists but the user may not run
+    it."""
     with open(program, "rb") as file:
         first = os.fsdecode(file.readline(256))
     words = first[2:].split() if first.startswith("#!") else []
@@ -170,8 +170,8 @@ def unpack(contents, folder):
 
 
 def give(folder, user, owner=0):
-    """Gives a folder and all in it that belongs to the owner to a user, for others to read. No link is
-    followed; a file with several hard links stays: they may be anywhere."""
+    """Gives a folder and the owner's entries in it to a user, for others to read. Links are not followed;
+    files with several hard links are left alone, since the others may be anywhere."""
     for place, folders, files in os.walk(folder):
         for path in (os.path.join(place, name) for name in (".", *folders, *files)):
             status = os.lstat(path)
@@ -183,7 +183,7 @@ def give(folder, user, owner=0):
 
 
 class Unusable(Exception):
-    """A program of the system's cannot be run by the user of a hand-in, which is no fault of the hand-in."""
+    """The user of a hand-in cannot run a program of the system, which is no fault of the hand-in."""
 
 
 class Built:
@@ -223,7 +223,7 @@ class Built:
                 give(self.folder, 0, self.user)
 
     def command(self):
-        """The words that run it, with the paths of its own files."""
+        """The words that run the program, with the paths of its own files."""
         first, *others = self.program.run
         words = [self.own(first) if "/" in first else first, *map(self.own, others)]
         if self.program.stage == "zbuf" and not any("{config}" in word for word in words):
@@ -242,7 +242,7 @@ class Built:
         return str(path)
 
     def files(self, test):
-        """The Files by kind that it makes for a test; raises a ProgramError."""
+        """The Files by kind that the program makes for a test; raises a ProgramError."""
         given, before = test.given
         options = argparse.Namespace(time_limit=SECONDS_OF_RUN, memory=MEMORY, processes=PROCESSES,
                                      address_space=None, program=self.words, box=self.box, clock=CLOCK)
@@ -261,7 +261,7 @@ class Built:
 
 
 def verdicts(contents, tests, limits):
-    """Draws (files, verdict, remark) for each test. `limits` are graders.Limits."""
+    """Yields (files, verdict, remark) for each test. `limits` are graders.Limits."""
     program, hidden = limits.program, limits.hidden
     with confined.temporary_folder("grade.") as top:
         try:
@@ -294,7 +294,7 @@ def failure(test, reason):
 
 
 def messages(errors):
-    """The last lines that a compiler wrote. What a program writes in a test is not shown: it might be the
+    """The last lines that a compiler wrote. A program's own messages are not shown: they might reveal a
     test."""
     lines = errors.decode(errors="backslashreplace").strip().splitlines()[-MOST_LINES:]
     return "".join("\n" + shown(line.expandtabs())[:200] for line in lines)

@@ -1,4 +1,4 @@
-"""The files of results: for the teacher a CSV, for each hand-in what Gradescope's autograder takes."""
+"""The files of results: a CSV for the teacher, and for each hand-in the results.json of Gradescope."""
 import csv
 import io
 import json
@@ -21,7 +21,7 @@ def number(x):
 
 
 def csv_of(graded, tests):
-    """The CSV of [(HandIn, Graded)], with all that the judge says, whatever students may see."""
+    """The CSV of [(HandIn, Graded)], with the whole verdicts, whatever students may see."""
     equal = equal_files(graded)
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")

@@ -1,4 +1,4 @@
-"""How many hand-ins made which mistake."""
+"""The table of mistakes, and how many hand-ins made each."""
 import collections
 
 from lib.judging.verdict import FAILED, OPEN, WRONG

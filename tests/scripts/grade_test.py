@@ -203,7 +203,7 @@ class Results(ClassTest):
                 pathlib.Path(folder, file).write_bytes(bare)
                 text = subprocess.run([BIN / stage], input=text, capture_output=True).stdout
         self.assertNotIn(identity, self.grade().stdout)
-        self.assertIn("but two shows that it is not that alone", self.page(1))
+        self.assertIn("but two rules it out as sole cause", self.page(1))
         shutil.rmtree("tests/two")
         self.assertIn(identity, self.grade().stdout)
 
