@@ -1,12 +1,12 @@
-"""Another rule at the borders: whether each pixel that differs shows what lies within REACH of it, an edge or
-the line where two triangles meet."""
+"""Another rule at the borders: each pixel that differs has to show what lies within REACH of it, across an
+edge or the line where two triangles meet."""
 import collections
 import functools
 import math
 
 from lib.judging.raster import kept, spend
 
-REACH = 1.5  # pixels between one that differs and what it shows
+REACH = 1.5  # pixels between a pixel that differs and the place that it shows
 DEPTH_REACH = 1.0  # pixels along which the depth of a triangle may be taken
 
 
@@ -65,8 +65,8 @@ class Borders:
         return found is not None and found[0][1] <= z <= found[0][2]
 
     def inside(self, t, row, column):
-        """How far a pixel's center lies inside the outline of a triangle, in pixels; less than 0 outside, and
-        of a triangle thinner than a pixel."""
+        """The distance of a pixel's center from a triangle's outline, in pixels; below 0 outside, and if the
+        triangle is thinner than a pixel."""
         edges = self.plane(t)[0]
         return -REACH if edges is None else min(a * column + b * row + c for a, b, c in edges)
 
@@ -105,7 +105,7 @@ class BorderRule:
 
     @property
     def explains_all(self):
-        # Where more differs than is drawn, these are not the borders of what there is to draw.
+        # If more pixels differ than are drawn, they are not only borders.
         mismatch = self.mismatch
         return bool(self.pixels.drawn) and not mismatch.has_rows and (
             len(mismatch.of_shape) <= mismatch.drawn and self.shows_each_triangle
@@ -113,8 +113,8 @@ class BorderRule:
 
     @property
     def shows_each_triangle(self):
-        """True if the picture shows half of the visible pixels of each triangle that has one at least REACH
-        inside its outline, and any of all smaller ones."""
+        """True if it shows half the visible pixels of each triangle with one REACH or more inside its
+        outline, and one of the smaller triangles."""
         visible, agreeing, deep = collections.Counter(), collections.Counter(), set()
         for row in range(self.drawing.triangles.grid.height):
             for column, t in enumerate(self.drawing.row(row)[0]):
@@ -144,7 +144,7 @@ class BorderRule:
             for other in self.borders.near(row, column) if other in same and other != t)
 
     def is_within_reach(self, place):
-        """True if a pixel shows what a triangle with its color, if it has one, has within REACH."""
+        """True if a triangle, of the pixel's color if it has one, could show the same within REACH."""
         (row, column), pixels = place, self.pixels
         is_drawn = pixels.drawn[row][column]
         z = pixels.depths[row][column] if pixels.depths and pixels.depths[row] else None

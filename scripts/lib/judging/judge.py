@@ -1,4 +1,4 @@
-"""The judge: what is true of a hand-in, stage by stage.
+"""The judge: the verdicts on a hand-in, stage by stage.
 
 Each stage is judged by the numbers that it may have read, those of the stage's file before it or the exact
 ones in memory, so that a mistake counts once. A stage is right if it reproduces the numbers under any

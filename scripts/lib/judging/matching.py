@@ -1,5 +1,5 @@
-"""Which triangles a text lacks, and which it has too many of, if all others come in the right order; and
-whether it has all in another."""
+"""The triangles that a text lacks or has too many of, if all others come in the right order; or another order
+of all triangles."""
 import itertools
 
 ORDINALS = ("first", "second", "third")
@@ -8,8 +8,8 @@ MOST_COMPARED = 1_000_000  # pairs of triangles, in search of the one that is wr
 
 
 def left_over(few, many, is_same):
-    """The numbers of those of `many` that are left over if each of `few` is one of them, in order; None if
-    one is none of them."""
+    """The indices of the items of `many` that `few` lacks, if `few` is a part of `many` in the same order;
+    else None."""
     left, i = [], 0
     for number, item in enumerate(many):
         if i < len(few) and is_same(few[i], item):
@@ -20,8 +20,8 @@ def left_over(few, many, is_same):
 
 
 def left_over_for_certain(few, many, is_same):
-    """The numbers left over, and whether there is no other choice: of two that are the same, nobody can say
-    which."""
+    """The indices left over, and True if there is no other choice: of two equal items, either may be left
+    over."""
     left = left_over(few, many, is_same)
     if left is None:
         return None, False

@@ -11,7 +11,7 @@ class Findings:
     """The Findings of a pixel_comparing.Context: `of_all` files, and `of` one. A file that is right by itself
     is right whatever the other holds; else its own rule counts."""
     def __init__(self, context, picture=None):
-        """`picture` is the Finding of a picture that is not worth a look."""
+        """`picture` is the Finding of a picture that need not be searched."""
         self.context, self.of_one = context, {"picture": picture} if picture else {}
         # If one of two files shows nothing, each is judged alone.
         blank = context.shown.are_blank

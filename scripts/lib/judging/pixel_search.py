@@ -1,5 +1,4 @@
-"""The search for the rule, or the mistake, under which the pixels of a hand-in are exactly what its triangles
-give."""
+"""The search for the rule, or the mistake, under which the triangles of a hand-in give exactly its pixels."""
 import collections
 import dataclasses
 import itertools
@@ -35,7 +34,7 @@ class Finding:
 
 def finding_of(context):
     """The Finding of a pixel_comparing.Context. A search for a cause that is given up costs no points: the
-    rules that are open are no part of it."""
+    open rules are not part of it."""
     plain = context.plain
     if found := exact(plain, context.shown):
         return found
@@ -132,15 +131,15 @@ def by_mistake(context, rows):
 
 
 def everything_explained(context, reading, rule, rows):
-    """The Mismatch, without a pixel, of a mistake that explains everything, draws something, and leaves no
-    more open than it explains; else None. `rows` are looked at first."""
+    """The Mismatch, empty, of a mistake that explains all, draws something, and has no more doubtful pixels
+    than it explains; else None. `rows` are looked at first."""
     mismatch = context.explained(reading, rule, rows)
     is_one = mismatch and mismatch.drawn and mismatch.doubtful <= len(context.plain.pixels)
     return mismatch if is_one and has_enough_holes(context, reading, rule) else None
 
 
 def has_enough_holes(context, reading, rule):
-    """True if there are enough holes on edges to tell, if the rule leaves any."""
+    """True if the rule leaves no holes on edges, or enough of them to be no accident."""
     return not rule.is_strict or len(
         context.compare(reading, dataclasses.replace(rule, is_strict=False)).pixels) >= LEAST_HOLES
 
@@ -158,7 +157,7 @@ def by_two_mistakes(context, rows):
 
 
 def by_most_pixels(context, rows, best):
-    """The mistakes, by our two rules, that explain all but one in NEARLY of the pixels that no open rule
+    """The mistakes, by our two rules, that leave at most one in NEARLY of the pixels that no open rule
     explains, and of all that differ."""
     least, found = 10**9, {}
     for _, changes in context.open_rules:
@@ -175,7 +174,7 @@ def by_most_pixels(context, rows, best):
 
 
 def with_triangle(context, best, found):
-    """A Finding with what else may be: that one triangle is missing."""
+    """A Finding with another possible cause: that one triangle is missing."""
     other = without_triangles(context, best, 0)
     if other and len(other.mismatch.rule.without) == 1:
         found.causes += other.causes

@@ -1,4 +1,4 @@
-"""A program in the place of a stage: what it is fed, how it is run, and what it hands in."""
+"""A program in the place of a stage: its input, its run, and its output as a hand-in."""
 import contextlib
 import os
 import re
@@ -42,8 +42,8 @@ def input_of(stage, scene, tools, is_bare):
 
 
 class ProgramError(Exception):
-    """The program did not do its job; the text says why. `errors` is its stderr, `is_asleep` tells whether it
-    waited until its time was over."""
+    """The program failed; the text says why. `errors` is its stderr; `is_asleep` is True if it waited until
+    its time was over."""
     def __init__(self, reason, errors=b"", is_asleep=False):
         super().__init__(reason)
         self.errors, self.is_asleep = errors, is_asleep

@@ -37,7 +37,7 @@ class Rule:
     left: str = "rounded"
     right: str = "rounded"
     depth: str = "plane"  # plane, between ends, from left
-    clamp: int = None  # between ends: how many columns beyond the picture the ends may lie; None is any
+    clamp: int = None  # between ends: the columns that ends may lie beyond the picture; None is no limit
     half_x: bool = True
     half_y: bool = True
     window: str = ""  # one: its limits are -1 and 1; exchanged: left and bottom are
@@ -45,11 +45,11 @@ class Rule:
     is_one_less: bool = False  # width - 1 and height - 1 in place of width and height
     corners: str = ""  # how CORNERS changes them
     winding: int = 0  # of triangles that are drawn: 1 counterclockwise, -1 clockwise; 0 is any
-    half: str = ""  # upper, lower: what is drawn of a triangle
+    half: str = ""  # upper, lower: the part of a triangle that is drawn
     ends_z: str = ""  # as met: edge by edge, not from left to right; exchanged
     starts_at_zero: bool = False
-    column_more: int = 0  # how many columns rows have too many at their right ends
-    columns_before: int = 0  # and at their left ends
+    column_more: int = 0  # the excess columns at the right ends of rows
+    columns_before: int = 0  # the excess columns at their left ends
     row_short: bool = False
     row_long: bool = False
     columns: str = ""  # one of COLUMNS, where min stands for max
@@ -209,7 +209,7 @@ class Triangles:
         return is_on and sides[0] * sides[1] < 0 and 1e-3 * square < dx * x + dy * y < 0.999 * square
 
     def has_area(self, t):
-        """True if a triangle has an area, whatever its numbers' last digits."""
+        """True if a triangle has an area, whatever the last digits of its coordinates."""
         return self.winding(t) != 0
 
 
@@ -218,7 +218,7 @@ class TooMuch(Exception):
 
 
 def spend(work, count):
-    """Takes `count` from the number in `work`; raises TooMuch when it is used up."""
+    """Subtracts `count` from the number in `work`; raises TooMuch when the number is used up."""
     work[0] -= count
     if work[0] < 0:
         raise TooMuch
@@ -352,8 +352,8 @@ class Drawing:
 
 
 def kept(sure, possible, keep):
-    """Which of the fragments (triangle, least depth, largest depth) a pixel may show. Those that are sure are
-    there, others may be."""
+    """The fragments (triangle, least depth, largest depth) that a pixel may show. `sure` ones exist, others
+    may."""
     if not sure:
         return [*possible, (-1, 0.0, 0.0)]
     if keep == "last":

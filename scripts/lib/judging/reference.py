@@ -60,7 +60,7 @@ class Reference:
             raise JudgeError(f"the scene is refused: {failure}") from None
 
     def expect_no_spheres(self, text, model):
-        """Assignments have none. model's message names the place in the scene."""
+        """Refuses spheres, which assignments lack, by model's message, which names the place in the scene."""
         if b"\nsphere\n" in model:
             try:
                 self.tools.run("model", "--bare", stdin=text.encode("utf-8", errors="surrogateescape"))
@@ -94,7 +94,7 @@ class Reference:
 
     @functools.cached_property
     def stage3_of_exact(self):
-        """The same, if the stages before have passed on exact numbers."""
+        """The scene after our project, from exact numbers of the stages before."""
         return self.tools.through(["model", *EXACT], ["view", *EXACT], ["project"], stdin=self.scene_data)
 
     @functools.cached_property

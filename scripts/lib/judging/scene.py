@@ -83,7 +83,7 @@ class Scene:
         return projection_matrix(window, float(kind.near), float(kind.far), mistake)
 
     def directions(self):
-        """(name, vector) of what may stand in a row of the matrix of view."""
+        """(name, vector) of each direction that a row of the matrix of view may have."""
         l = tuple(b - a for a, b in zip(self.eye, self.look))
         named = [("the scene's up", self.up), ("the scene's eye", self.eye), ("the scene's look", self.look),
                  ("look - eye", l), ("l x up", cross(normalized(l), self.up))]

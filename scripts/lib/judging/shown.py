@@ -10,7 +10,7 @@ from lib.showing.pictures import PictureError, picture_of
 from lib.text.plain_stage_text import real
 from lib.text.stage_text import StageTextError, text_of
 
-LEAST_EMPTY = 0.01  # of the pixels, that have the depth 0 before it is taken for none
+LEAST_EMPTY = 0.01  # the share of pixels with depth 0 from which 0 stands for an empty pixel
 DEPTH_BASE = 2e-6  # for depths of 6 decimals, calculated from numbers of 7; times their size beyond 1
 FLIPS = {
     "": lambda rows: rows, "upside down": lambda rows: rows[::-1],
@@ -56,7 +56,7 @@ def read_colors(data, name, window, background):
 
 
 class Rows:
-    """A sequence whose rows are made when they are asked for: most rules fail in the first."""
+    """A sequence whose rows are made on demand: most rules fail in the first row."""
     def __init__(self, make, count):
         self.make, self.count = functools.cache(make), count
 
@@ -75,9 +75,8 @@ def range_of(shown):
 @dataclasses.dataclass
 class Pixels:
     """The visible triangle of each pixel, row by row. `drawn` and `colors` are None without a picture; a row
-    of `depths` is None if it cannot be told which pixels its numbers belong to: those are in `listed`. `seen`
-    is `drawn`, or without a picture the same of the depths, with the range of columns beyond which nothing
-    is; it is None where neither tells."""
+    of `depths` is None if the pixels of its numbers are unknown: those are in `listed`. `seen` pairs `drawn`
+    (without a picture, the pixels with depths) with the range of columns that show any; None if unknown."""
     drawn: list
     colors: list
     depths: list
@@ -100,7 +99,7 @@ class Shown:
         self.background = self.find_background(is_uncovered) if colors else None
 
     def only(self, kind):
-        """This without the picture, or without the depths."""
+        """A Shown without the picture, or without the depths."""
         rest = copy.copy(self)
         rest.made = {}
         if kind == "depths":
@@ -110,7 +109,7 @@ class Shown:
         return rest
 
     def in_one_color(self):
-        """This with one color for all pixels that show a triangle."""
+        """A Shown with one color for all pixels that show a triangle."""
         rest = copy.copy(self)
         rest.made, color = {}, bytes(255 - x for x in self.background)
         rest.colors = [
@@ -143,8 +142,8 @@ class Shown:
         return sum(row.count(z) for row in self.depths.rows)
 
     def find_background(self, is_uncovered):
-        """The color that no triangle has: the one of as many pixels as have no depth. If there is none:
-        black, or in a picture without black, the color where nothing is to be seen."""
+        """The color without a triangle: the color of as many pixels as have no depth. If there is none: black
+        or, in a picture without black, the color where no triangle is visible."""
         counts = collections.Counter(color for row in self.colors for color in row)
         black = bytes(3)
         if self.depths:

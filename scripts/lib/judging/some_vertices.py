@@ -1,5 +1,4 @@
-"""Mistakes in some of the points alone: with the same vertex of every triangle, or with a few
-triangles."""
+"""Mistakes in some of the points alone: in the same vertex of every triangle, or in a few triangles."""
 import dataclasses
 
 from lib.judging.matching import listed

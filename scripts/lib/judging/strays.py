@@ -1,5 +1,4 @@
-"""Lines of a stage text that do not belong there: they are counted, by triangle, and the first one is
-named."""
+"""Lines that do not belong in a stage text: counts them, or their triangles, and names the first."""
 from lib.rim.command import shown
 from lib.text.plain_stage_text import KEYWORD, NO_KEYWORDS, real
 from lib.text.scene import SETTINGS

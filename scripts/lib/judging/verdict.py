@@ -17,8 +17,8 @@ OPEN = (TOO_FEW_DIGITS, UNDECIDED)
 
 @dataclasses.dataclass
 class Cause:
-    """A mistake that reproduces the numbers. `name` is that of the list of mistakes, or empty for one that is
-    not in it."""
+    """A mistake that reproduces the numbers. `name` is its name in the list of mistakes, or empty if the list
+    lacks it."""
     name: str
     text: str
     detail: str = ""
@@ -37,7 +37,7 @@ def cause_of_all(stage, names):
 
 
 def joined(causes):
-    """One Cause or more as one."""
+    """One or more Causes combined into one."""
     if len(causes) == 1:
         return causes[0]
     names = dict.fromkeys(cause.name for cause in causes if cause.name)

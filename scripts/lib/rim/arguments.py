@@ -32,7 +32,7 @@ OTHER_WAYS = {  # {(command, option that is not there, or no longer): what to us
 
 
 def files_of(name, folder):
-    """Inputs for expect_separate: what is in a folder, if there is one."""
+    """Inputs for expect_separate: the entries of a folder, if it exists."""
     names = os.listdir(folder) if os.path.isdir(folder or "") else []
     return [(name, os.path.join(folder, file)) for file in names]
 

@@ -1,11 +1,11 @@
-"""Child processes: what one has cost, and how all of them end."""
+"""Child processes: the cost of one, and the end of all."""
 import contextlib
 import ctypes
 import os
 import signal
 import time
 
-PATIENCE = 3  # seconds until what does not end is killed
+PATIENCE = 3  # seconds before a process that does not end is killed
 PR_SET_CHILD_SUBREAPER = 36
 
 
@@ -45,7 +45,7 @@ def descendants():
 
 
 def end_children():
-    """Ends all that this process has started. GNU parallel waits for its jobs until the second signal."""
+    """Ends all processes that this one has started. GNU parallel waits for its jobs until a second signal."""
     start = time.monotonic()
     while (left := descendants()) and time.monotonic() < start + 2 * PATIENCE:
         for process in left:

@@ -93,14 +93,14 @@ class WorkFolder:
                 folder = os.path.dirname(folder)
 
     def remove_others(self, is_own):
-        """Removes links, not what they point at, pipes and devices, where there will be files or folders."""
+        """Removes links (not their targets), pipes and devices where files or folders will be."""
         for folder, folders, files in os.walk(self.path):
             for path in (os.path.join(folder, name) for name in folders + files):
                 if is_other(path) and is_own(os.path.relpath(path, self.path)):
                     os.unlink(path)
 
     def remove(self, is_own):
-        """Removes the folder; if others have put something into it, all but that and the mark."""
+        """Removes the folder; if others have put something into it, that and the mark stay."""
         self.remove_files(lambda name: is_own(name) or os.path.basename(name).startswith(OURS))
         self.remove_bare()
 
