@@ -72,7 +72,7 @@ void Model::fail(const std::string& expected, const std::string& found) const {
 
 ModelMesh& Model::add_mesh(const std::string& mesh_name) {
   root.meshes.push_back(meshes.size());
-  return meshes.emplace_back(ModelMesh{.name = mesh_name});
+  return meshes.emplace_back(ModelMesh{.name = mesh_name.substr(0, kLongestName)});
 }
 
 std::uint64_t Model::triangle_count() const {

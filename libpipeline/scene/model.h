@@ -47,6 +47,9 @@ struct ModelMaterial {
   double ambient = 1, diffuse = 1, specular = 0.15, shininess = 20;
 };
 
+/// The characters of a name that are kept.
+constexpr std::size_t kLongestName = 1000;
+
 /// Triangles of one material.
 struct ModelMesh {
   std::string name;

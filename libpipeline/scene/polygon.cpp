@@ -2,7 +2,6 @@
 
 #include <array>
 #include <numeric>
-#include <stdexcept>
 
 #include "libpipeline/numbers/vec_math.h"
 
@@ -44,10 +43,10 @@ bool is_ear(const std::vector<Vec3>& points, const std::array<std::uint32_t, 3>&
 
 }  // namespace
 
-void append_triangles(std::span<const Vec3> polygon, std::vector<std::uint32_t>& indices) {
+bool append_triangles(std::span<const Vec3> polygon, std::vector<std::uint32_t>& indices) {
   if (polygon.size() == 3) {
     indices.insert(indices.end(), {0, 1, 2});
-    return;
+    return true;
   }
   const std::vector<Vec3> points = flattened(polygon);
   std::vector<std::uint32_t> left(points.size()), not_convex;
@@ -64,7 +63,7 @@ void append_triangles(std::span<const Vec3> polygon, std::vector<std::uint32_t>&
   for (std::size_t misses = 0; !is_ready && left.size() > 3 && misses <= left.size();) {
     constexpr std::size_t kMostSteps = 2'000'000'000;
     steps += not_convex.size() + left.size() / 16;
-    if (steps > kMostSteps) throw std::length_error("a polygon with too many corners");
+    if (steps > kMostSteps) return false;
     i = i < left.size() ? i : 0;
     const std::array<std::uint32_t, 3> ear = ear_at(i);
     if (is_ear(points, ear, not_convex)) {
@@ -78,6 +77,7 @@ void append_triangles(std::span<const Vec3> polygon, std::vector<std::uint32_t>&
   for (std::size_t k = 1; k + 1 < left.size(); ++k)
     indices.insert(indices.end(),
                    {left[i % left.size()], left[(i + k) % left.size()], left[(i + k + 1) % left.size()]});
+  return true;
 }
 
 void append_strip(std::span<const std::uint32_t> strip, bool is_fan, std::vector<std::uint32_t>& corners) {

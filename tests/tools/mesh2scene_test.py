@@ -1016,6 +1016,13 @@ class Readers(ToolTest):
                                (4000000000, "4000000000 values in a view of 36 bytes, found the view's end")):
             document["accessors"][0]["count"] = count
             self.expect("a.gltf", json.dumps(document), 0, ": expected " + message)
+        none = {"bufferView": 0, "componentType": 5121}
+        document["accessors"][0] = {
+            "componentType": 5126, "type": "VEC3", "count": 1400000, "sparse": {
+                "count": 0, "indices": none, "values": none}}
+        self.expect(
+            "a.gltf", json.dumps(document), 0, ": expected at most 4 million numbers, and 16 for each "
+            "byte of its files, found more in accessors[0]")
         document = changed()
         document["buffers"].append({"byteLength": 36, "uri": "c.bin"})
         pathlib.Path("c.bin").write_bytes(struct.pack("<9f", 2.5, 0, 0, 2.5, 0, 0, 2.5, 0, 0))

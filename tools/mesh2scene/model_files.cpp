@@ -110,13 +110,19 @@ std::string_view ModelFiles::read_standard_input() {
 std::string_view ModelFiles::map(int descriptor, const std::string& name) {
   struct stat status = {};
   if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) throw IoError("read", name, EINVAL);
-  const auto size = static_cast<std::size_t>(status.st_size);
+  if (const auto output = outputs_.find({status.st_dev, status.st_ino});
+      has_folder_ && output != outputs_.end())
+    throw UsageError(expected_but_found("a place of its own for " + output->second,
+                                        pipeline::quoted(name) + ", which the model names"));
+  const auto [known, is_new] = mapped_.try_emplace({status.st_dev, status.st_ino});
+  const auto size = static_cast<std::size_t>(is_new ? status.st_size : 0);
   take_room(size, name);
   // An empty file cannot be mapped.
   const void* const bytes = size == 0 ? "" : ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
   ::close(descriptor);
   if (bytes == MAP_FAILED) throw IoError("read", name, errno);
-  return {static_cast<const char*>(bytes), size};
+  if (is_new) known->second = {static_cast<const char*>(bytes), size};
+  return known->second;
 }
 
 std::string ModelFiles::refusal() const {
@@ -132,11 +138,6 @@ std::optional<std::string_view> ModelFiles::read(const std::string& file) {
     const int opened = has_folder_ ? open_below(name) : kRefused;
     if (opened == kRefused && refused_.empty()) refused_ = name;
     if (opened < 0) continue;
-    struct stat status = {};
-    ::fstat(opened, &status);
-    if (const auto output = outputs_.find({status.st_dev, status.st_ino}); output != outputs_.end())
-      throw UsageError(expected_but_found("a place of its own for " + output->second,
-                                          pipeline::quoted(name) + ", which the model names"));
     if (std::filesystem::path(refused_).filename() == last) refused_.clear();
     return map(opened, name);
   }

@@ -21,6 +21,8 @@ class ModelFiles {
   ModelFiles(const std::string& path, std::size_t megabytes, const std::vector<std::string>& written);
 
   [[nodiscard]] std::string_view model() const { return model_; }
+  /// The bytes of the model and all other files that were read.
+  [[nodiscard]] std::size_t size() const { return megabytes_ * 1'000'000 - room_; }
   /// The bytes of another file; nothing if it is not opened. If the path leads nowhere, its last part is
   /// tried in the model's folder. A UsageError if it is an output.
   std::optional<std::string_view> read(const std::string& file);
@@ -32,7 +34,9 @@ class ModelFiles {
   std::string_view read_standard_input();
   std::string_view map(int descriptor, const std::string& name);
 
-  std::map<std::pair<std::uint64_t, std::uint64_t>, std::string> outputs_;  // by device and inode
+  using Inode = std::pair<std::uint64_t, std::uint64_t>;  // and its device
+  std::map<Inode, std::string> outputs_;
+  std::map<Inode, std::string_view> mapped_;
   std::string_view model_;
   std::string refused_;  // the first file that was not opened
   std::size_t megabytes_;

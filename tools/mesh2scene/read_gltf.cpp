@@ -8,7 +8,6 @@
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
-#include <tuple>
 
 // Unused parts, which would take time to compile.
 #define JSON_NO_IO
@@ -200,6 +199,13 @@ class GltfReader {
     return values;
   }
 
+  /// Counts numbers, and refuses small files that stand for gigabytes as accessors share their bytes.
+  void take(std::size_t numbers, const std::string& where) {
+    taken_ += numbers;
+    if (taken_ > 4'000'000 + 16 * files_.size())
+      model_.fail("at most 4 million numbers, and 16 for each byte of its files", "more in " + where);
+  }
+
   /// The values of an accessor whose type has at least `width` numbers, which are cut to `width`.
   std::vector<double> numbers(Json index, std::size_t width) {
     const Json json = item("accessors", index), sparse = json["sparse"];
@@ -211,11 +217,12 @@ class GltfReader {
     const double type = json["componentType"].number();
     const bool is_normalized = json["normalized"].is_true(), is_in_buffer = json["bufferView"].is_there();
     const std::size_t n = count(json, "count"), replaced = count(sparse, "count");
-    constexpr std::size_t kMostZeros = 1'000'000;
-    if (!is_in_buffer && (!sparse.is_there() || n > kMostZeros))
+    if (!is_in_buffer && !sparse.is_there())
       model_.fail("an accessor with numbers in a buffer", "none: they are compressed, or missing");
-    std::vector<double> values(is_in_buffer ? 0 : n * width);
+    std::vector<double> values;
     if (is_in_buffer) values = values_at(json, type, components, n, width, is_normalized);
+    take((n + replaced) * width, "accessors[" + shortest_text(index.number()) + "]");
+    values.resize(n * width);
     if (!sparse.is_there()) return values;
     const Json places = sparse["indices"], others = sparse["values"];
     const std::vector<double> at = values_at(places, places["componentType"].number(), 1, replaced, 1),
@@ -331,7 +338,7 @@ class GltfReader {
     const auto [known, is_new] = meshes_.try_emplace(index);
     const Json json = document_["meshes"][index];
     const std::vector<nlohmann::json>& primitives = json["primitives"].items();
-    const std::string own = json["name"].text(),
+    const std::string own = json["name"].text().substr(0, kLongestName),
                       name = own.empty() ? "meshes[" + std::to_string(index) + "]" : own;
     for (std::size_t i = 0; is_new && i < primitives.size(); ++i)
       if (add_primitive(primitives[i], primitives.size() > 1 ? name + "-" + std::to_string(i) : name,
@@ -366,11 +373,13 @@ class GltfReader {
       mesh.corners.assign(indices.begin(), indices.end() - static_cast<std::ptrdiff_t>(indices.size() % 3));
     else
       append_strip(indices, mode == 6, mesh.corners);
-    std::vector<double> normals;
-    if (attributes["NORMAL"].is_there()) normals = numbers(attributes["NORMAL"], 3);
-    if (normals.size() >= 3 * std::size_t{size} && size > 0)
+    take(mesh.corners.size(), name);
+    if (const Json normals = attributes["NORMAL"]; normals.number(-1) != normals_index_)
+      normals_ = normals.is_there() ? numbers(normals, 3) : std::vector<double>();
+    normals_index_ = attributes["NORMAL"].number(-1);
+    if (normals_.size() >= 3 * std::size_t{size} && size > 0)
       for (const std::uint32_t corner : mesh.corners) {
-        const double* const n = normals.data() + std::size_t{3} * (corner - base);
+        const double* const n = normals_.data() + std::size_t{3} * (corner - base);
         mesh.normals.push_back(floats({n[0], n[1], n[2]}));
       }
     model_.meshes.push_back(std::move(mesh));
@@ -380,8 +389,8 @@ class GltfReader {
   /// The index in the model of a primitive's first point, and the count of its points.
   std::pair<std::uint32_t, std::uint32_t> points_of(Json attributes, const Json material) {
     const Json colors = attributes["COLOR_0"];
-    const auto key = std::tuple(attributes["POSITION"].number(), colors.number(-1),
-                                colors.is_there() ? material.number(-1) : -1);
+    const std::array key = {attributes["POSITION"].number(), colors.number(-1),
+                            colors.is_there() ? material.number(-1) : -1};
     const auto [known, is_new] = points_.try_emplace(key);
     if (!is_new) return known->second;
     const std::vector<double> positions = numbers(attributes["POSITION"], 3);
@@ -413,9 +422,11 @@ class GltfReader {
   bool is_linear_ = !document_["asset"]["generator"].text().starts_with("Open Asset Import Library");
   std::vector<Vec3> linear_colors_;  // of materials
   std::map<std::size_t, std::vector<std::size_t>> meshes_;
-  std::map<std::tuple<double, double, double>, std::pair<std::uint32_t, std::uint32_t>> points_;
+  std::map<std::array<double, 3>, std::pair<std::uint32_t, std::uint32_t>> points_;
+  std::vector<double> normals_;  // of the last accessor
+  double normals_index_ = -1;
   bool has_orthographic_ = false;
-  std::size_t node_count_ = 0;
+  std::size_t node_count_ = 0, taken_ = 0;
 };
 
 }  // namespace

@@ -74,12 +74,10 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
     model.format = "PLY", read_ply(bytes, model);
   else if (bytes.starts_with("glTF") || begin.starts_with("{"))
     model.format = "glTF", read_gltf(bytes, files, model);
-  else if (is_stl(bytes))
+  else if (is_stl(bytes) || (name.ends_with(".stl") && !is_obj(model.name, bytes)))
     model.format = "STL", read_stl(bytes, model);
   else if (is_obj(model.name, bytes) || name.ends_with(".obj"))
     model.format = "OBJ", read_obj(bytes, files, model);
-  else if (name.ends_with(".stl"))
-    model.format = "STL", read_stl(bytes, model);
   else
     refuse(begin.empty() ? "an empty file" : "another", begin.empty() ? "" : kAssimp);
   if (!files.refusal().empty()) model.note(files.refusal() + ": left out");

@@ -14,7 +14,8 @@
 namespace pipeline {
 namespace {
 
-using Materials = std::map<std::string, std::size_t, std::less<>>;
+/// The numbers of materials, by name; none for a material that is used, but not read yet.
+using Materials = std::map<std::string, std::optional<std::size_t>, std::less<>>;
 
 /// The brightest channel of a color; 0 for black or kNoColor.
 float brightest(const Floats& color) {
@@ -208,7 +209,7 @@ class ObjReader {
     }
     ModelMesh& mesh = current();
     triangles_.clear();
-    append_triangles(polygon_, triangles_);
+    if (!append_triangles(polygon_, triangles_)) text_.fail(text_.rest().substr(0, 0), kPolygon);
     const bool has_normals = corner_normals_.size() == corners_.size();
     // Corners without normals, before or after others with them, get 0, which makes them flat.
     if (has_normals) mesh.normals.resize(mesh.corners.size());
@@ -220,29 +221,26 @@ class ObjReader {
   }
 
   void use(std::string_view name) {
-    if (material_name_ == name) return;
+    if (material_->first == name) return;
     // A material after the first faces of a group begins a new mesh with the material's name.
     if (is_open_) name_ = name;
     is_open_ = false;
-    material_name_ = name;
+    material_ = materials_.try_emplace(std::string(name)).first;
   }
 
   ModelMesh& current() {
-    if (is_open_) return model_.meshes.back();
+    if (!is_open_) mesh_materials_.push_back(material_), model_.add_mesh(name_).surface = surface_;
     is_open_ = true;
-    material_names_.push_back(material_name_);
-    model_.add_mesh(name_).surface = surface_;
     return model_.meshes.back();
   }
 
   /// Gives the meshes their materials, whose library may be named anywhere.
   void find_materials() {
     std::string missing;
-    for (std::size_t i = 0; i < material_names_.size(); ++i)
-      if (const auto found = materials_.find(material_names_[i]); found != materials_.end())
-        model_.meshes[i].material = found->second;
-      else
-        missing = material_names_[i];
+    for (std::size_t i = 0; i < mesh_materials_.size(); ++i) {
+      model_.meshes[i].material = mesh_materials_[i]->second;
+      if (!mesh_materials_[i]->second) missing = mesh_materials_[i]->first;
+    }
     if (!missing.empty() && !lacks_library_)
       model_.note("its material " + pipeline::quoted(missing) + " is nowhere: it gets the usual color");
   }
@@ -264,24 +262,23 @@ class ObjReader {
   }
 
   bool read_library(const std::string& name) {
-    const auto [known, is_new] = libraries_.try_emplace(name, false);
-    if (!is_new) return known->second;
     const std::optional<std::string_view> bytes = files_.read(name);
-    if (bytes) MtlReader(name, *bytes, model_, materials_).read();
-    return known->second = bytes.has_value();
+    if (bytes && libraries_.insert(bytes->data()).second) MtlReader(name, *bytes, model_, materials_).read();
+    return bytes.has_value();
   }
 
   ModelText text_;
   ModelFiles& files_;
   Model& model_;
   std::vector<Floats> normals_;
-  std::map<std::string, bool> libraries_;  // by name: true if it exists
-  std::set<std::string> missing_;          // named in notes
+  std::set<const char*> libraries_;  // that were read
+  std::set<std::string> missing_;    // named in notes
   bool lacks_library_ = false, is_open_ = false, has_early_faces_ = false;
   std::uint64_t surface_ = 1;
-  std::string name_ = "defaultobject", material_name_;
-  std::vector<std::string> material_names_;  // of meshes
+  std::string name_ = "defaultobject";
   Materials materials_;
+  Materials::iterator material_ = materials_.try_emplace("").first;
+  std::vector<Materials::iterator> mesh_materials_;
   // The face being read:
   std::vector<std::uint32_t> corners_, corner_normals_, triangles_;
   std::vector<Vec3> polygon_;

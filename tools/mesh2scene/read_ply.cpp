@@ -227,7 +227,7 @@ class PlyReader {
       std::vector<Vec3> polygon;
       std::vector<std::uint32_t> triangles;
       for (const std::uint32_t i : indices_) polygon.push_back(model_.points[i]);
-      append_triangles(polygon, triangles);
+      if (!append_triangles(polygon, triangles)) fail(kPolygon, static_cast<double>(indices_.size()));
       for (const std::uint32_t i : triangles) mesh_->corners.push_back(indices_[i]);
     } else if (indices_.size() == 3) {
       mesh_->corners.insert(mesh_->corners.end(), indices_.begin(), indices_.end());

@@ -61,19 +61,15 @@ SceneSetting setting_with(const ModelCamera& camera, double aspect, const Model&
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Direction {
-  double cosine, sine;
-};
-
-/// The direction without libm, whose last bits differ between systems.
-Direction direction_of(double degrees) {
+/// Cosine and sine, without libm, whose last bits differ between systems.
+std::pair<double, double> direction_of(double degrees) {
   const SineCosine angle = sine_cosine_of_degrees({degrees, 0});
   return {angle.cosine.nearest_double(), angle.sine.nearest_double()};
 }
 
 double tangent(double degrees) {
-  const Direction direction = direction_of(degrees);
-  return direction.sine / direction.cosine;
+  const auto [cosine, sine] = direction_of(degrees);
+  return sine / cosine;
 }
 
 /// The depth of the view behind and before the model, as a fraction of its distance: room for objects added
