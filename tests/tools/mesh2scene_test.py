@@ -919,6 +919,7 @@ class Readers(ToolTest):
         ("a.obj", V + "v 1 1 0\nv 0.5 0.4 0\nf 1 5 2 4 3\n", 3),
         ("a.obj", V + "f 1 2 3\nsurf 0 1 0 1 1 2 3\n", 1,
          ": no scene can hold its free-form curves and surfaces"),
+        ("a.obj", V + "f 1 2 3\ncall b.obj\n", 1, ": no scene can hold its calls of other files"),
         ("a.obj", V + "f 1//1 2//1 3//9\nvn 1 0 0\n", 1,
          ": faces come before their normals, which are made anew"),
         ("a.obj", V + "f 1 2 99\n", 0, ":4:7: expected a vertex from 1 to 3, or back from -1, found '99'"),

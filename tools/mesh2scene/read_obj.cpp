@@ -122,6 +122,8 @@ class ObjReader {
         model_.unheld.insert("points and lines");
       else if (word == "curv" || word == "curv2" || word == "surf")
         model_.unheld.insert("free-form curves and surfaces");
+      else if (word == "call")
+        model_.unheld.insert("calls of other files");
       else if (word == "s")
         surface_ = 0, is_open_ = false, parse_count(text_.word(), surface_);  // else off
       else if (word == "o" || word == "g")
