@@ -45,7 +45,7 @@ struct UncertainView::Corners {
     return dot(magnitudes(plane), by_axes) +
            by_w * (std::fabs(dot(plane, eye)) + kLost * dot(magnitudes(plane), magnitudes(eye)));
   }
-  /// A bound on their distance due to printing and rounding, per w of a point, if that is at least `w`.
+  /// A bound on their distance due to printing and rounding, per w, for points whose w is at least `w`.
   [[nodiscard]] double printed_off(const Linear& plane, double w) const {
     return dot(magnitudes(plane), sum(printed_per_w, scaled(printed, 1 / w)));
   }

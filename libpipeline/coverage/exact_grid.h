@@ -28,9 +28,9 @@ using WideInt = FixedInt<6>;
 /// product 5705.
 using HugeInt = FixedInt<92>;
 
-/// A triangle in NDC with the exact x and y of its text: a coordinate with its mark set (bit 3 * vertex +
-/// axis), below 10^22, is the decimal of at most 7 digits after the point nearest to the double plus the low
-/// part; any other is exactly its double.
+/// A triangle in NDC with the exact x and y of its text: a coordinate below 10^22 with its mark set (bit 3 *
+/// vertex + axis) is the number with at most 7 decimals that is nearest to the double plus the low part; any
+/// other is exactly its double.
 struct ExactTriangle {
   /// True if every x and y is a decimal.
   [[nodiscard]] bool is_decimal() const {

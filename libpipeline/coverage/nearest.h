@@ -49,10 +49,10 @@ class NearestRows {
   /// Doubles are enough for a triangle's depths if three conditions hold: over the window and the triangle,
   /// its slopes change the depth by at most kSteepest times the sum of its vertices' |z|; its area is more
   /// than kNarrowest of the sum of its two products; its widest row is wider than kNarrowestRow of a pixel.
-  /// (One comparison adds up the three.) Other triangles' depths are calculated as DoubleDoubles. Error
+  /// (One comparison tests all three.) Other triangles' depths are calculated as DoubleDoubles. Error
   /// bounds: tests/proofs/nearest_depth.g.
   static constexpr double kSteepest = 0x1p9, kNarrowest = 0x1p-40, kNarrowestRow = 0x1p-12;
-  /// Both sides of that comparison are clamped to this, so that they cannot both become infinite.
+  /// That comparison's right side is clamped to this, lest both sides become infinite.
   static constexpr double kHuge = 0x1p1000;
 
   NearestRows(const PixelGrid& grid, const Triangle& p_ndc);

@@ -18,9 +18,8 @@ namespace pipeline {
 //   rows(triangle)    the triangle's pixels: first_row() and last_row(), inside the screen, and span(row), a
 //                     std::optional<Span>. Only a row whose line of pixel centers meets the triangle has any:
 //                     bands and buffers are chosen by the triangle's height;
-//   exact_depth(triangle, row, column)   the depth (NDC z) at a pixel that the triangle covers, within 2^-97
-//   of
-//                     itself or the vertices' largest |z|, if larger. Slow: for digits that a Span may lack;
+//   exact_depth(triangle, row, column)   the depth (NDC z) at a covered pixel, within 2^-97 of its own or the
+//                     vertices' largest |z|, whichever is larger. Slow: for digits that a Span may lack;
 //   spans(triangles, rows, begin)   only if there is a kernel for many triangles: writes the same spans.
 
 /// On each row, the pixels from the nearest to the triangle's left end to the nearest to its right end.

@@ -108,9 +108,9 @@ class TriangleDepth {
   std::optional<DepthInDoubles> in_doubles_;  // if set, all else is unused
   int weight_shift_ = 0;                      // the count of low bits cut off the weights
   double inverse_ = 0;                        // 1 / (2 * total weight)
-  double flat_depth_ = 0;    // of a triangle of one depth: then the members below are 0, else this is
+  double flat_depth_ = 0;    // if all depths are equal: then all members below are 0, else this is 0
   double half_slope_ = 0;    // per half column
-  double unit_ = 0;          // depths are whole multiples of this:
+  double unit_ = 0;          // depths are whole multiples of this
   Int128 a_sum_ = 0;         // twice the total weight times the depth of a
   std::int64_t b_rise_ = 0;  // from the depth of a to the depth of b
   std::int64_t c_rise_ = 0;  // and to the depth of c

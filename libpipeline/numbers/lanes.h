@@ -15,8 +15,8 @@ PIPELINE_BEGIN_KERNELS();
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The types of all kernels: the doubles in a vector register, and made of them the vectors of
-// numbers/vec_math.h and the pairs of numbers/double_double.h. Every kernel does the same operations in the
+// The types of all kernels: the doubles in a vector register and, made of these, vectors as in
+// numbers/vec_math.h and pairs as in numbers/double_double.h. Every kernel does the same operations in the
 // same order in each lane.
 
 // A source may limit the count of lanes.

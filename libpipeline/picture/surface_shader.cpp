@@ -183,8 +183,8 @@ bool SurfaceShader::is_plane() const {
   return true;
 }
 
-/// The greatest intensity of the lights in front of a surface, at its one lit point or at a corner: of all
-/// that would light a white surface there, without attenuation.
+/// The greatest intensity, without attenuation, of the lights in front of a surface: those that would light
+/// it, if white, at its one lit point or any corner.
 double SurfaceShader::light_in_front_of(const Surface& surface) const {
   std::array<SurfacePoint, 3> points = surface.corners;
   if (setup_.model == ShadingModel::flat) points.fill(middle(points));

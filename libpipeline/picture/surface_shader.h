@@ -78,7 +78,7 @@ class SurfaceShader {
 
   /// Statistics of the pixels shaded so far, or of some of them once these show enough.
   [[nodiscard]] ShownColors shown() const;
-  /// True if the triangles seen lie in one plane; only kept as long as they show one color.
+  /// True if the triangles seen lie in one plane; known only while they show one color.
   [[nodiscard]] bool is_plane() const;
   [[nodiscard]] bool is_lit() const { return setup_.model != ShadingModel::none; }
   [[nodiscard]] const Setup& setup() const { return setup_; }
@@ -110,7 +110,7 @@ class SurfaceShader {
   }
   void light_corners(Surface& surface) const;
   void look_at_run(SurfaceId id, std::span<const Color> colors, Worker& worker) const;
-  /// In a high picture, statistics are made of every fourth row.
+  /// In a tall picture, statistics cover every fourth row.
   [[nodiscard]] int row_stride() const { return grid_.rows > 256 ? 4 : 1; }
   /// With this many visible pixels, the others no longer matter.
   [[nodiscard]] double enough_visible() const {

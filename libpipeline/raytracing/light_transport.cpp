@@ -22,8 +22,8 @@ double length(const Vec3& v) {
   return dot(v, unit_vector(v));
 }
 
-/// The unit normal, on the ray's side, for mirroring and refracting: that for light, unless a ray, old or
-/// new, would be on the wrong side of the face.
+/// The unit normal, on the ray's side, for mirroring and refracting: the one for shading or, if that puts a
+/// ray on the face's wrong side, the face's.
 struct Turning {
   Vec3 normal;
   double cosine;

@@ -20,9 +20,9 @@ enum class RaysOfBoxes {
 };
 
 /// The boxes of all triangles and spheres, for rays through a window: wide enough for the rays' errors, for
-/// the digits of `project --digits exact`, and for the rounding of entries and exits. For any ray, they also
-/// cover an error of 2^-51 of the distance from the ray's start, for the side of a box as for a corner in
-/// SurfaceTriangleTest; the scene's largest coordinates bound both distances.
+/// the digits of `project --digits exact`, and for the rounding of entries and exits. With RaysOfBoxes::any,
+/// they also cover errors of 2^-51 of the distance from the ray's start to a box's side or, in
+/// SurfaceTriangleTest, a corner; the scene's largest coordinates bound both.
 std::vector<Bvh::Primitive> boxes_of(const TracedTriangles& triangles, const PixelRays& rays,
                                      RaysOfBoxes of = RaysOfBoxes::primary);
 

@@ -64,7 +64,7 @@ class TracedTriangles {
   /// Adds the triangles of a batch, which ExactProjection has projected, and its spheres. An InputError in
   /// `file` at a sphere whose points lie in a plane.
   void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc, const std::string& file);
-  /// Drops the triangles in view space, which only boxes being built and secondary rays need.
+  /// Drops the triangles in view space, needed only to build boxes and for secondary rays.
   void keep_images_alone() {
     p_view_ = {};
     attributes_ = {};

@@ -17,7 +17,7 @@ std::uint64_t facet_count(std::string_view bytes) {
   return bytes.size() < kHeader ? 0 : number_in<std::uint32_t>(bytes.data() + kHeader - 4);
 }
 
-/// A binary file may begin with "solid", too, but it has the size that follows from its count, or a byte 0.
+/// A binary file may begin with "solid", too, but its size follows from its count, or it has a zero byte.
 bool is_text(std::string_view bytes) {
   const std::size_t begin = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   return begin != std::string_view::npos && in_lower_case(bytes.substr(begin, 5)) == "solid" &&

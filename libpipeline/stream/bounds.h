@@ -34,8 +34,8 @@ struct Bounds {
 
 /// The relative error of rounding to the nearest double, and of a 0 in the shortest form.
 constexpr double kRelativeRounding = 0x1p-53 * (1 + 0x1p-6);
-/// Smaller numbers in the shortest form have an absolute bound: where numbers cancel, a number below 2^-60
-/// times this may become 0 (number_rounding.h).
+/// Below this size, the shortest form has an absolute bound: where numbers cancel, one below 2^-60 times this
+/// may become 0 (number_rounding.h).
 constexpr double kLeastSize = 0x1p-30;
 
 /// The distance between an exact coordinate and the double that a stage reads from its text.

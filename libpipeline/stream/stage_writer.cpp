@@ -110,8 +110,8 @@ void StageWriter::write(const TriangleBatch& batch) {
   for (const Sphere& sphere : batch.spheres) write_sphere(sphere);
 }
 
-/// Writes the lines before those of triangle `begin`. Returns the end of a run in which no triangle after it
-/// needs any; it may end early.
+/// Writes the lines before those of triangle `begin`. Returns the end of a run whose other triangles need
+/// none; it may be short.
 std::size_t StageWriter::begin_run(const TriangleBatch& batch, std::size_t begin) {
   constexpr std::size_t kMaxAtOnce = 256;
   write_number(batch.numbers[begin]);

@@ -89,8 +89,8 @@ PIPELINE_INLINE auto digits_of(Words eights) {
 /// The way of rounding to a count of decimals.
 enum class Rounding {
   unless_near_tie,
-  exactly,  // where a product's rounding error takes one instruction
-  of_short  // only numbers without more decimals, and never shorter with an exponent
+  exactly,  // only with fused multiply-add
+  of_short  // only numbers without further decimals, and with no shorter exponent form
 };
 
 /// Positive numbers in units of the last decimal; clears the bits in `good` of numbers that it cannot round.

@@ -18,8 +18,8 @@ struct FilePlace {
   bool operator==(const FilePlace&) const = default;
 };
 
-/// The place of the file `path`: links are followed, so all names of a file give one place. Nothing for a
-/// device or a socket, which several outputs may share, and where opening will fail. An IoError if symbolic
+/// The place of the file `path`: links are followed, so all names of a file give one place. Nothing if
+/// opening will fail, or for a device or a socket, which several outputs may share. An IoError if symbolic
 /// links form a cycle, and for a descriptor that is not open: another file might get it later.
 std::optional<FilePlace> place_of(const std::string& path);
 

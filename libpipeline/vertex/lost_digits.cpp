@@ -14,8 +14,8 @@
 namespace pipeline {
 namespace {
 
-// Over the limit of work, every third row stays. Beyond kSmallScene triangles the limit, with a unit for
-// every kTrianglesAUnit, is below a hundredth of `project`'s instructions. A unit is about ten of them.
+// Over the limit of work, one row in three stays. A unit of work is about ten instructions. Beyond
+// kSmallScene triangles, the limit (plus a unit per kTrianglesAUnit triangles) is below 1 % of `project`'s.
 constexpr std::size_t kSmallestScene = 256, kSmallScene = 1024, kLeastRows = 3;
 constexpr std::size_t kMostWork = 90'000, kWorkForLarge = 5'500, kWorkForRows = 6'000, kTrianglesAUnit = 5;
 constexpr unsigned kTrialCount = 5;
@@ -135,8 +135,8 @@ void LostDigits::look_at_kept() {
   kept_ = {};
 }
 
-/// Looks at a triangle. Over the limit of work, rows are dropped; if few are left, the triangle, at twice the
-/// limit if it is near.
+/// Looks at a triangle. Over the limit of work, drops rows or, at kLeastRows, the triangle (a near one at
+/// twice the limit).
 void LostDigits::look_at(const Triangle& p_ndc, const Triangle& p_view, std::size_t most_work) {
   constexpr double kMostReach = 1e-3;  // of triangles that lie behind all places but for their reach
   const auto& [a, b, c] = p_ndc;
@@ -207,7 +207,7 @@ void LostDigits::look_at(Place& place, double z, Surface& surface, std::uint32_t
     std::tie(place.rival, place.gap) = std::tuple(index, gap);
 }
 
-/// Makes the triangle anew from the numbers read, as those to be printed may be rounded; a piece stays.
+/// Recalculates p_ndc from p_view, as read: p_ndc may be rounded. For a piece, p_view from p_ndc.
 void LostDigits::undo_rounding(Surface& surface) const {
   constexpr double kSame = 1e-6;
   const Triangle whole = projected(surface.p_view);
@@ -254,7 +254,7 @@ double LostDigits::depth_error(const Plane& plane, double z, const HalfUnits& ha
   return (half.written + kDoubleError) * (1 + z_x + z_y) + 2 * half.read * by_view;
 }
 
-/// The share of the triangle that its edges sweep over, if they all move as at this place. In the mean, an
+/// The share of the triangle that its edges sweep over, if they all move as at this place. On average, an
 /// edge is off by 0.38 half units, or sqrt(2) times that if rounded twice; half of the swept area is the
 /// triangle's own loss.
 double LostDigits::edge_share(const Place& place) const {

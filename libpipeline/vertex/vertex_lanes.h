@@ -44,10 +44,10 @@ HWY_INLINE Mask has_one_text(const Estimate& e, double scale, Doubles& value) {
   return hn::Lt(hn::Abs(offset) + scaled * all(kProductError), all(kBelowHalf) - e.error * all(scale));
 }
 
-/// The rounding test of a pair: its product with the scale is exact up to the pair's error. Far enough from a
-/// tie, it has the text of the nearest whole number of units, found in two steps, since that may be any
-/// double up to 2^53. Below a power of two up to which doubles lie closer than units, the double nearest to
-/// this number of units has its text.
+/// The rounding test of a pair, whose product with the scale is exact up to the pair's error. Far enough from
+/// a tie, the pair has the text of the nearest whole number of units, which may be any up to 2^53, so it is
+/// found in two steps. Below `limit`, doubles lie closer than units, so the double nearest to that number has
+/// the same text.
 HWY_INLINE Mask has_one_text(const PairEstimate& e, double scale, Doubles& value) {
   constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000;
   const double limit = std::bit_cast<double>(std::bit_cast<std::uint64_t>(0x1p53 / scale) & kExponent);

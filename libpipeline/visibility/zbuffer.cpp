@@ -31,7 +31,7 @@ template <typename Depth>
   }
 }
 
-/// A size in bytes. Filling them takes a hundred times as long as asking whether the system has them.
+/// In bytes. To fill so much memory takes a hundred times as long as to ask whether the system has it.
 constexpr std::size_t kCheckedChunk = std::size_t{16} << 20;
 
 }  // namespace

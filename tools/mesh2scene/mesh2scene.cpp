@@ -96,8 +96,8 @@ std::string extent_of(const Model& model) {
   return std::string(text.data()) + " (--at looks elsewhere, --zoom closer)";
 }
 
-/// The options' view of a model. Most programs that write STL are for objects to be printed or built, which
-/// stand on x and y.
+/// The options' view of a model. Most programs that write STL are for objects to be printed or built, where z
+/// is up.
 ViewChoice view_of(const Options& chosen, const Model& model) {
   ViewChoice view = chosen.view;
   view.up = chosen.up.value_or(model.format == "STL" ? kZ : kY);

@@ -13,10 +13,10 @@ namespace pipeline {
 Model read_model(const std::string& path, ModelFiles& files, double crease_degrees);
 
 /// Gives meshes without normals a unit normal for every corner; meshes of one surface are smoothed together.
-/// It is the mean of the normals of the triangles at this position whose planes turn by at most
-/// `crease_degrees` from the corner's own, weighted by angle and by the area in one plane. A plane with over
-/// 80 % of their area keeps its normal, which triangles within half the crease share; the others are smoothed
-/// without it. 0 if no triangle has an area.
+/// A corner's normal is the mean over the triangles at its position that turn from its own by at most
+/// `crease_degrees`, weighted by angle and by their plane's area there. A plane with over 80 % of their area
+/// keeps its normal, shared by triangles within half the crease; the others are smoothed without that plane.
+/// 0 if no triangle has an area.
 void add_normals(Model& model, double crease_degrees);
 
 // The readers of formats fill a model that has only its name.

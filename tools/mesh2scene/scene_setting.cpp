@@ -78,7 +78,7 @@ constexpr double kDepthMargin = 0.5;
 /// The largest far / near for which a depth buffer is fine enough.
 constexpr double kMostDepth = 10000;
 
-/// The axes of a view from the model's front, at its z (-y if z is up, the other side if -y or -z is), turned
+/// The axes of a view from the model's front, its +z side (-y if z is up; -z or +y if -y or -z is up), turned
 /// about the up axis by `azimuth` degrees to the right, and upwards by `elevation` degrees, -90 to 90.
 ViewAxes view_axes(const Vec3& up, double azimuth_degrees, double elevation_degrees) {
   const Vec3 front = up.z != 0 ? Vec3{0, -up.z, 0} : Vec3{0, 0, up.y < 0 ? -1.0 : 1.0};

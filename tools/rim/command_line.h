@@ -66,7 +66,7 @@ class CommandLine {
   CommandLine(const ToolDescription& tool, const std::string& version);
   ~CommandLine();
 
-  /// Puts later options into this group of --help; options before the first group go to the last one, with
+  /// Puts later options into this group of --help; options before the first group go to General, with
   /// --help.
   void begin_group(const std::string& name);
   /// Replaces the usage lines of --help that CLI11 makes of the operands.
@@ -126,8 +126,7 @@ class CommandLine {
     std::function<void(CLI::App&)> add;
   };
   void declare(const std::string& name, const std::function<void(CLI::App&)>& add);
-  /// Gives CLI11 the operands and the options that the words name, or all options if a word may name none of
-  /// ours.
+  /// Gives CLI11 the operands and the options that the words name, or all if an option-like word names none.
   void add_to_app(std::span<const std::string> words);
 
   ToolDescription tool_;

@@ -29,7 +29,7 @@ class Statistics {
   void add(std::string_view key, std::uint64_t count);
   /// Adds the counts of triangles outside the view volume or, with `on_screen`, of those that no pixel shows.
   void add(const UnseenPlaces& unseen, bool on_screen);
-  /// Adds x_min to z_max in the format of their text; nothing if there is no vertex.
+  /// Adds the lines x_min ... z_max in their text's format; none without a vertex.
   void add(const CoordinateExtent& extent, NumberFormat format);
   /// Adds a box likewise, in the shortest form.
   void add(const BoundingBox& extent);

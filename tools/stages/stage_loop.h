@@ -42,7 +42,7 @@ class StageLoop {
     finish(uncertain_lights);
   }
 
-  /// For a stage that reads triangles, if it is the last; otherwise the next stage notes it.
+  /// For stages that read triangles. The last one notes that none came.
   void note_if_no_triangle_came() const;
   /// Adds the extents in `format` to the statistics, and writes them once the output is safe.
   void write_statistics(NumberFormat format);

@@ -1,5 +1,5 @@
-// One program for all tools: under the name model, it is model. For places where each would repeat the same
-// code: a page, an archive.
+// One program for all tools: under the name model, it is model. In a web page or an archive, separate tools
+// would repeat code.
 
 #include <algorithm>
 #include <cstdio>

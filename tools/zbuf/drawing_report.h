@@ -21,7 +21,7 @@ class DrawingReport {
 
   /// Takes the next triangles.
   void add(const TriangleBatch& p_ndc);
-  /// The reason why no triangle shows an area, or all together hardly any; none if they do.
+  /// The reason why the triangles show no area, or hardly any in total; else nullopt.
   [[nodiscard]] std::optional<std::string> empty_picture_note() const;
   /// Adds the counts and extents, if the report counts.
   void add_to(Statistics& statistics) const;

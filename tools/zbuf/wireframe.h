@@ -33,8 +33,8 @@ class Wireframe {
   void add(const TriangleBatch& p_ndc, std::size_t index, PixelTag id);
   /// The ids shown in a row whose visible surfaces are these; to be called after the last triangle.
   std::span<const PixelTag> row(int row, const VisibleRow& surfaces);
-  /// Calls `visit(id)`, which may change the id, for every triangle besides the visible surfaces that the
-  /// picture needs, now or after more triangles.
+  /// Calls `visit(id)`, which may change the id, for every triangle that the picture needs, now or later,
+  /// besides the visible surfaces.
   template <typename Visitor>
   void for_each_id(Visitor&& visit) {
     for (int row = edges_.row_range().first; row < edges_.row_range().end; ++row)
