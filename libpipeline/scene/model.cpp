@@ -114,7 +114,7 @@ void scale_colors(Model& model, std::span<Floats> colors, double full, bool is_l
   const std::string reach = "its colors reach to " + shortest_text(std::round(largest * 1000) / 1000);
   if (are_bytes) model.note(reach + ": 255 is taken for full, not 1");
   if (largest > 1.001 && !are_bytes) model.note(reach + ": they are drawn as 1, which is full");
-  if (has_odd) model.note("it has colors below 0 or that are no numbers: they are left out");
+  if (has_odd) model.note("it has colors that are negative or no numbers: they are left out");
 }
 
 double scene_channel(double channel, bool is_linear) {

@@ -934,7 +934,7 @@ class Readers(ToolTest):
          ": its colors reach to 255: 255 is taken for full, not 1", "255 128 0"),
         ("a.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 nan 0 0\nf 1 2 3\n", 1,
          ": some of its vertices have no color: they get the color of their mesh\n"
-         "a.obj: it has colors below 0 or that are no numbers: they are left out", USUAL),
+         "a.obj: it has colors that are negative or no numbers: they are left out", USUAL),
         ("a.gltf", "[" * 100000, 0,
          OTHER + "another: assimp export a.gltf a.glb converts it (Debian: assimp-utils)"),
         ("a.gltf", '{"a":' * 1000000, 0,
@@ -985,9 +985,9 @@ class Readers(ToolTest):
         pathlib.Path("b.mtl").write_text("newmtl n\n")
         for name in ("b c.mtl", '"b c.mtl"', "./b c.mtl", "b.mtl a.mtl"):
             self.expect("a.obj", model.replace("a.mtl", name), 1, "", "255 0 0")
-        for name, message in (("c.mtl", "no file 'c.mtl' with its materials is there"),
-                              ("c.mtl\nmtllib c.mtl", "no file 'c.mtl' with its materials is there"),
-                              ("b.mtl", "its material 'm' is nowhere: it gets the usual color")):
+        for name, message in (("c.mtl", "its material file 'c.mtl' is missing"),
+                              ("c.mtl\nmtllib c.mtl", "its material file 'c.mtl' is missing"),
+                              ("b.mtl", "its material 'm' is missing: its faces get the usual color")):
             self.expect("a.obj", model.replace("a.mtl", name), 1, ": " + message, USUAL)
 
     def test_gltf(self):

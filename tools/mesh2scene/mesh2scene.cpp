@@ -38,7 +38,7 @@ struct Options {
 void add_options(CommandLine& options, Options& chosen) {
   options.add_whole("--max-input", chosen.most_megabytes, 1, 1'000'000,
                     "Read at most this many megabytes, in the model and the files that it names");
-  options.add_repeatable("--writes", "FILE", chosen.written, "Refuse a model that reads this output");
+  options.add_repeatable("--writes", "FILE", chosen.written, "Refuse a model that refers to FILE");
   options.begin_group("Camera");
   options.add_word("--size", "WIDTHxHEIGHT", chosen.size, "The size of the picture, for its aspect",
                    expects("WIDTHxHEIGHT in pixels, such as 800x600", parse_size));

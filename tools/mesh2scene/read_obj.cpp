@@ -244,7 +244,7 @@ class ObjReader {
       if (!mesh_materials_[i]->second) missing = mesh_materials_[i]->first;
     }
     if (!missing.empty() && !lacks_library_)
-      model_.note("its material " + pipeline::quoted(missing) + " is nowhere: it gets the usual color");
+      model_.note("its material " + pipeline::quoted(missing) + " is missing: its faces get the usual color");
   }
 
   /// Reads the libraries that a line names: one, perhaps in quotes and with blanks, or several.
@@ -259,7 +259,7 @@ class ObjReader {
       if (read_library(name)) continue;
       lacks_library_ = true;
       if (files_.refusal().empty() && missing_.insert(name).second)
-        model_.note("no file " + pipeline::quoted(name) + " with its materials is there");
+        model_.note("its material file " + pipeline::quoted(name) + " is missing");
     }
   }
 
