@@ -3,6 +3,7 @@ import hashlib
 import itertools
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import tempfile
@@ -20,6 +21,7 @@ FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999
 TEXTS = ("world.txt", "config.txt", "frames.txt", "draw.sh")
 USE = "-work"  # of a folder that goes when the film is there
+WORK = ".pipeline-film-work"
 # The command that draws the text of view; $projection is split into words.
 RASTERIZED = "stage project $projection | stage zbuf config.txt --expect-framed"
 TRACED = "stage trace config.txt --expect-framed $projection"
@@ -78,7 +80,7 @@ def listed(folder):
     path = folder / "frames.txt"
     data = read_input(path, only_regular=True) if path.exists() else b""
     source, *lines = data.decode(errors="replace").splitlines() or [""]
-    return source, {line.split(" ", 1)[0]: line for line in lines}
+    return source, {line.split(" ", 1)[0]: line for line in lines if re.match(r"\d{5}\.png\b", line)}
 
 
 class Frames:
@@ -144,7 +146,7 @@ class Frames:
     def keep(self, path, options_of_parallel):
         """Makes a folder of frames. Older ones there stay until all new ones are whole."""
         out = WorkFolder(path, "film")
-        with out.taken(), (work := WorkFolder(out / ".pipeline-film-work", "film", USE)).taken():
+        with out.taken(), (work := WorkFolder(out / WORK, "film", USE)).taken():
             right, stale = self.stock(out)
             self.draw(work, options_of_parallel, right)
             new = set(self.names) - right

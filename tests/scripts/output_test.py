@@ -24,8 +24,8 @@ PLAIN = {"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
 
 
 def script(name, *words, **settings):
-    return subprocess.run([SCRIPTS / name, *words], capture_output=True, timeout=120,
-                          env={**PLAIN, "HOME": os.getcwd()}, **settings)
+    settings = {"env": {**PLAIN, "HOME": os.getcwd()}, **settings}
+    return subprocess.run([SCRIPTS / name, *words], capture_output=True, timeout=120, **settings)
 
 
 def mode_of(path):
@@ -219,6 +219,25 @@ class Picture(Writers, ToolTest):
     def is_whole(self, data):
         return data.startswith(b"BM") and len(data) == 54 + 40 * 40 * 3
 
+    def test_a_tool_that_writes_nothing_leaves_the_old_file(self):
+        os.mkdir("bin")
+        for tool in ("model", "view", "project"):
+            os.symlink(BIN / tool, f"bin/{tool}")
+        pathlib.Path("bin/zbuf").write_text("#!/bin/sh\ncat > /dev/null\n")
+        os.chmod("bin/zbuf", 0o755)
+        for command, words, path in (("picture", "-o x.png", "x.png"), ("stages", "five",
+                                                                        "five/z_buffer.txt")):
+            words = ["scene.txt", "config.txt", *words.split()]
+            self.assertEqual(script(command, *words).returncode, 0)
+            before = pathlib.Path(path).read_bytes()
+            done = script(command, *words, env={**PLAIN, "BIN": os.path.abspath("bin")})
+            self.assertEqual((done.returncode, done.stderr.decode(), pathlib.Path(path).read_bytes()),
+                             (1, f"{command}: the tools have written nothing to {path}\n", before))
+
+    def test_a_format_may_be_a_name(self):
+        self.assert_written(self.write(b"bmp"))
+        self.assertTrue(self.is_whole(pathlib.Path("bmp").read_bytes()))
+
 
 class MakeTorus(ToolTest):
     def run_in_shell(self, channels):
@@ -258,6 +277,8 @@ class Separate(ToolTest):
         ("fly", "scene.txt --scene-out one --picture-out {}", "--scene-out 'one'"),
         ("farm", "scene.txt config.txt -o one.png --z-buffer {}", "-o 'one.png'"),
         ("picture", "model.png --stages five -o {}", "--stages 'five/stage2.txt'"),
+        ("stages", "stage1.txt config.txt new/..", "SCENE 'stage1.txt'"),
+        ("picture", "model.png --stages new -o png:new/stage2.txt", "--stages 'new/stage2.txt'"),
     )
 
     def assert_refused(self, command, words, name, **settings):
@@ -369,6 +390,26 @@ class Folders(ToolTest):
                          (status, b"", f"{command}: {message}\n"))
         self.assertEqual(self.all_files(), before)
 
+    def test_nothing_of_the_user_may_be_in_one(self):
+        """What is the command's own there, by name, is removed."""
+        for command, words, place in (("farm", "{} config.txt -o x.png", "SCENE: x.png.farm/parts/1.txt"),
+                                      ("farm", "scene.txt config.txt -o x.png --z-buffer {}",
+                                       "--z-buffer: x.png.farm/seen-0-0.txt"),
+                                      ("film", "scene.txt {} --turn 1 -o x.gif",
+                                       "CONFIG: x.gif.frames/config.txt"),
+                                      ("film", "scene.txt {} --turn 1 -o x",
+                                       "CONFIG: x/.pipeline-film-work/config.txt"),
+                                      ("grade", "hand-ins tests -o out --overrides {}",
+                                       "--overrides: out/grades.csv")):
+            name, path = place.split(": ")
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            pathlib.Path(path).write_text("mine")
+            folder = os.path.dirname(path).removesuffix("/parts")
+            with self.subTest(command, path=path):
+                self.assert_refused(
+                    command, words.format(path), 2, f"{name}: expected a place outside of '{folder}', "
+                    f"found '{path}' (try {command} --help)")
+
     def test_another_is_refused(self):
         film_in_a_folder = ("film", (self.FRAMES, "frames", 1))
         for command, (words, folder, status) in (*self.SETTINGS.items(), film_in_a_folder):
@@ -456,6 +497,14 @@ class Folders(ToolTest):
                 "film", self.FRAMES, 1, "expected no 00001.png in "
                 f"{os.path.realpath('frames')} that film has not drawn")
             frame.unlink()
+
+    def test_the_list_of_frames_names_no_other_file_to_remove(self):
+        self.assertEqual(script("film", *self.FRAMES.split()).returncode, 0)
+        pathlib.Path("frames/notes.md").write_text("mine")
+        with open("frames/frames.txt", "a") as file:
+            file.write("notes.md x\n")
+        self.assertEqual(script("film", *self.FRAMES.split()).returncode, 0)
+        self.assertEqual(pathlib.Path("frames/notes.md").read_text(), "mine")
 
     def test_empty_folders_of_the_user_stay_in_one(self):
         self.assertEqual(script("film", *self.FRAMES.split()).returncode, 0)

@@ -145,6 +145,14 @@ class CommandParser(argparse.ArgumentParser):
         if options.config is None:
             self.error("expected CONFIG, found no config.txt beside SCENE")
 
+    def expect_outside(self, folder, options, *files):
+        """Ends the program where an operand or one of `files`, as for expect_separate, is in a folder from
+        which the command removes files."""
+        inside = os.path.join(os.path.realpath(folder), "")
+        for name, path in [*((name.upper(), getattr(options, name, None)) for name in OPERANDS), *files]:
+            if path and os.path.realpath(path).startswith(inside):
+                self.error(f"{name}: expected a place outside of '{shown(folder)}', found '{shown(path)}'")
+
     def expect_separate(self, options, *outputs, inputs=()):
         """Ends the program where an output is another output or an input, by path, link or inode. Outputs are
         pairs of a name for messages and a path or None, and so are inputs beside the usual operands."""

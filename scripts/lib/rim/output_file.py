@@ -43,7 +43,11 @@ def place_of(path):
         try:
             status = os.stat(target) if own is None else os.fstat(own)
         except FileNotFoundError:
-            status = os.stat(os.path.dirname(target) or os.curdir)
+            folder = os.path.dirname(target) or os.curdir
+            if not os.path.isdir(folder):  # a command may make it, also before `..`
+                real = os.path.realpath(target)
+                return place_of(real) if os.path.isdir(os.path.dirname(real)) else real
+            status = os.stat(folder)
             return status.st_dev, status.st_ino, os.path.basename(target)
     except OSError:
         return None
@@ -126,6 +130,11 @@ class OutputFile:
         while block := file.read(1 << 20):
             self.write(block)
 
+    def expect_something(self):
+        """Raises the error of a tool that has written nothing, though it ended well."""
+        if self.temporary and os.path.getsize(self.temporary) == 0:
+            raise OutputError(f"the tools have written nothing to {shown(self.path)}")
+
     def commit(self):
         with self.errors("write"):
             descriptor, self.descriptor = self.descriptor, None
@@ -161,6 +170,8 @@ def replaced_at_end(*paths):
             for path, temporary in beside.items():
                 text = text.replace(shown(temporary), shown(path))
             raise CommandFailure(text) from None
+        for path in beside:
+            files[path].expect_something()
         for path in beside:
             files[path].commit()
 
