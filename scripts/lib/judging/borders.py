@@ -27,7 +27,7 @@ class Borders:
         box = [(min(values), max(values)) for values in zip(*corners)]
         sides = [(px, py, qx - px, qy - py, math.hypot(qx - px, qy - py))
                  for (px, py, _), (qx, qy, _) in zip(corners, corners[1:] + corners[:1])]
-        if not self.triangles.has_area(t):
+        if not self.triangles.winding(t):
             return None, (0.0, 0.0, 0.0), box
         per_column = ((bz - az) * (cy - ay) - (cz - az) * (by - ay)) / area
         per_row = ((cz - az) * (bx - ax) - (bz - az) * (cx - ax)) / area

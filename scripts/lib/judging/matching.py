@@ -1,8 +1,13 @@
-"""The triangles that a text lacks or has too many of, if all others come in the right order; or another order
-of all triangles."""
+"""Differences that no matrix explains: triangles that a text lacks or has too many of, another order of them,
+and mistakes in a few triangles or in the same vertex of each."""
+import dataclasses
 import itertools
 
+from lib.judging.verdict import Cause
+
 ORDINALS = ("first", "second", "third")
+VERTICES = [slice(k, None, 3) for k in range(3)]
+MOST_WRONG = 0.5  # of all triangles, to be called a few
 MOST_NAMED = 5
 MOST_COMPARED = 1_000_000  # pairs of triangles, in search of the one that is written again
 
@@ -98,3 +103,29 @@ def reordered(written, right, is_same):
         first = first or (number, found) if number != found else first
     return (f"All triangles are there, but in another order: triangle {first[0]} of the text is triangle "
             f"{first[1]}" if first else "")
+
+
+def causes_at_vertices(result, count, is_right_at, causes_at):
+    """The causes if each triangle is wrong at one or two vertices of its three, and the others are right.
+    `result` is what differs in `count` triangles; `is_right_at` tells of a slice of the points whether all
+    are right, `causes_at` explains slices."""
+    wrong = [k for k in range(3) if not is_right_at(VERTICES[k])]
+    counts = [len({i for i, *_ in result if i % 3 == k}) for k in wrong]
+    if not 0 < len(wrong) < 3 or min(counts) < max(2, count / 2):
+        return []
+    names, others = (" and ".join(ORDINALS[k] for k in range(3) if (k in wrong) == is_wrong)
+                     for is_wrong in (True, False))
+    text = (f"Only the {names} vertex of each triangle is wrong, the {others} are right"
+            if len(wrong) == 1 else f"The {names} vertex of each triangle are wrong, the {others} is right")
+    inner = causes_at([VERTICES[k] for k in wrong])
+    return [dataclasses.replace(cause, text=f"{text}: {cause.text}") for cause in inner] or [Cause("", text)]
+
+
+def few_triangles(result, count):
+    """A remark on which triangles are wrong, if they are few; a list of at most one."""
+    wrong = sorted({i // 3 for i, *_ in result})
+    if not wrong or len(wrong) > MOST_WRONG * count:
+        return []
+    return [
+        f"only triangle{'s'[:len(wrong) > 1]} {listed(wrong)} of {count} "
+        f"{'is' if len(wrong) == 1 else 'are'} wrong"]

@@ -1,11 +1,15 @@
 """The matrices that view or project may have by mistake. Each candidate is (Cause, matrix, whether it
-divides); more than one that fits cannot be told apart by the numbers."""
+divides); numbers that several fit do not distinguish these. Mistakes in different rows are found row by row,
+and their names are joined."""
 import contextlib
 import itertools
 
+from lib.judging.fit import cause_of_elements
 from lib.judging.matrices import DIVIDES_X_AND_Y, SPELLINGS, TWICE, Z_TWICE, negative
 from lib.judging.mistakes import names_of
-from lib.judging.verdict import Cause, cause_of_all
+from lib.judging.pixel_rules import MOST_PAIRS
+from lib.judging.points import differs
+from lib.judging.verdict import Cause, cause_of_all, joined
 
 DIVISIONS = {
     "no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
@@ -14,6 +18,7 @@ DIVISIONS = {
 SAME = "left-handed"  # gives the numbers of l-is-eye-minus-look
 UNCHANGED = "The points are those of the stage before, unchanged"
 AXES = "xyzw"
+DIGITS = 1e-9  # that two equal numbers may differ by, against 1 and their size
 
 
 def listed(stage, scene):
@@ -83,3 +88,49 @@ def changed_elements(stage, ours, divides):
             row = tuple(value if n == j else x for n, x in enumerate(ours[i]))
             place = f"Row {i + 1}, column {j + 1} of the matrix (counted from 1)"
             yield Cause("", f"{place} is {value:.6g}, not {right:.6g}"), changed(i, row), divides
+
+
+def causes_by_rows(ways, theirs, digits, comparison):
+    """The Causes of Points that are each one mistake or more, if every coordinate that is wrong is explained
+    by one that leaves the others as they are. `comparison` is the fitted matrix beside ours."""
+    def fits(way, axes):
+        return any(not differs(theirs.points, digits, images, axes) for images in way.images(slice(None)))
+
+    wrong = {axis for axis in range(3) if not any(fits(way, [axis]) for way in ways.right)}
+    if len(wrong) < 2:
+        return []
+    found = {}
+    for candidates in (listed, lambda stage, _: changed_elements(stage, ways.ours, ways.divides)):
+        for way in ways.made(candidates(ways.stage, ways.scene)):
+            axes = frozenset(touched(way, ways.right[0]))
+            if axes and axes <= wrong and axes != wrong and fits(way, axes):
+                found.setdefault(axes, []).append(way.cause)
+        if candidates is listed:
+            named = {*found}
+    for axes in {*found} - named:  # more than one element would do
+        found[axes] = [cause for cause in found[axes] if len(found[axes]) == 1]
+    for axis in wrong:
+        found.setdefault(frozenset({axis}), cause_of_elements(comparison, [axis]))
+    return choices_of(found, wrong)
+
+
+def touched(way, right):
+    """The axes on which a Way gives other numbers than the right one."""
+    (images, *_), (others, *_) = way.images(slice(None)), right.images(slice(None))
+    return {
+        axis
+        for (p, _), (q, _) in zip(images, others) for axis in range(3)
+        if not abs(p[axis] - q[axis]) <= DIGITS * max(1.0, abs(q[axis]))}
+
+
+def choices_of(found, wrong):
+    """The fewest of {axes: Causes} that together explain all wrong axes, each once; nothing if there are more
+    than MOST_PAIRS choices."""
+    for count in range(2, len(wrong) + 1):
+        choices = [
+            choice for some in itertools.combinations(found, count)
+            if sum(map(len, some)) == len(wrong) and frozenset().union(*some) == wrong
+            for choice in itertools.product(*(found[axes] for axes in sorted(some, key=min)))]
+        if choices:
+            return [*map(joined, choices)] if len(choices) <= MOST_PAIRS else []
+    return []

@@ -1,10 +1,14 @@
-"""The findings on the two files of stage 4, together and each by itself."""
+"""The findings on the two files of stage 4, together and each by itself; and pictures whose triangles have
+many colors, which no search for a rule can explain."""
+import collections
 import dataclasses
 
 from lib.judging.borders import BorderRule
 from lib.judging.pixel_rules import CENTER
 from lib.judging.pixel_search import by_open_rule, exact, finding_of, sample_rows, unknown
+from lib.judging.pixel_words import place_in_words
 from lib.judging.raster import Rule
+from lib.judging.verdict import WRONG, cause_of, joined
 
 
 class Findings:
@@ -14,7 +18,7 @@ class Findings:
         """`picture` is the Finding of a picture that need not be searched."""
         self.context, self.of_one = context, {"picture": picture} if picture else {}
         # If one of two files shows nothing, each is judged alone.
-        blank = context.shown.are_blank
+        blank = context.shown.blank.values()
         self.is_apart = picture or any(blank) and not all(blank) and context.plain.drawn
         self.of_all = None if self.is_apart else finding_of(context)
 
@@ -22,7 +26,7 @@ class Findings:
         if kind not in self.of_one:
             alone = self.context.of_one_file(kind)
             self.of_one[kind] = finding_of(alone) if self.is_apart else (
-                self.own_finding(kind, alone) if len(self.context.shown.are_blank) == 2 else self.of_all)
+                self.own_finding(kind, alone) if len(self.context.shown.blank) == 2 else self.of_all)
         return self.of_one[kind]
 
     def own_finding(self, kind, alone):
@@ -50,7 +54,7 @@ class Findings:
     def own_by_rule(self, kind, alone):
         both = self.of_all
         spoils_one = both.verdict == "mistake" and len(both.touches) == 1
-        is_blank = both.mismatch is self.context.plain and all(self.context.shown.are_blank)
+        is_blank = both.mismatch is self.context.plain and all(self.context.shown.blank.values())
         if both.verdict == "exact" or spoils_one or is_blank:
             return both
         if both.verdict == "unknown":
@@ -95,3 +99,39 @@ def mismatch_to_show(context, finding, is_wrong):
         mismatch, pixels={
             place: kind
             for place, kind in mismatch.pixels.items() if place not in found.pixels})
+
+
+class ManyColors:
+    """The pixels of a Shown that have another color than most of their triangle, where a Mismatch leaves the
+    outlines right."""
+    def __init__(self, shown, context, mismatch):
+        self.count, self.width = len(shown.own_colors), context.window.width
+        self.triangle_count, rule = mismatch.triangle_count, mismatch.rule
+        drawing = context.drawing(mismatch.reading, rule)
+        pixels = shown.pixels(rule.picture_flip, rule.text_flip)
+        seen, counts = {}, collections.defaultdict(collections.Counter)
+        for row in range(context.window.height):
+            for column, t in enumerate(drawing.row(row)[0]):
+                if t >= 0 and pixels.drawn[row][column] and (row, column) not in mismatch.pixels:
+                    seen[row, column] = t
+                    counts[t][pixels.colors[row][column]] += 1
+        main = {t: colors.most_common(1)[0][0] for t, colors in counts.items()}
+        self.places = {(row, column): t
+                       for (row, column), t in seen.items() if pixels.colors[row][column] != main[t]}
+        self.of_triangle = {t: len(colors) for t, colors in counts.items()}
+
+    def add_to(self, verdict):
+        """Makes this the cause of the picture's FileVerdict, or a further one beside its own."""
+        detail = f"{self.count:,} for {self.triangle_count:,} triangles"
+        many = cause_of("zbuf/many-colors", detail)
+        verdict.causes = [
+            dataclasses.replace(joined([cause, many]), detail=detail)
+            for cause in verdict.causes if cause.name != "zbuf/one-color"] or [many]
+        if verdict.rule:
+            verdict.remarks.append(f"with {verdict.rule}")
+        verdict.verdict, verdict.rule = WRONG, ""
+        verdict.differing += len(self.places)
+        verdict.places = sorted({*verdict.places, *self.places})
+        place, t = min(self.places.items())
+        words = f"one of {self.of_triangle[t]:,} colors of triangle {t}"
+        verdict.first = f"{place_in_words(place, self.width)}: {words}"

@@ -40,7 +40,7 @@ def finding_of(context):
         return found
     if not plain.pixels:  # there is nothing that a mistake could explain
         return unknown(plain)
-    if plain.drawn and all(context.shown.are_blank):
+    if plain.drawn and all(context.shown.blank.values()):
         center = context.compare(context.first, Rule(**CENTER), limit=0)
         return exact(center, context.shown) or of_blank(context, plain)
     rows = sample_rows(context, plain)

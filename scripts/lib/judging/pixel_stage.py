@@ -3,18 +3,20 @@ import collections
 import dataclasses
 import itertools
 
-from lib.judging import pixel_colors
 from lib.judging.pixel_comparing import Context
-from lib.judging.pixel_files import Findings, mismatch_to_show
+from lib.judging.pixel_files import Findings, ManyColors, mismatch_to_show
 from lib.judging.pixel_search import unknown
 from lib.judging.pixel_words import difference_in_words, unexplained_in_words
 from lib.judging.raster import TooMuch
 from lib.judging.shown import Shown
-from lib.judging.stage_judge import undecided_outcome
+from lib.judging.stage_judge import NO_POINTS
 from lib.judging.stage_ways import Reading
 from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
 
 TOO_MUCH = "there are too many pixels of triangles"
+# A picture has many colors if it has more than COLORS for each triangle and SOME more: no frame and no stray
+# pixel has so many.
+COLORS, SOME = 2, 8
 PRINTED = "pixels without a triangle are printed"
 
 
@@ -46,42 +48,41 @@ class PixelStage:
         if self.ours.has_own_colors and colors is not None:
             verdicts["picture"], colors = self.verdict_of_colors(colors), None
         if depths is not None and depths.rows and depths.digits.are_too_few:
-            verdicts["depths"] = FileVerdict("zbuf", self.files["depths"].name, TOO_FEW_DIGITS, remarks=[
-                f"it shows {depths.digits}"])
+            verdicts["depths"] = self.verdict("depths", TOO_FEW_DIGITS, remarks=[f"it shows {depths.digits}"])
             depths = None
         given = [kind for kind, what in (("depths", depths), ("picture", colors)) if what is not None]
         if not given:
             return verdicts
-
-        def undecided(*why):
-            return verdicts | {
-                kind: undecided_outcome("zbuf", self.files[kind].name, *why).verdict
-                for kind in given}
-
         if not self.readings:
-            return undecided()
-        shown = self.shown(colors, depths)
+            return verdicts | {kind: self.verdict(kind, UNDECIDED, remarks=[NO_POINTS]) for kind in given}
+        shown = Shown(colors, depths, self.ours.window, self.is_uncovered)
         context = Context(self.readings, self.ours.window, shown, borders_first=self.borders_first)
-        counts = (len(points) // 3 for points, _ in self.readings.values())
-        has_many = pixel_colors.has_many(shown, max(len(self.ours.world) // 3, *counts))
         try:
-            found = has_many and self.verdicts_of_many_colors(given, context)
-            return verdicts | (found or self.verdicts_of_shown(given, context, Findings(context))[0])
+            return verdicts | (self.verdicts_of_many_colors(given, context)
+                               or self.verdicts_of_shown(given, context, Findings(context))[0])
         except TooMuch:
-            return undecided(TOO_MUCH)
+            return verdicts | {kind: self.verdict(kind, UNDECIDED, remarks=[TOO_MUCH]) for kind in given}
+
+    def verdict(self, kind, verdict, rule="", **fields):
+        return FileVerdict("zbuf", self.files[kind].name, verdict, rule, **fields)
 
     def verdicts_of_many_colors(self, given, context):
         """The verdicts if a picture has too many colors for its triangles: that these have many, if it
         explains most of the picture; that no color is a triangle's, if even the outlines are others; else
         nothing."""
         shown = context.shown
+        count = max(
+            len(points) for points in (self.ours.world, *(points for points, _ in self.readings.values())))
+        if not shown.colors or len(shown.own_colors) <= COLORS * (count // 3) + SOME:
+            return {}
         in_one_color = Context(self.readings, self.ours.window, shown.in_one_color())
-        if pixel_colors.is_another_picture(in_one_color):
+        plain = in_one_color.plain
+        if len(plain.of_shape) > plain.drawn:  # no color then is a triangle's
             picture = unknown(context.of_one_file("picture").plain)
             return self.verdicts_of_shown(given, context, Findings(context, picture))[0]
         verdicts, mismatch = self.verdicts_of_shown(given, in_one_color, Findings(in_one_color))
-        many = pixel_colors.ManyColors(shown, in_one_color, mismatch)
-        if not many.explain_most:
+        many = ManyColors(shown, in_one_color, mismatch)
+        if len(many.places) <= len(mismatch.of("picture")):
             return {}
         many.add_to(verdicts["picture"])
         return verdicts
@@ -95,20 +96,16 @@ class PixelStage:
             needs_both = best is findings.of_all and kind == "depths"  # whose pixels the picture shows
             self.add_first(verdicts[kind], kind, best, context if needs_both else context.of_one_file(kind))
             is_open = self.thin or verdicts[kind].is_good
-            if is_open and shown.is_blank(kind) and not self.ours.draws_nothing:
+            if is_open and shown.blank[kind] and not self.ours.draws_nothing:
                 why = f"there is too little in {self.thin}" if self.thin else "nothing is in view"
-                verdicts[kind] = undecided_outcome("zbuf", self.files[kind].name, why).verdict
+                verdicts[kind] = self.verdict(kind, UNDECIDED, remarks=[why])
         return verdicts, best.mismatch
-
-    def shown(self, colors, depths):
-        window = self.ours.window
-        return Shown(colors, depths, window.width, window.height, float(window.rear), self.is_uncovered)
 
     def verdicts_of_exchanged(self, depths, colors):
         """The verdicts, if the picture's rows are our columns; those of the text may be, too."""
         kinds = ["picture"]
         if depths is not None:
-            shown = self.shown(colors, depths)
+            shown = Shown(colors, depths, self.ours.window, self.is_uncovered)
             rows = shown.listed_rows("transposed", shown.pixels().drawn)
             if any(rows):
                 kinds, depths = ["depths", "picture"], dataclasses.replace(depths, rows=rows)
@@ -128,7 +125,7 @@ class PixelStage:
     def verdict_of_colors(self, colors):
         """The FileVerdict of a picture whose triangles have colors of their own, or light: every color
         counts, by either rule of coverage."""
-        name, verdicts = self.files["picture"].name, []
+        verdicts = []
         is_right_asked = self.thin or "right" in self.readings
         texts = [self.ours.stage3, self.ours.stage3_of_exact] if is_right_asked else []
         texts += [] if self.thin else [self.files["stage3"].data or b""]
@@ -140,29 +137,25 @@ class PixelStage:
             places = [(r, i) for r, (row, line) in enumerate(zip(ours, colors))
                       for i, color in enumerate(line) if row[3 * i:3 * i + 3] != color]
             verdicts.append(
-                FileVerdict("zbuf", name, WRONG if places else verdict, "" if places else rule,
-                            differing=len(places), compared=len(ours) * len(colors[0]), places=places,
-                            first="row {}, column {}: another color".format(*places[0]) if places else ""))
-        if not verdicts:
-            return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
-        return min(verdicts, key=lambda verdict: verdict.differing)
+                self.verdict("picture", *((WRONG, "") if places else (verdict, rule)), differing=len(places),
+                             compared=len(ours) * len(colors[0]), places=places,
+                             first="row {}, column {}: another color".format(*places[0]) if places else ""))
+        return min(verdicts, key=lambda verdict: verdict.differing, default=self.verdict(
+            "picture", UNDECIDED, remarks=["zbuf refuses their stage3.txt"]))
 
     def verdict_of_pixels(self, kind, finding, shown):
-        name = self.files[kind].name
-        mismatch = finding.mismatch
+        mismatch, rule = finding.mismatch, "" if finding.verdict == "unknown" else finding.rule
         places = mismatch.of(kind)
-        verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places),
-                              compared=mismatch.drawn + len(mismatch.extra), places=places)
+        verdict = self.verdict(kind, RIGHT, rule, differing=len(places), places=places,
+                               compared=mismatch.drawn + len(mismatch.extra))
         if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
             verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
             verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []
-        elif finding.verdict == "unknown":
-            verdict.rule = ""
         verdict.remarks += finding.remarks
-        if kind == "depths" and shown.prints_everything:
+        if kind == "depths" and shown.empty is not None:
             is_rear = abs(shown.empty - shown.rear) <= shown.depths.tolerance(shown.rear)
             printed = f"{PRINTED}, too, with " + ("the rear limit" if is_rear else f"{shown.empty:.7g}")
-            verdict.rule = f"{verdict.rule}; {printed}" if verdict.rule else printed
+            verdict.rule = "; ".join(filter(None, (verdict.rule, printed)))
         if verdict.rule and verdict.verdict == RIGHT:
             verdict.verdict = ANOTHER_RULE
         if kind == "picture" and verdict.is_good and self.has_other_colors(shown):
@@ -188,18 +181,16 @@ class PixelStage:
         """True if most pixels with a triangle have a color that zbuf gives to none of the scene's. Which
         triangle a pixel shows is not asked: the text that it was judged by may lack some, and hold others in
         parts."""
-        ours = set(generated_colors(len(self.ours.world) // 3))
-        counts = collections.Counter(
-            color for row in shown.colors for color in row if color != shown.background)
-        return 2 * sum(count for color, count in counts.items() if color not in ours) > sum(counts.values())
+        counts = collections.Counter(itertools.chain(*shown.colors))
+        del counts[shown.background]
+        ours = sum(counts[color] for color in generated_colors(len(self.ours.world) // 3))
+        return 2 * ours < sum(counts.values())
 
 
 def generated_colors(count):
-    """The colors that zbuf gives to the first triangles, as bytes (docs/stages.md, Z10)."""
-    state = 1
-    for _ in range(count):
-        color = []
-        for _ in range(3):
-            state = (214013 * state + 2531011) % 2**32
-            color.append((state >> 16 & 0x7fff) % 256)
-        yield bytes(color)
+    """The set of colors that zbuf gives to the first triangles, as bytes (docs/stages.md, Z10)."""
+    state, channels = 1, []
+    for _ in range(3 * count):
+        state = (214013 * state + 2531011) % 2**32
+        channels.append((state >> 16 & 0x7fff) % 256)
+    return {bytes(channels[i:i + 3]) for i in range(0, 3 * count, 3)}

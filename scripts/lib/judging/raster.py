@@ -182,14 +182,15 @@ class Triangles:
         slack_z = (unit + min(dz_left + dz_right, reach_z)) * (1 + 2 / width) + per_column * (slack_left +
                                                                                               slack_right)
         is_wide = right - left > slack_left + slack_right
-        if not is_wide and not self.has_area(t):
+        if not is_wide and not self.winding(t):
             is_certain, slack_z = False, slack_z + abs(z_right - z_left)
         return Span(t, left, right, z_left, z_right, slack_left, slack_right, slack_z,
                     row == math.floor(grid.row_at(lowest) + ROUNDING), y >= middle, met[0] != min(met),
                     is_certain)
 
     def winding(self, t):
-        """1 for counterclockwise, -1 for clockwise; 0 where the numbers' last digits decide."""
+        """1 for counterclockwise, -1 for clockwise; 0 where the numbers' last digits decide, as without an
+        area."""
         (ax, ay, _), (bx, by, _), (cx, cy, _) = self.corners[t]
         area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
         reach = max(abs(bx - ax), abs(by - ay), abs(cx - ax), abs(cy - ay))
@@ -207,10 +208,6 @@ class Triangles:
         sides, square = [dx * (b - py) - dy * (a - px) for a, b, _ in both - common], dx * dx + dy * dy
         is_on = abs(dx * y - dy * x) <= ROUNDING * self.grid.dx * math.sqrt(square)
         return is_on and sides[0] * sides[1] < 0 and 1e-3 * square < dx * x + dy * y < 0.999 * square
-
-    def has_area(self, t):
-        """True if a triangle has an area, whatever the last digits of its coordinates."""
-        return self.winding(t) != 0
 
 
 class TooMuch(Exception):

@@ -1,11 +1,11 @@
 """Our own tools' results for a scene and a config, once for all hand-ins that are judged by them."""
 import functools
+import itertools
 import math
 import re
 
 from lib.judging.hand_in import KINDS
 from lib.judging.matrices import image
-from lib.judging.old_format import without_old_lines
 from lib.judging.scene import Scene
 from lib.maths.window import Window
 from lib.rim.command import CommandFailure
@@ -150,3 +150,22 @@ def reference(scene, config):
 def kinds_of(config):
     """The kinds of files that a hand-in needs; without a config, of the first three stages."""
     return [kind for kind in KINDS if config is not None or kind.startswith("stage")]
+
+
+def without_old_lines(text):
+    """A scene in today's form; None if it is not in the old one, which has the size of the screen and a
+    background beside the camera, and a color after each triangle."""
+    lines = text.split("\n")
+    filled = [(i, words) for i, line in enumerate(lines) if (words := line.split("#")[0].split())]
+    head = [*itertools.takewhile(lambda line: not is_word(line), filled)]
+    dropped = {i for i, words in head if len(words) == 2}  # the size; the background is the line behind it
+    if len(head) > 5:
+        dropped |= {i for (_, size), (i, _) in zip(head, head[1:]) if len(size) == 2}
+    for (_, word), *numbers in zip(*(filled[len(head) + k:] for k in range(5))):
+        if word == ["triangle"] and not any(map(is_word, numbers)):
+            dropped.add(numbers[-1][0])
+    return "\n".join(line for i, line in enumerate(lines) if i not in dropped) if dropped else None
+
+
+def is_word(line):
+    return line[1][0][0].isalpha()

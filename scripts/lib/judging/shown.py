@@ -3,10 +3,11 @@ import collections
 import copy
 import dataclasses
 import functools
+import itertools
 
 from lib.judging.digits import EXACT, Digits, digits_of
 from lib.rim.command import shown as printable
-from lib.showing.pictures import PictureError, picture_of
+from lib.showing.pictures import picture_of
 from lib.text.plain_stage_text import real
 from lib.text.stage_text import StageTextError, text_of
 
@@ -87,56 +88,45 @@ class Pixels:
 class Shown:
     """A hand-in's picture (rows of colors, or None) and Depths (or None). `is_uncovered` makes rows that tell
     for each pixel whether no triangle covers it."""
-    def __init__(self, colors, depths, width, height, rear, is_uncovered=list):
-        self.colors, self.depths, self.width, self.height = colors, depths, width, height
-        self.rear, self.made = rear, {}
-        self.is_full = depths is not None and len(depths.rows) == height and all(
-            len(row) == width for row in depths.rows)
+    def __init__(self, colors, depths, window, is_uncovered):
+        self.colors, self.depths, self.made = colors, depths, {}
+        self.width, self.height, self.rear = width, height, rear = window.width, window.height, float(
+            window.rear)
+        self.is_full = depths is not None and [*map(len, depths.rows)] == [width] * height
         most = max((z for row in depths.rows for z in row), default=rear) if depths else rear
         is_empty = self.is_full and (most >= rear - depths.tolerance(rear)
                                      or most == 0 and self.counted(0.0) > width * height * LEAST_EMPTY)
-        self.empty = most if is_empty else None
+        self.empty = most if is_empty else None  # the depth of pixels without a triangle, if they are printed
         self.background = self.find_background(is_uncovered) if colors else None
+
+    def but(self, **fields):
+        """A Shown with some fields changed."""
+        changed = copy.copy(self)
+        vars(changed).update(fields, made={})
+        return changed
 
     def only(self, kind):
         """A Shown without the picture, or without the depths."""
-        rest = copy.copy(self)
-        rest.made = {}
-        if kind == "depths":
-            rest.colors = None
-        else:
-            rest.depths, rest.is_full = None, False
-        return rest
+        return self.but(colors=None) if kind == "depths" else self.but(depths=None, is_full=False)
 
     def in_one_color(self):
         """A Shown with one color for all pixels that show a triangle."""
-        rest = copy.copy(self)
-        rest.made, color = {}, bytes(255 - x for x in self.background)
-        rest.colors = [
-            [self.background if own == self.background else color for own in row] for row in self.colors]
-        return rest
+        ground, color = self.background, bytes(255 - x for x in self.background)
+        return self.but(colors=[[ground if own == ground else color for own in row] for row in self.colors])
 
     @property
     def own_colors(self):
         """The colors of a picture without the background."""
-        return {color for row in self.colors for color in row} - {self.background}
-
-    def is_blank(self, kind):
-        """True if the depths, or the picture, show no triangle."""
-        if kind == "depths":
-            return all(self.empty is not None and z >= self.empty for row in self.depths.rows for z in row)
-        return all(color == self.background for row in self.colors for color in row)
+        return set().union(*self.colors) - {self.background}
 
     @property
-    def are_blank(self):
-        """For the picture and the depths, as far as they are given: True if it shows no triangle."""
-        given = ("picture", self.colors), ("depths", self.depths)
-        return [self.is_blank(kind) for kind, shown in given if shown]
-
-    @property
-    def prints_everything(self):
-        """True if pixels without a triangle are printed, too; their depth is `empty`."""
-        return self.empty is not None
+    def blank(self):
+        """{kind: whether it shows no triangle} of the depths and the picture, as far as they are given."""
+        found = {"picture": not self.own_colors} if self.colors else {}
+        if self.depths:
+            found["depths"] = all(
+                self.empty is not None and z >= self.empty for row in self.depths.rows for z in row)
+        return found
 
     def counted(self, z):
         return sum(row.count(z) for row in self.depths.rows)
@@ -144,13 +134,11 @@ class Shown:
     def find_background(self, is_uncovered):
         """The color without a triangle: the color of as many pixels as have no depth. If there is none: black
         or, in a picture without black, the color where no triangle is visible."""
-        counts = collections.Counter(color for row in self.colors for color in row)
-        black = bytes(3)
+        counts, black = collections.Counter(itertools.chain(*self.colors)), bytes(3)
         if self.depths:
-            bare = self.counted(self.empty) if self.prints_everything else (self.width * self.height -
-                                                                            sum(map(len, self.depths.rows)))
-            fitting = [color for color in (black, *counts) if counts[color] == bare]
-            if fitting:
+            count = self.width * self.height - sum(map(len, self.depths.rows))
+            bare = count if self.empty is None else self.counted(self.empty)
+            if fitting := [color for color in (black, *counts) if counts[color] == bare]:
                 return fitting[0]
         if counts[black]:
             return black

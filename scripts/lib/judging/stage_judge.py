@@ -4,13 +4,14 @@ import itertools
 import math
 
 from lib.judging import matching
-from lib.judging import some_vertices
 from lib.judging.digits import EXACT
 from lib.judging.model_habits import ROUGH_PIS
 from lib.judging.points import described, differences, differs
 from lib.judging.scene import NO_UNITS
 from lib.judging.stage_ways import ALL, PI, MatrixWays, ModelWays
 from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict)
+
+NO_POINTS = "the stages before give no points to judge it by"
 
 
 @dataclasses.dataclass
@@ -79,12 +80,12 @@ def outcome(name, theirs, ways):
     else:
         found = next(filter(None, (fitting(some, most=most) for some, most in ways.several())), [])
         verdict.causes = [way.cause for way in found] or causes_of_triangles(
-            theirs, right[0].images(ALL), digits, matching.reordered) or some_vertices.causes(
+            theirs, right[0].images(ALL), digits, matching.reordered) or matching.causes_at_vertices(
                 result, count, lambda part: any(fits(way, [part]) for way in right),
                 lambda parts: [way.cause for way in single_mistakes(parts)])
         verdict.remarks += ways.remarks(result)
     if not verdict.causes:
-        verdict.remarks += some_vertices.few_triangles(result, count)
+        verdict.remarks += matching.few_triangles(result, count)
     ways.add_matrix(verdict, theirs)
     return Outcome(verdict, found[0].memory() if found else None)
 
@@ -124,7 +125,7 @@ def causes_of_triangles(theirs, expected, digits, matched):
     return [Cause("", text) for text in itertools.islice(filter(None, texts), 1)]
 
 
-def undecided_outcome(stage, name, why="the stages before give no points to judge it by"):
+def undecided_outcome(stage, name, why=NO_POINTS):
     return Outcome(FileVerdict(stage, name, UNDECIDED, remarks=[why]))
 
 

@@ -3,9 +3,10 @@ import dataclasses
 import itertools
 import math
 
-from lib.judging import fit, rows
+from lib.judging import fit
 from lib.judging.matrices import IDENTITY, ROUNDING, image, slack
-from lib.judging.matrix_mistakes import UNCHANGED, changed_elements, listed, other_forms, pairs
+from lib.judging.matrix_mistakes import (UNCHANGED, causes_by_rows, changed_elements, listed, other_forms,
+                                         pairs)
 from lib.judging.model_habits import MODEL_MISTAKES, RIGHT, ROUGH_PIS, Habit, model_pairs
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.scene import NO_UNITS
@@ -163,6 +164,6 @@ class MatrixWays:
         """Adds the matrix that the points show, and the cause that lies in its elements, or in its rows."""
         verdict.matrices = fit.compare(self.readings[0].points, theirs.points, theirs.units, self.ours,
                                        self.divides)
-        verdict.causes = verdict.causes or fit.cause_of_elements(verdict.matrices) or rows.causes(
+        verdict.causes = verdict.causes or fit.cause_of_elements(verdict.matrices) or causes_by_rows(
             self, theirs, theirs.digits, verdict.matrices)
         verdict.remarks += fit.known_rows(verdict, self.scene.directions() if self.stage == "view" else ())
