@@ -2,7 +2,7 @@
 changes of raster.Rule."""
 import itertools
 
-from lib.judging.raster import COLUMNS
+from lib.judging.raster import COLUMNS, FLAT_ROW, FLAT_TRIANGLE
 
 CENTER = {"left": "up", "right": "down"}
 OUR_ENDS = ({}, CENTER)
@@ -16,6 +16,12 @@ OPEN_DEPTHS = [{}, {"depth": "between ends"}, {"depth": "between ends", "clamp":
 # mistakes that draw nothing, most of them in many scenes alone
 BLANK = ("starts-at-zero", "one-winding", "no-depth-passes", "black-picture")
 MOST_PAIRS = 4  # of mistakes that explain the same, before none is named
+
+
+def flipped(how):
+    """Both files flipped, the picture alone, and the text alone."""
+    return [{"picture_flip": how, "text_flip": how}, {"picture_flip": how}, {"text_flip": how}]
+
 
 # {mistake, or several at once: the ways to make it, in the order to try}. A way that does less than the
 # mistake's sentence says comes after all others.
@@ -48,19 +54,15 @@ WAYS = {
     "front-limit-ignored rear-limit-ignored": [{"has_front": False, "has_rear": False}],
     "farthest-wins": [{"keep": "farthest"}],
     "last-wins": [{"keep": "last"}],
-    "flat-depth": [{"flat": flat} for flat in ("mean", "first", "second", "third", "least", "most")],
-    "one-depth-a-row": [{"flat_row": flat} for flat in ("left", "right", "mean")],
+    "flat-depth": [{"flat": flat} for flat in FLAT_TRIANGLE],
+    "one-depth-a-row": [{"flat": flat} for flat in FLAT_ROW],
     "no-depth-passes": [{"keep": "none"}],
     "black-picture": [{"keep": "none"}],
-    "upside-down": [{"picture_flip": "upside down", "text_flip": "upside down"}, {
-        "picture_flip": "upside down"}],
-    "text-upside-down": [{"text_flip": "upside down"}],
-    "mirrored": [{"picture_flip": "mirrored", "text_flip": "mirrored"}, {"picture_flip": "mirrored"}, {
-        "text_flip": "mirrored"}],
-    "turned-by-180-degrees": [{"picture_flip": "turned", "text_flip": "turned"}, {"picture_flip": "turned"}, {
-        "text_flip": "turned"}],
-    "rows-and-columns-exchanged": [{"picture_flip": "transposed", "text_flip": "transposed"}, {
-        "picture_flip": "transposed"}, {"text_flip": "transposed"}],
+    "upside-down": flipped("upside down")[:2],
+    "text-upside-down": flipped("upside down")[2:],
+    "mirrored": flipped("mirrored"),
+    "turned-by-180-degrees": flipped("turned"),
+    "rows-and-columns-exchanged": flipped("transposed"),
     "depth-limits-are-one": [{"is_depth_one": True}],}
 MISTAKES = [(tuple(names.split()), changes) for names, ways in WAYS.items() for changes in ways]
 

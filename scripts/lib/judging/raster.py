@@ -59,8 +59,7 @@ class Rule:
     keep: str = "nearest"  # nearest, farthest, last, none
     has_front: bool = True
     has_rear: bool = True
-    flat: str = ""  # one depth for a triangle: mean, or first, second, third, least, most
-    flat_row: str = ""  # one depth for a row of a triangle: left, right, mean
+    flat: str = ""  # one of FLAT: a single depth for a triangle, or for each of its rows
     without: frozenset = frozenset()  # numbers of triangles that are not drawn
     picture_flip: str = ""  # upside down, mirrored, turned, transposed
     text_flip: str = ""
@@ -68,9 +67,8 @@ class Rule:
     @property
     def is_of_depths(self):
         """True if it changes which depth a pixel of a triangle has, or which of two wins."""
-        return bool(self.flat or self.flat_row or self.ends_z or self.keep != "nearest"
-                    or self.corners.startswith("sorted") or self.is_depth_one or self.starts_at_zero
-                    or not (self.has_front and self.has_rear))
+        return bool(self.flat or self.ends_z or self.keep != "nearest" or self.corners.startswith("sorted")
+                    or self.is_depth_one or self.starts_at_zero or not (self.has_front and self.has_rear))
 
 
 @dataclasses.dataclass
@@ -91,35 +89,32 @@ class Span:
     is_certain: bool  # whether the row meets the triangle for certain, and the triangle has an area
 
 
+# Depths by a span and the depths of its triangle's corners.
+FLAT_TRIANGLE = {
+    "mean": lambda _, zs: sum(zs) / 3, "first": lambda _, zs: zs[0], "second": lambda _, zs: zs[1],
+    "third": lambda _, zs: zs[2], "least": lambda _, zs: min(zs), "most": lambda _, zs: max(zs)}
 FLAT_ROW = {
-    "left": lambda span: span.z_left, "right": lambda span: span.z_right, "mean": lambda span:
-    (span.z_left + span.z_right) / 2}
-FLAT = {
-    "mean": lambda zs: sum(zs) / 3, "first": lambda zs: zs[0], "second": lambda zs: zs[1],
-    "third": lambda zs: zs[2], "least": min, "most": max}
+    "left of row": lambda span, _: span.z_left, "right of row": lambda span, _: span.z_right,
+    "mean of row": lambda span, _: (span.z_left + span.z_right) / 2}
+FLAT = FLAT_TRIANGLE | FLAT_ROW
 
 
-def at_whole_pixels(offset):
+def at_whole_pixels(offset, corners, grid):
     """Corners moved to the centers of pixels, from the place in pixels plus `offset` rounded down."""
-    def moved(corners, grid):
-        return [(grid.x_of(math.floor((x - grid.left) / grid.dx + offset)),
-                 grid.y_of(math.floor((-grid.bottom - y) / grid.dy + offset)), z) for x, y, z in corners]
-
-    return moved
+    return [(grid.x_of(math.floor((x - grid.left) / grid.dx + offset)),
+             grid.y_of(math.floor((-grid.bottom - y) / grid.dy + offset)), z) for x, y, z in corners]
 
 
-def without_their_depths(is_downwards):
+def without_their_depths(is_downwards, corners, _):
     """Corners sorted by y, with the depths in the order in which they came."""
-    def moved(corners, _):
-        by_height = sorted(corners, key=lambda p: p[1], reverse=is_downwards)
-        return [(*p[:2], q[2]) for p, q in zip(by_height, corners)]
-
-    return moved
+    by_height = sorted(corners, key=lambda p: p[1], reverse=is_downwards)
+    return [(*p[:2], q[2]) for p, q in zip(by_height, corners)]
 
 
 CORNERS = {
-    "": lambda corners, _: corners, "whole": at_whole_pixels(0), "rounded": at_whole_pixels(0.5),
-    "sorted down": without_their_depths(True), "sorted up": without_their_depths(False)}
+    "": lambda corners, _: corners, "whole": functools.partial(at_whole_pixels, 0),
+    "rounded": functools.partial(at_whole_pixels, 0.5), "sorted down": functools.partial(
+        without_their_depths, True), "sorted up": functools.partial(without_their_depths, False)}
 
 
 class Triangles:
@@ -199,13 +194,12 @@ class Triangles:
     def meet_on(self, s, t, row, column):
         """True if two triangles lie on either side of a common edge on which a pixel's center lies, away from
         its ends."""
-        common, both = {*self.corners[s]} & {*self.corners[t]}, {*self.corners[s]} | {*self.corners[t]}
-        if len(common) != 2 or len(both) != 4:
+        corners, others = {*self.corners[s]}, {*self.corners[t]}
+        if len(corners & others) != 2 or len(corners | others) != 4:
             return False
-        (px, py, _), (qx, qy, _) = common
-        x, y = self.grid.x_of(column) - px, self.grid.y_of(row) - py
-        dx, dy = qx - px, qy - py
-        sides, square = [dx * (b - py) - dy * (a - px) for a, b, _ in both - common], dx * dx + dy * dy
+        (px, py, _), (qx, qy, _) = corners & others
+        x, y, dx, dy = self.grid.x_of(column) - px, self.grid.y_of(row) - py, qx - px, qy - py
+        sides, square = [dx * (b - py) - dy * (a - px) for a, b, _ in corners ^ others], dx * dx + dy * dy
         is_on = abs(dx * y - dy * x) <= ROUNDING * self.grid.dx * math.sqrt(square)
         return is_on and sides[0] * sides[1] < 0 and 1e-3 * square < dx * x + dy * y < 0.999 * square
 
@@ -289,9 +283,7 @@ class Drawing:
 
     def line(self, span):
         if self.rule.flat:
-            return FLAT[self.rule.flat]([p[2] for p in self.triangles.corners[span.triangle]]), 0.0
-        if self.rule.flat_row:
-            return FLAT_ROW[self.rule.flat_row](span), 0.0
+            return FLAT[self.rule.flat](span, [p[2] for p in self.triangles.corners[span.triangle]]), 0.0
         return depth_line(span, self.rule, self.width)
 
     def row(self, row):
