@@ -478,8 +478,8 @@ class Wrong(HandIn):
 
     def test_mistakes_in_different_rows_are_joined(self):
         x_row, y_row, z_row, w_row = perspective_matrix(50, 1.3, 1, 50)
-        radians = perspective_matrix(50, 1.3, 1, 50, mistake="fov-in-radians")
-        ratio = perspective_matrix(50, 1.3, 1, 50, mistake="r-is-t-times-aspect")
+        radians = perspective_matrix(50, 1.3, 1, 50, mistakes=["fov-in-radians"])
+        ratio = perspective_matrix(50, 1.3, 1, 50, mistakes=["r-is-t-times-aspect"])
         last = f"Row 3, column 4 of the matrix (counted from 1) is {-z_row[3]:.6g}, not {z_row[3]:.6g}"
         for rows, name in (radians[:2], "project/fov-in-radians"), (ratio[:2], "project/r-is-t-times-aspect"):
             self.through((*rows, (*z_row[:3], -z_row[3]), w_row), 3)
@@ -931,7 +931,7 @@ class Fit(unittest.TestCase):
         ours = perspective_matrix(50, 1.3, 1, 50)
         theirs = tuple(
             tuple(7 * x for x in row)
-            for row in perspective_matrix(50, 1.3, 1, 50, mistake="r-and-t-swapped"))
+            for row in perspective_matrix(50, 1.3, 1, 50, mistakes=["r-and-t-swapped"]))
         found = self.compared(theirs, ours, True)
         self.assertEqual(found.differing, {(0, 0), (1, 1)})
         self.assertAlmostEqual(found.theirs[0][0], ours[1][1], places=5)

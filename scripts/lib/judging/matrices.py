@@ -84,10 +84,9 @@ def cross_with_another_sign(a, b):
     return x, -y, z
 
 
-def view_matrix(eye, look, up, mistake="", spelling=0):
-    """The matrix of view, or what mistakes make of it: `mistake` is a name, or several with blanks between.
-    Some mistakes are made in more than one way: `spelling` tells which."""
-    mistakes = mistake.split()
+def view_matrix(eye, look, up, mistakes=(), spelling=0):
+    """The matrix of view, right or with the mistakes of these names. Some mistakes are made in more than one
+    way: `spelling` is the number of the way."""
     cross = cross_with_another_sign if "cross-product-sign" in mistakes else right_cross
     if "eye-and-look-exchanged" in mistakes:
         eye, look = look, eye
@@ -95,11 +94,9 @@ def view_matrix(eye, look, up, mistake="", spelling=0):
     up = tuple(b - a for a, b in zip(eye, up)) if "up-is-a-point" in mistakes else up
     l = tuple(look) if "look-is-a-direction" in mistakes else tuple(b - a for a, b in zip(eye, look))
     l = negative(l) if {"l-is-eye-minus-look", "left-handed"} & {*mistakes} else l
-    if "l-not-unit" not in mistakes:
-        l = normalized(l)
+    l = l if "l-not-unit" in mistakes else normalized(l)
     r = cross(up, l) if "r-is-up-cross-l" in mistakes else cross(l, up)
-    if "r-not-unit" not in mistakes:
-        r = normalized(r)
+    r = r if "r-not-unit" in mistakes else normalized(r)
     u = cross(l, r) if "u-is-l-cross-r" in mistakes else cross(r, l)
     if "up-as-given" in mistakes:
         u = normalized(up) if spelling else tuple(up)
@@ -107,22 +104,19 @@ def view_matrix(eye, look, up, mistake="", spelling=0):
         u = normalized(u)
     back = l if "l-not-negated" in mistakes else negative(l)
     turn = IDENTITY if "no-rotation" in mistakes else affine([r, u, back])
-    if "rotation-transposed" in mistakes:
-        turn = transposed(turn)
-    move = eye if "eye-added" in mistakes else (0.0, 0.0,
-                                                0.0) if "no-translation" in mistakes else negative(eye)
-    m = product(translation(move), turn) if "translation-after-rotation" in mistakes else product(
-        turn, translation(move))
+    turn = transposed(turn) if "rotation-transposed" in mistakes else turn
+    factor = 1.0 if "eye-added" in mistakes else 0.0 if "no-translation" in mistakes else -1.0
+    move = translation([factor * x for x in eye])
+    m = product(move, turn) if "translation-after-rotation" in mistakes else product(turn, move)
     return transposed(m) if "matrix-transposed" in mistakes else m
 
 
-SPELLINGS = {"up-as-given": 2, "l-not-unit": 2, "r-not-unit": 2, "near-left-out": 2}  # others have one
+TWO_SPELLINGS = ("up-as-given", "l-not-unit", "r-not-unit", "near-left-out")  # others have one
 
 
 # project
-def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistake="", pi=math.pi, spelling=0):
-    """The matrix of project, or what mistakes make of it, named as in view_matrix."""
-    mistakes = mistake.split()
+def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistakes=(), pi=math.pi, spelling=0):
+    """The matrix of project; `mistakes` and `spelling` are those of view_matrix."""
     radian = 1.0 if "fov-in-radians" in mistakes else pi / 180
     of_tangent = 0.5 if "tangent-halved" in mistakes else 1.0
     part = 1 if {"fov-not-halved", "tangent-halved"} & {*mistakes} else 2
@@ -134,12 +128,11 @@ def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistake="", pi=
         right, top = top, right
     if "near-left-out" in mistakes:
         right, top = (x * near if spelling else x / near for x in (right, top))
-    return projection_matrix((1 / right, 0.0, 1 / top, 0.0), near, far, mistake)
+    return projection_matrix((1 / right, 0.0, 1 / top, 0.0), near, far, mistakes)
 
 
-def projection_matrix(window, near, far, mistake=""):
+def projection_matrix(window, near, far, mistakes=()):
     """The matrix of a perspective or a frustum. `window` has the scale and the shift of x, and those of y."""
-    mistakes = mistake.split()
     if "near-and-far-swapped" in mistakes:
         near, far = far, near
     z_row = (0.0, 0.0, -(far + near) / (far - near),

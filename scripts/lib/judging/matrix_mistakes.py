@@ -5,7 +5,7 @@ import contextlib
 import itertools
 
 from lib.judging.fit import cause_of_elements
-from lib.judging.matrices import DIVIDES_X_AND_Y, SPELLINGS, TWICE, Z_TWICE, negative
+from lib.judging.matrices import DIVIDES_X_AND_Y, TWICE, TWO_SPELLINGS, Z_TWICE, negative
 from lib.judging.mistakes import names_of
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.points import differs
@@ -39,16 +39,15 @@ def pairs(stage, scene):
 def ways(stage, scene, names):
     """(matrix, whether it divides) of mistakes made together; none where they cannot be made, for example
     with a direction of 0 0 0."""
-    words, is_view = " ".join(names), stage == "view"
-    is_divided = next((DIVISIONS[name] for name in names if name in DIVISIONS), not is_view)
-    for spelling in range(SPELLINGS.get(words, 1)):
+    is_divided = next((DIVISIONS[name] for name in names if name in DIVISIONS), stage == "project")
+    for spelling in range(1 + (len(names) == 1 and names[0] in TWO_SPELLINGS)):
         with contextlib.suppress(ZeroDivisionError, OverflowError):
-            m = scene.matrix(stage, words, spelling)
+            m = scene.matrix(stage, names, spelling)
             if m is not None:
                 yield m, is_divided
-                if is_view and words == "matrix-transposed":  # its w is not 1, and some programs divide by it
+                if (stage, *names) == ("view", "matrix-transposed"):  # some programs divide by its w, not 1
                     yield m, True
-                if words == "depth-in-view-space":  # or the distance from the eye
+                if names == ("depth-in-view-space",):  # or the distance from the eye
                     yield (*m[:2], negative(m[2]), m[3]), is_divided
 
 

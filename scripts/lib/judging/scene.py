@@ -11,9 +11,10 @@ from lib.maths.vectors import cross, normalized
 from lib.text.scene import commands
 
 NO_UNITS = (0.0, 0.0, 0.0)
-OF_FRUSTUMS = ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one",
-               "depth-is-linear", "z-not-divided", "divided-twice", "depth-in-view-space",
-               "depth-divided-twice")
+OF_FRUSTUMS = {
+    "near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one",
+    "depth-is-linear", "z-not-divided", "divided-twice", "depth-in-view-space", "depth-divided-twice"}
+AFTERWARDS = {"depth-from-0-to-1", "matrix-transposed"}  # changes of any matrix
 
 
 class Scene:
@@ -55,32 +56,27 @@ class Scene:
         before = itertools.takewhile(lambda command: command.line < line, self.commands)
         return next((command for command in reversed(list(before)) if command.keyword != "triangle"), None)
 
-    def matrix(self, stage, mistake="", spelling=0):
-        return (self.of_view if stage == "view" else self.of_project)(mistake, spelling=spelling)
+    def matrix(self, stage, mistakes=(), spelling=0):
+        return (self.of_view if stage == "view" else self.of_project)(mistakes, spelling=spelling)
 
-    def of_view(self, mistake="", spelling=0):
-        return view_matrix(self.eye, self.look, self.up, mistake, spelling)
+    def of_view(self, mistakes=(), spelling=0):
+        return view_matrix(self.eye, self.look, self.up, mistakes, spelling)
 
-    def of_project(self, mistake="", pi=math.pi, spelling=0):
-        """The matrix of project; None if the mistake cannot be made with this projection."""
-        mistakes = mistake.split()
-        for word in [word for word in ("matrix-transposed", "depth-from-0-to-1") if word in mistakes]:
-            m = self.of_project(" ".join(other for other in mistakes if other != word), pi, spelling)
-            if m and word == "depth-from-0-to-1":
-                z_row = tuple((z + w) / 2 for z, w in zip(m[2], self.of_project()[3]))
-                return *m[:2], z_row, m[3]
-            return m and transposed(m)
-        kind = self.projection
+    def of_project(self, mistakes=(), pi=math.pi, spelling=0):
+        """The matrix of project; None if the mistakes cannot be made with this projection."""
+        kind, own = self.projection, {*mistakes} - AFTERWARDS
         if kind.kind == "perspective":
-            return perspective_matrix(*map(float, kind.numbers), kind.aspect_rule == "ratio", mistake, pi,
-                                      spelling)
-        exact = tuple(tuple(map(float, row)) for row in kind.matrix())
-        if mistake in ("", "no-divide"):
-            return exact
-        if kind.is_parallel or not {*mistakes} <= {*OF_FRUSTUMS}:
-            return None
-        window = (exact[0][0], exact[0][2], exact[1][1], exact[1][2])
-        return projection_matrix(window, float(kind.near), float(kind.far), mistake)
+            m = perspective_matrix(*map(float, kind.numbers), kind.aspect_rule == "ratio", own, pi, spelling)
+        else:
+            m = tuple(tuple(map(float, row)) for row in kind.matrix())
+            if own - {"no-divide"}:
+                if kind.is_parallel or not own <= OF_FRUSTUMS:
+                    return None
+                window = (m[0][0], m[0][2], m[1][1], m[1][2])
+                m = projection_matrix(window, float(kind.near), float(kind.far), own)
+        if "depth-from-0-to-1" in mistakes:
+            m = (*m[:2], tuple((z + w) / 2 for z, w in zip(m[2], self.of_project()[3])), m[3])
+        return transposed(m) if "matrix-transposed" in mistakes else m
 
     def directions(self):
         """(name, vector) of each direction that a row of the matrix of view may have."""
