@@ -52,8 +52,8 @@ class Theirs:
 
     def picture(self):
         """The pixels of their picture, in base64."""
-        colors = self.read("picture",
-                           lambda data, name: read_colors(data, name, self.ours.window, self.ours.background))
+        size, ground = (self.ours.window.width, self.ours.window.height), self.ours.background
+        colors = self.read("picture", lambda data, name: read_colors(data, name, size, ground))
         return None if colors is None else base64.b64encode(b"".join(
             b"".join(row) for row in colors)).decode()
 

@@ -108,7 +108,7 @@ class BorderRule:
         # If more pixels differ than are drawn, they are not only borders.
         mismatch = self.mismatch
         return bool(self.pixels.drawn) and not mismatch.has_rows and (
-            len(mismatch.of_shape) <= mismatch.drawn and self.shows_each_triangle
+            mismatch.count("extra", "missing") <= mismatch.drawn and self.shows_each_triangle
             and all(map(self.is_within_reach, mismatch.pixels)))
 
     @property

@@ -5,8 +5,6 @@ ones in memory, so that a mistake counts once. A stage is right if it reproduces
 combination of what the assignment leaves open; else wrong by the mistake that reproduces them; else, in stage
 4, by another rule at the borders; else wrong without a cause.
 """
-from types import SimpleNamespace
-
 from lib.judging.digits import of_one_program
 from lib.judging.hand_in import STAGE_OF, File
 from lib.judging.matrices import image
@@ -160,25 +158,24 @@ class HandIn:
 
     def exchanged_colors(self):
         """The colors, as they should be, of a picture whose rows are our columns; None if it is no such."""
-        window, failed = self.ours.window, self.failed.pop("picture")
-        size = SimpleNamespace(width=window.height, height=window.width)
-        colors = self.read("picture", lambda data, name: read_colors(data, name, size, self.ours.background))
+        failed = self.failed.pop("picture")
+        colors = self.colors(self.ours.window.height, self.ours.window.width)
         self.failed |= {"picture": failed} if colors is None else {}
         return colors and [list(row) for row in zip(*colors)]
 
+    def colors(self, *size):
+        return self.read("picture", lambda data, name: read_colors(data, name, size, self.ours.background))
+
     def add_others(self, kind, verdict):
-        others = self.files[kind].others
-        if others:
+        if others := self.files[kind].others:
             verdict.remarks.append(f"not looked at: {', '.join(others)}")
 
     # stage 4
     def pixels(self, stage3, memory, thin, is_right):
         """The FileVerdicts of the depths and of the picture. `thin` names a stage3.txt of too few points,
         `is_right` tells whether all stages before are right."""
-        window = self.ours.window
         depths = self.read("depths", read_depths)
-        colors = self.read("picture",
-                           lambda data, name: read_colors(data, name, window, self.ours.background))
+        colors = self.colors(self.ours.window.width, self.ours.window.height)
         exchanged = colors is None and self.exchanged_colors()
         if stage3 is not None and len(stage3) > MOST_PARTS * len(self.ours.world):
             stage3 = None

@@ -33,13 +33,8 @@ class Mismatch:
     triangle_count: int = 0
     has_rows: bool = False  # of which the number of depths differs, each as one pixel
 
-    @property
-    def extra(self):
-        return [place for place, kind in self.pixels.items() if kind == "extra"]
-
-    @property
-    def of_shape(self):
-        return [place for place, kind in self.pixels.items() if kind in ("extra", "missing")]
+    def count(self, *kinds):
+        return sum(kind in kinds for kind in self.pixels.values())
 
     @functools.cached_property
     def by_color(self):

@@ -47,7 +47,7 @@ def finding_of(context):
     if found := by_open_rule(context, rows):
         return found
     center = context.compare(context.first, Rule(**CENTER))
-    best = min((plain, center), key=lambda one: (len(one.of_shape), len(one.pixels)))
+    best = min((plain, center), key=lambda one: (one.count("extra", "missing"), len(one.pixels)))
     found, remarks = context.borders_first and at_borders(context, best), []
     try:
         with context.limited():

@@ -77,7 +77,7 @@ class PixelStage:
             return {}
         in_one_color = Context(self.readings, self.ours.window, shown.in_one_color())
         plain = in_one_color.plain
-        if len(plain.of_shape) > plain.drawn:  # no color then is a triangle's
+        if plain.count("extra", "missing") > plain.drawn:  # no color then is a triangle's
             picture = unknown(context.of_one_file("picture").plain)
             return self.verdicts_of_shown(given, context, Findings(context, picture))[0]
         verdicts, mismatch = self.verdicts_of_shown(given, in_one_color, Findings(in_one_color))
@@ -147,7 +147,7 @@ class PixelStage:
         mismatch, rule = finding.mismatch, "" if finding.verdict == "unknown" else finding.rule
         places = mismatch.of(kind)
         verdict = self.verdict(kind, RIGHT, rule, differing=len(places), places=places,
-                               compared=mismatch.drawn + len(mismatch.extra))
+                               compared=mismatch.drawn + mismatch.count("extra"))
         if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
             verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
             verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []

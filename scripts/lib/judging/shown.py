@@ -48,12 +48,11 @@ def read_depths(data, name):
     return Depths(depth_rows(text, name), digits_of({*text.split()}))
 
 
-def read_colors(data, name, window, background):
+def read_colors(data, name, size, background):
     """Rows of colors, three bytes each; what is transparent shows the background. Raises a PictureError, also
-    if the picture has another size."""
-    width, height = window.width, window.height
-    rows = picture_of(data, name, background, (width, height))[2]
-    return [[row[i:i + 3] for i in range(0, 3 * width, 3)] for row in rows]
+    if the picture has another size (width, height)."""
+    rows = picture_of(data, name, background, size)[2]
+    return [[row[i:i + 3] for i in range(0, 3 * size[0], 3)] for row in rows]
 
 
 class Rows:

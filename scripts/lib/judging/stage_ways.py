@@ -7,7 +7,7 @@ from lib.judging import fit
 from lib.judging.matrices import IDENTITY, ROUNDING, image, slack
 from lib.judging.matrix_mistakes import (UNCHANGED, causes_by_rows, changed_elements, listed, other_forms,
                                          pairs)
-from lib.judging.model_habits import MODEL_MISTAKES, RIGHT, ROUGH_PIS, Habit, model_pairs
+from lib.judging.model_habits import MODEL_MISTAKES, ROUGH_PIS, Habit, model_pairs
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.scene import NO_UNITS
 from lib.judging.verdict import Cause, cause_of, cause_of_all
@@ -52,12 +52,9 @@ class ModelWays:
     def __init__(self, scene, exact_world):
         self.scene = scene
         self.scene_lines = scene.triangle_lines
-        right = self.way(Cause("", ""), RIGHT)
-        with_exact_points = Way(
-            right.cause, lambda part: [[(p, slacks) for p, (_, slacks) in zip(exact_world, images)][part]
-                                       for images in right.images(ALL)], lambda: exact_world)
+        exact = [(p, slacks) for p, (_, slacks) in zip(exact_world, scene.world())]
         self.right = [
-            with_exact_points,
+            Way(Cause("", ""), lambda part: [exact[part]], lambda: exact_world),
             *(self.way(Cause("", PI.format(pi)), Habit(radians=lambda degrees, pi=pi: degrees * pi / 180))
               for pi in ROUGH_PIS)]
 
@@ -81,13 +78,12 @@ class ModelWays:
 
     def several(self):
         """(Ways, how many of them may fit before none counts)."""
-        found = model_pairs(len(self.scene_lines))
-        yield (self.way(cause_of_all("model", pair), habit) for pair, habit in found), MOST_PAIRS
+        yield (self.way(cause_of_all("model", pair), habit)
+               for pair, habit in model_pairs(len(self.scene_lines))), MOST_PAIRS
 
     def with_details(self, causes, result):
-        return [
-            *causes[:-1], *(dataclasses.replace(cause, detail=self.place(result) if cause.name else "")
-                            for cause in causes[-1:])]
+        *others, last = causes
+        return [*others, dataclasses.replace(last, detail=self.place(result) if last.name else "")]
 
     def place(self, result):
         """The place of the first wrong triangle in the scene."""
@@ -116,16 +112,12 @@ class MatrixWays:
         self.right = [self.way(Cause("", rule), m, is_divided) for rule, m, is_divided in right]
 
     def way(self, cause, m, is_divided):
-        def images(part):
-            return [self.images(m, is_divided, reading, part) for reading in self.readings]
+        def images(reading, part):
+            for p, units in zip(reading.points[part], reading.units[part]):
+                yield image(m, p, is_divided), [x + self.reach for x in slack(m, p, units, is_divided)]
 
-        return Way(cause, images, lambda: exact_images(m, is_divided, self.readings[-1].points))
-
-    def images(self, m, is_divided, reading, part):
-        places = range(len(reading.points))[part]
-        for p, unit in ((reading.points[i], reading.units[i]) for i in places):
-            slacks = slack(m, p, unit, is_divided)
-            yield image(m, p, is_divided), [x + self.reach for x in slacks]
+        return Way(cause, lambda part: [images(reading, part) for reading in self.readings],
+                   lambda: exact_images(m, is_divided, self.readings[-1].points))
 
     def has_count(self, count):
         """True if a reading has as many points as the text; others are then no longer asked."""
