@@ -198,7 +198,7 @@ class DepthEpsilon(Pictures):
 
 
 class DepthLimits(Pictures):
-    """The limits of Z may be as far apart as the depth format allows; messages_test.py has those that are
+    """The limits of Z may be as far apart as the depth format allows; messages.txt has those that are
     refused."""
     def expect_depth(self, format_name, front, rear, z, expected):
         pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n{front} {rear}\n")

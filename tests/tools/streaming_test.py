@@ -111,6 +111,12 @@ class Streaming(ToolTest):
                 live.send(texts[tool] + behind)
                 self.assertEqual(live.receive(2048), 2048, (tool, behind[:10]))
 
+    def test_a_stage_refuses_a_line_at_once(self):
+        with LiveTool("view") as live:
+            live.send("0 0 5\n")
+            self.assertEqual(live.process.wait(60), 1)
+            self.assertIn(b"found no eye, look or up", live.process.stderr.read())
+
     def test_framed_text_is_passed_on_at_once_as_well(self):
         self.check("view", "framed\n" + HEADER, VERTICES + "\n", "end\n")
 
