@@ -10,11 +10,14 @@ REACH = 1.5  # pixels between a pixel that differs and the place that it shows
 DEPTH_REACH = 1.0  # pixels along which the depth of a triangle may be taken
 
 
-class Borders:
-    """Triangles (raster.Triangles) in pixels: what may be seen at a pixel if its center may move by REACH.
-    `work` is that of Drawing."""
-    def __init__(self, triangles, limits, work):
-        self.triangles, (self.front, self.rear), self.work = triangles, limits, work
+class BorderRule:
+    """Triangles in pixels, with all that a pixel may show if its center may move by REACH, beside the
+    Mismatch of the nearest of our two rules in a pixel_comparing.Context of a picture."""
+    def __init__(self, context, mismatch):
+        self.mismatch, self.pixels = mismatch, context.shown.pixels()
+        self.tolerance = context.shown.depths.tolerance if context.shown.depths else lambda z: 0.0
+        self.drawing = context.drawing(mismatch.reading, mismatch.rule)
+        self.triangles = self.drawing.triangles
         self.plane, self.boxes = functools.cache(self.plane), functools.cache(self.boxes)
 
     def plane(self, t):
@@ -51,13 +54,13 @@ class Borders:
             # Thinner than a pixel: open where it is drawn, and which of its depths is extrapolated.
             slack = slope * REACH + tolerance
             return (t, of_z[0] - slack, of_z[1] + slack), False
-        inside = min(a * column + b * row + c for a, b, c in edges)
+        inside = self.inside(t, row, column)
         if inside < -REACH:
             return None
         z = per_column * column + per_row * row + at_0
         slack = slope * max(DEPTH_REACH, -inside) + tolerance  # outside, it may be the depth of the edge
         low, high = z - slack, z + slack
-        return (t, low, high), inside >= REACH and low >= self.front and high < self.rear
+        return (t, low, high), inside >= REACH and low >= self.drawing.front and high < self.drawing.rear
 
     def has(self, t, row, column, z, tolerance):
         """True if a triangle has a depth within a pixel of the center of this one."""
@@ -78,33 +81,12 @@ class Borders:
     def near(self, row, column):
         """The triangles on this row or beside it that come within a pixel of the column."""
         boxes = self.boxes(row)
-        spend(self.work, len(boxes))
+        spend(self.drawing.work, len(boxes))
         return [t for t, left, right in boxes if left - REACH <= column <= right + REACH]
-
-    def could_show(self, row, column, is_drawn, z, tolerance, seen):
-        """True if the pixel may show what it does: a triangle (one of `seen`, unless that is None) with the
-        depth z (unless that is None), or nothing."""
-        fragments = [
-            found for t in self.near(row, column) if (found := self.fragment(t, row, column, tolerance))]
-        possible = [
-            fragment for fragment, _ in fragments if fragment[2] >= self.front and fragment[1] < self.rear]
-        options = kept([fragment for fragment, is_sure in fragments if is_sure], possible, "nearest")
-        return any(
-            (t >= 0) == is_drawn and (z is None or t < 0 or low <= z <= high) and (seen is None or t in seen)
-            for t, low, high in options)
-
-
-class BorderRule:
-    """True if the nearest of our two rules, with its Mismatch, explains all but borders. `context` is a
-    pixel_comparing.Context of a picture."""
-    def __init__(self, context, mismatch):
-        self.mismatch, self.pixels = mismatch, context.shown.pixels()
-        self.tolerance = context.shown.depths.tolerance if context.shown.depths else lambda z: 0.0
-        self.drawing = context.drawing(mismatch.reading, mismatch.rule)
-        self.borders = Borders(self.drawing.triangles, context.limits, context.work)
 
     @property
     def explains_all(self):
+        """True if nothing but borders differs."""
         # If more pixels differ than are drawn, they are not only borders.
         mismatch = self.mismatch
         return bool(self.pixels.drawn) and not mismatch.has_rows and (
@@ -116,12 +98,12 @@ class BorderRule:
         """True if it shows half the visible pixels of each triangle with one REACH or more inside its
         outline, and one of the smaller triangles."""
         visible, agreeing, deep = collections.Counter(), collections.Counter(), set()
-        for row in range(self.drawing.triangles.grid.height):
+        for row in range(self.triangles.grid.height):
             for column, t in enumerate(self.drawing.row(row)[0]):
                 if t >= 0:
                     visible[t] += 1
                     agreeing[t] += not self.is_other(row, column, t)
-                    if t not in deep and self.borders.inside(t, row, column) >= REACH:
+                    if t not in deep and self.inside(t, row, column) >= REACH:
                         deep.add(t)
         small = visible.keys() - deep
         return all(2 * agreeing[t] >= visible[t] for t in deep) and (not small or any(agreeing[t]
@@ -139,14 +121,19 @@ class BorderRule:
         if mismatch.colors.get(t) == color and t not in mismatch.unplaced:
             return False
         tolerance, same = self.tolerance(z), mismatch.of_color(color)
-        return not self.borders.has(t, row, column, z, tolerance) and any(
-            self.borders.has(other, row, column, z, tolerance)
-            for other in self.borders.near(row, column) if other in same and other != t)
+        return not self.has(t, row, column, z, tolerance) and any(
+            self.has(other, row, column, z, tolerance)
+            for other in self.near(row, column) if other in same and other != t)
 
     def is_within_reach(self, place):
         """True if a triangle, of the pixel's color if it has one, could show the same within REACH."""
-        (row, column), pixels = place, self.pixels
+        (row, column), pixels, drawing = place, self.pixels, self.drawing
         is_drawn = pixels.drawn[row][column]
         z = pixels.depths[row][column] if pixels.depths and pixels.depths[row] else None
-        seen = self.mismatch.of_color(pixels.colors[row][column]) if is_drawn else None
-        return self.borders.could_show(row, column, is_drawn, z, self.tolerance(z or 0.0), seen)
+        seen = self.mismatch.of_color(pixels.colors[row][column]) if is_drawn else (-1,)
+        found = [self.fragment(t, row, column, self.tolerance(z or 0.0)) for t in self.near(row, column)]
+        possible = [
+            one[0] for one in found if one and one[0][2] >= drawing.front and one[0][1] < drawing.rear]
+        options = kept([fragment for fragment, is_sure in filter(None, found) if is_sure], possible,
+                       "nearest")
+        return any(t in seen and (z is None or t < 0 or low <= z <= high) for t, low, high in options)
