@@ -63,11 +63,8 @@ class Findings:
             return by_open_rule(alone, sample_rows(alone, alone.plain)) or both
         found = (exact(alone.compare(reading, rule, limit=0), alone.shown)
                  for rule in (Rule(), Rule(**CENTER)) for reading in self.context.readings)
-        return next(
-            (
-                one for one in found  # a picture of one color may come from a mistake found
-                if one and one.verdict == "exact"),
-            both)
+        # A picture of one color may come from a mistake found.
+        return next((one for one in found if one and one.verdict == "exact"), both)
 
     def own_if_both_are_unknown(self, kind, alone):
         found = finding_of(alone)
@@ -95,43 +92,36 @@ def mismatch_to_show(context, finding, is_wrong):
         return found
     before = Rule(rule.left, rule.right, rule.depth, rule.clamp) if is_by_mistake else Rule()
     mismatch = context.compare(found.reading, before)
-    return dataclasses.replace(
-        mismatch, pixels={
-            place: kind
-            for place, kind in mismatch.pixels.items() if place not in found.pixels})
+    explained = {place: kind for place, kind in mismatch.pixels.items() if place not in found.pixels}
+    return dataclasses.replace(mismatch, pixels=explained)
 
 
-class ManyColors:
-    """The pixels of a Shown that have another color than most of their triangle, where a Mismatch leaves the
-    outlines right."""
-    def __init__(self, shown, context, mismatch):
-        self.count, self.width = len(shown.own_colors), context.window.width
-        self.triangle_count, rule = mismatch.triangle_count, mismatch.rule
-        drawing = context.drawing(mismatch.reading, rule)
-        pixels = shown.pixels(rule.picture_flip, rule.text_flip)
-        seen, counts = {}, collections.defaultdict(collections.Counter)
-        for row in range(context.window.height):
-            for column, t in enumerate(drawing.row(row)[0]):
-                if t >= 0 and pixels.drawn[row][column] and (row, column) not in mismatch.pixels:
-                    seen[row, column] = t
-                    counts[t][pixels.colors[row][column]] += 1
-        main = {t: colors.most_common(1)[0][0] for t, colors in counts.items()}
-        self.places = {(row, column): t
-                       for (row, column), t in seen.items() if pixels.colors[row][column] != main[t]}
-        self.of_triangle = {t: len(colors) for t, colors in counts.items()}
-
-    def add_to(self, verdict):
-        """Makes this the cause of the picture's FileVerdict, or a further one beside its own."""
-        detail = f"{self.count:,} for {self.triangle_count:,} triangles"
-        many = cause_of("zbuf/many-colors", detail)
-        verdict.causes = [
-            dataclasses.replace(joined([cause, many]), detail=detail)
-            for cause in verdict.causes if cause.name != "zbuf/one-color"] or [many]
-        if verdict.rule:
-            verdict.remarks.append(f"with {verdict.rule}")
-        verdict.verdict, verdict.rule = WRONG, ""
-        verdict.differing += len(self.places)
-        verdict.places = sorted({*verdict.places, *self.places})
-        place, t = min(self.places.items())
-        words = f"one of {self.of_triangle[t]:,} colors of triangle {t}"
-        verdict.first = f"{place_in_words(place, self.width)}: {words}"
+def blames_many_colors(verdict, shown, context, mismatch):
+    """Makes many colors the cause of a picture's FileVerdict, or a further one beside its own; False if
+    fewer pixels of a Shown have another color than most of their triangle, where a Mismatch leaves the
+    outlines right, than differ by themselves."""
+    rule, seen, counts = mismatch.rule, {}, collections.defaultdict(collections.Counter)
+    drawing = context.drawing(mismatch.reading, rule)
+    pixels = shown.pixels(rule.picture_flip, rule.text_flip)
+    for row in range(context.window.height):
+        for column, t in enumerate(drawing.row(row)[0]):
+            if t >= 0 and pixels.drawn[row][column] and (row, column) not in mismatch.pixels:
+                seen[row, column] = t
+                counts[t][pixels.colors[row][column]] += 1
+    main = {t: colors.most_common(1)[0][0] for t, colors in counts.items()}
+    places = {(row, column): t for (row, column), t in seen.items() if pixels.colors[row][column] != main[t]}
+    if len(places) <= len(mismatch.of("picture")):
+        return False
+    detail = f"{len(shown.own_colors):,} for {mismatch.triangle_count:,} triangles"
+    many = cause_of("zbuf/many-colors", detail)
+    verdict.causes = [
+        dataclasses.replace(joined([cause, many]), detail=detail)
+        for cause in verdict.causes if cause.name != "zbuf/one-color"] or [many]
+    verdict.remarks += [f"with {verdict.rule}"] if verdict.rule else []
+    verdict.verdict, verdict.rule = WRONG, ""
+    verdict.differing += len(places)
+    verdict.places = sorted({*verdict.places, *places})
+    place, t = min(places.items())
+    verdict.first = (f"{place_in_words(place, context.window.width)}: one of {len(counts[t]):,} colors of "
+                     f"triangle {t}")
+    return True

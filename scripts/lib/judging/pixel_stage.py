@@ -4,7 +4,7 @@ import dataclasses
 import itertools
 
 from lib.judging.pixel_comparing import Context
-from lib.judging.pixel_files import Findings, ManyColors, mismatch_to_show
+from lib.judging.pixel_files import Findings, blames_many_colors, mismatch_to_show
 from lib.judging.pixel_search import unknown
 from lib.judging.pixel_words import difference_in_words, unexplained_in_words
 from lib.judging.raster import TooMuch
@@ -81,11 +81,7 @@ class PixelStage:
             picture = unknown(context.of_one_file("picture").plain)
             return self.verdicts_of_shown(given, context, Findings(context, picture))[0]
         verdicts, mismatch = self.verdicts_of_shown(given, in_one_color, Findings(in_one_color))
-        many = ManyColors(shown, in_one_color, mismatch)
-        if len(many.places) <= len(mismatch.of("picture")):
-            return {}
-        many.add_to(verdicts["picture"])
-        return verdicts
+        return verdicts if blames_many_colors(verdicts["picture"], shown, in_one_color, mismatch) else {}
 
     def verdicts_of_shown(self, given, context, findings):
         """The verdicts on the files of a Context, and the Mismatch of the last one."""
