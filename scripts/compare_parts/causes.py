@@ -5,7 +5,7 @@ import math
 from compare_parts.differences import exceeds
 from lib.judging.points import read_points
 from lib.judging.reference import Reference
-from lib.judging.stage_judge import StageJudge
+from lib.judging.stage_judge import stage_outcome
 from lib.judging.stage_ways import Reading, exact_images
 from lib.running.pipe_tools import Tools
 
@@ -45,24 +45,22 @@ def judged(scene, theirs, ours):
     """The FileVerdict on `theirs`, if `ours` is the output of a stage of the scene, else None. A text is its
     bytes and its name. If `ours` fits several stages, the first counts whose mistakes reproduce `theirs`."""
     reference = Reference(scene, None, Tools())
-    judge = StageJudge(reference.scene, reference.world)
     ours, theirs = read_points(*ours), read_points(*theirs)
     verdicts = [
-        verdict_of("theirs", theirs) for verdict_of in stages(reference, judge)
-        if verdict_of("ours", ours).is_good]
+        verdict_of("theirs", theirs) for verdict_of in stages(reference) if verdict_of("ours", ours).is_good]
     return next((verdict for verdict in verdicts if verdict.causes), verdicts[0] if verdicts else None)
 
 
-def stages(reference, judge):
+def stages(reference):
     """A function for each stage that judges points as its output, given right ones as its input."""
-    yield lambda name, points: judge.outcome("model", name, points).verdict
+    yield lambda name, points: stage_outcome(reference, "model", name, points).verdict
     world = read_as_printed(reference.world)
-    yield lambda name, points: judge.outcome("view", name, points, [world]).verdict
+    yield lambda name, points: stage_outcome(reference, "view", name, points, [world]).verdict
     p_view = exact_images(reference.scene.of_view(), False, reference.world)
     view = read_as_printed(p_view)
     clipped = reference.clipped(p_view)
     others = [clipped] if clipped is not None else []
-    yield lambda name, points: judge.outcome("project", name, points, [view], others).verdict
+    yield lambda name, points: stage_outcome(reference, "project", name, points, [view], others).verdict
 
 
 def read_as_printed(points):

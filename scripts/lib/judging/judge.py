@@ -12,7 +12,7 @@ from lib.judging.pixel_stage import PixelStage, pixel_readings
 from lib.judging.points import holds_enough, read_points
 from lib.judging.reference import kinds_of, reference
 from lib.judging.shown import read_colors, read_depths
-from lib.judging.stage_judge import Outcome, StageJudge, undecided_outcome
+from lib.judging.stage_judge import Outcome, stage_outcome, undecided_outcome
 from lib.judging.stage_ways import Reading
 from lib.judging.verdict import GOOD, MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
 from lib.rim.input_file import InputError
@@ -20,7 +20,6 @@ from lib.showing.pictures import PictureError
 from lib.text.stage_text import StageTextError
 
 FAR = 1e15
-MORE = "only x, y and z are judged, not the numbers behind them"
 # triangles that clipping at six planes makes of one: more cannot come from the scene, and drawing them has no
 # end
 MOST_PARTS = 7
@@ -45,26 +44,23 @@ class HandIn:
 
     def judge(self):
         points = self.read_stages()
-        judge = StageJudge(self.ours.scene, self.ours.world)
         memory, before, thin, verdicts = self.ours.world, None, "", []
         for kind, stage in STAGES:
-            theirs, readings = points[kind], self.readings(before, memory)
-            is_thin = theirs is not None and not self.is_enough(stage, theirs.points)
+            name, theirs, readings = self.files[kind].name, points[kind], self.readings(before, memory)
+            is_thin = theirs is not None and not any(
+                holds_enough(theirs.points, right) for right in self.right_after(stage))
             if thin and is_thin:
-                outcome = undecided_outcome(stage, self.files[kind].name, f"there is too little in {thin}")
+                outcome = undecided_outcome(stage, name, f"there is too little in {thin}")
             elif theirs is None:
                 outcome = Outcome(self.failed[kind], self.right_memory(stage, readings))
             else:
-                outcome = self.outcome(judge, stage, kind, theirs, readings, verdicts)
-            if theirs is not None and theirs.strays:
-                outcome.verdict.remarks.append(theirs.strays)
-            if theirs is not None and theirs.has_more:
-                outcome.verdict.remarks.append(MORE)
+                outcome = self.outcome(stage, kind, theirs, readings, verdicts)
+            outcome.verdict.remarks += [] if theirs is None else theirs.remarks
             self.add_others(kind, outcome.verdict)
             verdicts.append(outcome.verdict)
             memory, before, thin = outcome.memory, theirs, ""
             if is_thin:  # what follows is judged as if it had not been handed in
-                memory, before, thin = self.right_memory(stage, readings), None, self.files[kind].name
+                memory, before, thin = self.right_memory(stage, readings), None, name
         if "picture" in self.kinds:
             verdicts += self.pixels(before, memory, thin, all(verdict.is_good for verdict in verdicts))
         verdicts[0].remarks += self.ours.remarks
@@ -73,30 +69,27 @@ class HandIn:
     @staticmethod
     def readings(before, memory):
         """The possible inputs of a stage: the points of the file before it, and those in memory."""
-        is_near = before is not None and is_of_this_world(before.points)
-        return ([Reading(before.points, before.units)] if is_near else []) + ([Reading.exact(memory)]
-                                                                              if memory is not None else [])
+        # The numbers of the next stage have to be finite.
+        is_near = before is not None and all(abs(x) < FAR for p in before.points for x in p)
+        found = [Reading(before.points, before.units)] if is_near else []
+        return found if memory is None else [*found, Reading.exact(memory)]
 
-    def outcome(self, judge, stage, kind, theirs, readings, verdicts):
+    def outcome(self, stage, kind, theirs, readings, verdicts):
         """The Outcome of a text that can be read, after the verdicts on the stages before."""
         name = self.files[kind].name
         if not theirs.points:
             return self.of_empty_text(stage, kind, readings)
-        outcome = judge.outcome(stage, name, theirs, readings, self.clipped(stage, readings))
+        outcome = stage_outcome(self.ours, stage, name, theirs, readings, self.clipped(stage, readings))
         failed = [verdict for verdict in verdicts if not verdict.is_good]
         if outcome.verdict.verdict == WRONG and failed:
             # A program may write other numbers into a file than it goes on with.
             right = [Reading.exact(self.ours.exact["model" if stage == "view" else "view"])]
-            by_right = judge.outcome(stage, name, theirs, right, self.clipped(stage, right))
+            by_right = stage_outcome(self.ours, stage, name, theirs, right, self.clipped(stage, right))
             if by_right.verdict.verdict in GOOD:
                 by_right.verdict.remarks.append(
                     f"by the right numbers, which are not those of {failed[-1].file}")
                 return by_right
         return outcome
-
-    def is_enough(self, stage, points):
-        """True if a text holds enough of what is right for the next stage to be judged by it."""
-        return any(holds_enough(points, right) for right in self.right_after(stage))
 
     def right_after(self, stage):
         """The lists of points that are right after a stage; project may clip or not."""
@@ -128,10 +121,8 @@ class HandIn:
             return undecided_outcome(stage, name)
         if not all(self.clipped(stage, readings)):
             return undecided_outcome(stage, name, "what it was to project may be out of view")
-        return Outcome(
-            FileVerdict(
-                stage, name, WRONG, remarks=[
-                    "there is no triangle in it" if self.files[kind].data.strip() else "it is empty"]))
+        why = "there is no triangle in it" if self.files[kind].data.strip() else "it is empty"
+        return Outcome(FileVerdict(stage, name, WRONG, remarks=[why]))
 
     # reading
     def read(self, kind, parse):
@@ -186,8 +177,3 @@ class HandIn:
         for kind in ("depths", "picture"):
             self.add_others(kind, verdicts[kind])
         return [verdicts["depths"], verdicts["picture"]]
-
-
-def is_of_this_world(points):
-    """True if the points are so near that the numbers of the next stage are finite."""
-    return all(abs(x) < FAR for p in points for x in p)

@@ -1,17 +1,19 @@
 """The points of a stage text with the digits it shows, how far they may lie from the expected ones, and lines
 that do not belong in such a text."""
 import dataclasses
+import itertools
 import math
 import statistics
 
 from lib.judging.digits import EXACT, Digits, digits_of
 from lib.rim.command import shown
-from lib.text.plain_stage_text import KEYWORD, NO_KEYWORDS, real
+from lib.text.plain_stage_text import real
 from lib.text.scene import SETTINGS
 from lib.text.stage_text import StageTextError, begins_with_a_camera, is_scene, parse_stage_text, text_of
 
 # numbers of 7 decimals that were calculated from numbers of 7 decimals; times their size beyond 1
 BASE = 1e-6
+MORE = "only x, y and z are judged, not the numbers behind them"
 MOST_UNDECIDED = 0.1  # of the numbers, for example where a point would be divided by 0
 WORDS = {  # that begin header lines
     "eye", "look", "up", "perspective", "ortho", "frustum", "projected", "framed", "end", "triangle",
@@ -26,8 +28,7 @@ class Points:
     points: list
     lines: list
     digits: Digits = EXACT
-    strays: str = ""  # lines that do not belong in a stage text, in words
-    has_more: bool = False  # numbers after x, y and z, which nobody judges
+    remarks: list = dataclasses.field(default_factory=list)  # on lines and numbers that are not judged
 
     def __len__(self):
         return len(self.points)
@@ -44,14 +45,15 @@ def read_points(data, name):
     try:
         vertices = parse_stage_text(text, name).vertices
     except StageTextError as error:
-        is_other = is_scene(text) or begins_with_a_camera(
-            text)  # of another kind, of which no line is a stray one
+        # In a text of another kind no line is a stray one.
+        is_other = is_scene(text) or begins_with_a_camera(text)
         is_the_one = not strays or strays.startswith("1 line is ")  # the one that the error is about
         raise StageTextError(str(error) if is_the_one or is_other else f"{error}; {strays}") from None
     lines = text.split("\n")
     words = [word for vertex in vertices for word in lines[vertex.line - 1].split("#")[0].split()[:3]]
+    more = MORE if any(len(vertex.numbers) > 3 for vertex in vertices) else ""
     return Points([vertex.numbers[:3] for vertex in vertices], [vertex.line for vertex in vertices],
-                  digits_of(words), strays, any(len(vertex.numbers) > 3 for vertex in vertices))
+                  digits_of(words), [*filter(None, (strays, more))])
 
 
 def holds_enough(points, exact):
@@ -117,15 +119,12 @@ def described(found, lines):
 
 
 def kind_of(line, columns):
-    """'vertex', 'word', '' for a blank line or a comment, 'stray', or 'long': a vertex with more numbers than
-    `columns`."""
+    """'vertex', 'long' for one of more numbers than `columns`, 'stray', or '' for headers and blank lines."""
     words = line.split("#")[0].split()
-    if not words:
+    if not words or words[0] in WORDS:
         return ""
-    if KEYWORD.match(words[0]) and words[0].lower() not in NO_KEYWORDS:
-        return "word" if words[0] in WORDS else "stray"
     try:
-        count = len([real(word) for word in words])
+        count = len([*map(real, words)])
     except ValueError:
         return "stray"
     return "stray" if count < 3 else "vertex" if columns is None or count <= columns else "long"
@@ -136,15 +135,11 @@ def strays_of(text):
     blank lines; a text may also go without those."""
     lines = text.split("\n")
     columns = None if any(line.split()[:1] == ["attributes"] for line in lines) else 3
-    strays, long, blocks = [], [], [[]]
-    for number, line in enumerate(lines, 1):
-        kind = kind_of(line, columns)
-        (strays if kind == "stray" else long if kind == "long" else []).append(number)
-        if kind in ("vertex", "long"):
-            blocks[-1].append(number)
-        elif not line.strip():
-            blocks.append([])
-    blocks = [*filter(None, blocks)]
+    kinds = [(number, kind_of(line, columns)) for number, line in enumerate(lines, 1)]
+    strays, long = ([number for number, found in kinds if found == kind] for kind in ("stray", "long"))
+    groups = itertools.groupby(kinds, key=lambda line: not lines[line[0] - 1].strip())
+    vertices = ([number for number, kind in group if kind in ("vertex", "long")] for _, group in groups)
+    blocks = [*filter(None, vertices)]
     is_of_each = len(blocks) > 1 and strays and len(strays) % len(blocks) == 0
     each = f", {len(strays) // len(blocks)} for each triangle" if is_of_each else ""
 

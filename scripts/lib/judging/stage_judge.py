@@ -20,29 +20,26 @@ class Outcome:
     memory: list = None  # the exact points that the program has after this stage; None if they are not known
 
 
-class StageJudge:
-    """Judges the first three stages of a scene, whose exact points in world space are given."""
-    def __init__(self, scene, exact_world):
-        self.scene, self.exact_world = scene, exact_world
-
-    def outcome(self, stage, name, theirs, readings=(), clipped=()):
-        """The Outcome for Points, made of one of the readings unless they are model's. `clipped` are lists of
-        points that are right after project, too, for each reading, the exact one last."""
-        if stage == "model":
-            return outcome(name, theirs, ModelWays(self.scene, self.exact_world))
-        for points in reversed(clipped):  # the exact ones are what the program may have in memory
-            if len(points) == len(theirs) and not differs(theirs.points, used_digits(theirs),
-                                                          ((p, NO_UNITS) for p in points)):
-                return Outcome(right_verdict(stage, name, theirs), points)
-        if not readings:
-            return undecided_outcome(stage, name)
-        right = [("", self.scene.matrix(stage), stage == "project")]
-        if stage == "project" and self.scene.projection.kind == "perspective":
-            right += [(PI.format(pi), self.scene.of_project(pi=pi), True) for pi in ROUGH_PIS]
-        return outcome(name, theirs, MatrixWays(stage, self.scene, readings, right))
+def stage_outcome(ours, stage, name, theirs, readings=(), clipped=()):
+    """The Outcome for Points of one of the first three stages beside a Reference, made of one of the readings
+    unless they are model's. `clipped` are lists of points that are right after project, too, for each
+    reading, the exact one last."""
+    scene = ours.scene
+    if stage == "model":
+        return outcome_among(name, theirs, ModelWays(scene, ours.world))
+    for points in reversed(clipped):  # the exact ones are what the program may have in memory
+        if len(points) == len(theirs) and not differs(theirs.points, used_digits(theirs),
+                                                      ((p, NO_UNITS) for p in points)):
+            return Outcome(right_verdict(stage, name, theirs), points)
+    if not readings:
+        return undecided_outcome(stage, name)
+    right = [("", scene.matrix(stage), stage == "project")]
+    if stage == "project" and scene.projection.kind == "perspective":
+        right += [(PI.format(pi), scene.of_project(pi=pi), True) for pi in ROUGH_PIS]
+    return outcome_among(name, theirs, MatrixWays(stage, scene, readings, right))
 
 
-def outcome(name, theirs, ways):
+def outcome_among(name, theirs, ways):
     """The Outcome of a text among the ways in which it may have come about."""
     digits = used_digits(theirs)
 
