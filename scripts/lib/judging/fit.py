@@ -44,16 +44,18 @@ class NoMatrix:
         return ["  no 4 x 4 matrix gives these numbers"]
 
 
+def cause_of_element(i, j, value, right, digits=6):
+    place = f"Row {i + 1}, column {j + 1} of the matrix (counted from 1)"
+    return Cause("", f"{place} is {value:.{digits}g}, not {right:.{digits}g}")
+
+
 def cause_of_elements(comparison, rows=range(4)):
     """The cause if a Comparison shows that one element in some rows is another number, or that the first two
     of the diagonal have a factor too much; a list of at most one."""
     differing = sorted(place for place in getattr(comparison, "differing", ()) if place[0] in rows)
     if len(differing) == 1:
         (i, j), = differing
-        return [
-            Cause(
-                "", f"Row {i + 1}, column {j + 1} of the matrix (counted from 1) is "
-                f"{comparison.theirs[i][j]:.5g}, not {comparison.ours[i][j]:.5g}")]
+        return [cause_of_element(i, j, comparison.theirs[i][j], comparison.ours[i][j], digits=5)]
     if differing == [(0, 0), (1, 1)]:
         factors = [comparison.theirs[i][i] / comparison.ours[i][i] for i in range(2) if comparison.ours[i][i]]
         if len(factors) == 2 and abs(factors[0] - factors[1]) <= LEAST_DIFFERENCE * abs(factors[0]):
@@ -129,9 +131,8 @@ def fitted(before, after, is_divided):
     for p, q in zip(before, after):
         column, q = (*image(there, p, False), 1.0), image(images, q, False)
         for axis in range(3):
-            row = [0.0] * 12
-            row[4 * axis:4 * axis + 4] = column
-            rows.append(row + [-q[axis] * x for x in (column if is_divided else (1.0,))])
+            known = [-q[axis] * x for x in (column if is_divided else (1.0,))]
+            rows.append([0.0] * 4 * axis + [*column] + [0.0] * 4 * (2 - axis) + known)
     m = null_vector(rows)
     last = m[12:] if is_divided else (0.0, 0.0, 0.0, m[12])
     m = product(product(back, [*(m[i:i + 4] for i in (0, 4, 8)), last]), there)
@@ -168,24 +169,19 @@ def compare(before, after, units, ours, is_divided):
     if len(before) < 6:
         return None
     rng = random.Random(1)
-    fits = []
-    for trial in range(TRIALS + 1):
-        images = [
-            tuple(x + (trial > 0) * rng.uniform(-0.5, 0.5) * u for x, u in zip(q, unit))
-            for q, unit in zip(after, units)]
-        try:
-            m = fitted(before, images, is_divided)
-        except (ZeroDivisionError, OverflowError):
-            return None
-        fits.append(scaled_like(m, ours) if is_divided else m)
-    theirs, *others = fits
+    moved = ([
+        tuple(x + (trial > 0) * rng.uniform(-0.5, 0.5) * u for x, u in zip(q, unit))
+        for q, unit in zip(after, units)] for trial in range(TRIALS + 1))
+    try:
+        fits = [fitted(before, images, is_divided) for images in moved]
+    except (ZeroDivisionError, OverflowError):
+        return None
+    theirs, *others = [scaled_like(m, ours) for m in fits] if is_divided else fits
     if misses(theirs, before, after, units, is_divided):
         return NoMatrix()
     spread = [[2 * max(abs(m[i][j] - theirs[i][j]) for m in others) for j in range(4)] for i in range(4)]
-    for i in range(4):
-        largest = max(1e-3, *map(abs, theirs[i]))
-        if not max(spread[i]) <= WORST_SPREAD * largest:
-            return None
+    if any(not max(moves) <= WORST_SPREAD * max(1e-3, *map(abs, row)) for moves, row in zip(spread, theirs)):
+        return None
     differing = {
         (i, j)
         for i in range(4) for j in range(4)

@@ -4,7 +4,7 @@ and their names are joined."""
 import contextlib
 import itertools
 
-from lib.judging.fit import cause_of_elements
+from lib.judging.fit import cause_of_element, cause_of_elements
 from lib.judging.matrices import DIVIDES_X_AND_Y, TWICE, TWO_SPELLINGS, Z_TWICE, negative
 from lib.judging.mistakes import names_of
 from lib.judging.pixel_rules import MOST_PAIRS
@@ -65,10 +65,9 @@ def other_forms(stage, ours, divides):
             text = f"The rows of the matrix stand in the order {', '.join(AXES[i] for i in order[:3])}"
         yield Cause("", text), tuple(ours[i] for i in order), divides
     if stage == "project":
+        text = "The depth goes from 1 at near to 0 at far, in place of -1 to 1"
         reversed_z = tuple((w - z) / 2 for z, w in zip(*ours[2:]))
-        yield Cause("",
-                    "The depth goes from 1 at near to 0 at far, in place of -1 to 1"), (*ours[:2], reversed_z,
-                                                                                        ours[3]), divides
+        yield Cause("", text), (*ours[:2], reversed_z, ours[3]), divides
 
 
 def changed_elements(stage, ours, divides):
@@ -85,8 +84,7 @@ def changed_elements(stage, ours, divides):
         right = ours[i][j]
         for value in sorted((numbers | {2 * right, right / 2}) - {right}):
             row = tuple(value if n == j else x for n, x in enumerate(ours[i]))
-            place = f"Row {i + 1}, column {j + 1} of the matrix (counted from 1)"
-            yield Cause("", f"{place} is {value:.6g}, not {right:.6g}"), changed(i, row), divides
+            yield cause_of_element(i, j, value, right), changed(i, row), divides
 
 
 def causes_by_rows(ways, theirs, digits, comparison):

@@ -98,12 +98,11 @@ class Stack:
 
     def is_lost(self):
         """True if a push that comes now saves nothing."""
-        was_push = self.last_of_stack == "push"
-        return {
+        was_push, saved = self.last_of_stack == "push", bool(self.saved)
+        return self.kind in ("ignored", "one count") or {
             "adjacent lost": self.last == "push", "every other lost": was_push and not self.was_lost,
-            "all but first lost": was_push, "nested lost": bool(
-                self.saved), "ignored": True, "one count": True, "one transform": bool(self.rest)}.get(
-                    self.kind, False)
+            "all but first lost": was_push, "nested lost": saved, "one transform": bool(self.rest)}.get(
+                self.kind, False)
 
     def moved_to(self, matrix):
         self.matrix = matrix

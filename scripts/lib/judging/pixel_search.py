@@ -17,6 +17,9 @@ SAMPLE_ROWS = 8
 NEARLY, LEAST_NEARLY = 8, 8
 LOST = 0.9  # the share of a triangle's pixels that must look as without it, to call it missing
 LEAST_HOLES = 5  # on common edges: fewer may be an accident of rounding
+BY_THE_RIGHT = "by the right numbers, which are not those of stage3.txt"
+BY_READING = {
+    "memory": ["by the exact numbers, kept in memory"], "right": [BY_THE_RIGHT], "right text": [BY_THE_RIGHT]}
 GIVEN_UP = "the search for a cause was given up: it would take too many steps"
 LEAST_PIXELS_OF_OTHERS = 3  # that other triangles than the largest must show, to call one color a mistake
 
@@ -62,7 +65,10 @@ def finding_of(context):
 def by_mistakes(context, rows, best):
     """The Finding of one mistake, of several triangles that are missing, or of two mistakes."""
     if found := by_mistake(context, rows):
-        return with_triangle(context, best, found)
+        other = without_triangles(context, best, 0)
+        if other and len(other.mismatch.rule.without) == 1:  # which explains as much
+            found.causes += other.causes
+        return found
     some = filter(None, (without_triangles(context, best,
                                            len(best.pixels) // NEARLY), by_most_pixels(context, rows, best)))
     return min(some, key=lambda one: len(one.mismatch.pixels), default=None) or by_two_mistakes(context, rows)
@@ -83,10 +89,7 @@ def exact(mismatch, shown):
     if has_one_color and len(shown.own_colors) > 1:
         return None  # most pixels of each triangle have the color of one that hides it
     finding = Finding("exact", mismatch, rule_in_words(mismatch.rule))
-    if mismatch.reading == "memory":
-        finding.remarks.append("by the exact numbers, kept in memory")
-    if mismatch.reading.startswith("right"):
-        finding.remarks.append("by the right numbers, which are not those of stage3.txt")
+    finding.remarks += BY_READING.get(mismatch.reading, [])
     if has_one_color:
         finding.verdict, finding.touches = "mistake", ("picture",)
         finding.causes = [cause_of("zbuf/one-color")]
@@ -134,14 +137,11 @@ def everything_explained(context, reading, rule, rows):
     """The Mismatch, empty, of a mistake that explains all, draws something, and has no more doubtful pixels
     than it explains; else None. `rows` are looked at first."""
     mismatch = context.explained(reading, rule, rows)
-    is_one = mismatch and mismatch.drawn and mismatch.doubtful <= len(context.plain.pixels)
-    return mismatch if is_one and has_enough_holes(context, reading, rule) else None
-
-
-def has_enough_holes(context, reading, rule):
-    """True if the rule leaves no holes on edges, or enough of them to be no accident."""
-    return not rule.is_strict or len(
-        context.compare(reading, dataclasses.replace(rule, is_strict=False)).pixels) >= LEAST_HOLES
+    if not (mismatch and mismatch.drawn and mismatch.doubtful <= len(context.plain.pixels)):
+        return None
+    without_holes = dataclasses.replace(rule, is_strict=False)
+    has_holes = not rule.is_strict or len(context.compare(reading, without_holes).pixels) >= LEAST_HOLES
+    return mismatch if has_holes else None
 
 
 def by_two_mistakes(context, rows):
@@ -171,14 +171,6 @@ def by_most_pixels(context, rows, best):
             if mismatch.drawn and NEARLY * len(mismatch.pixels) <= len(best.pixels) and not mismatch.has_rows:
                 found.setdefault(names, mismatch)
     return mistake(context, found) if found else None
-
-
-def with_triangle(context, best, found):
-    """A Finding with another possible cause: that one triangle is missing."""
-    other = without_triangles(context, best, 0)
-    if other and len(other.mismatch.rule.without) == 1:
-        found.causes += other.causes
-    return found
 
 
 def without_triangles(context, best, limit):

@@ -1,6 +1,4 @@
 """The words for rules of stage 4, for pixels that differ and for their places."""
-import collections
-
 DIFFERENCES = {
     "extra": "a pixel that no triangle covers",
     "missing": "a pixel that triangle {} covers is empty",
@@ -35,20 +33,16 @@ def end_in_words(rule):
 
 def border_rule_in_words(mismatch, pixels):
     """The pixels in which another rule at the borders differs."""
-    kinds = collections.Counter(mismatch.pixels.values())
-    shapes = kinds["extra"] + kinds["missing"]
     others = {
         place
         for place, kind in mismatch.pixels.items()
         if kind in ("depth", "other") and mismatch.shows_another(place, pixels)}
     offsets = [offset for place, offset in mismatch.offsets.items() if place not in others]
-    parts = [
-        f"{kinds[kind]:,} {words}" for kind, words in (("extra", "more"), ("missing", "fewer"))
-        if kinds[kind]]
-    words = []
+    words, shapes = [], mismatch.count("extra", "missing")
     if shapes:
-        words.append(f"{AT_BORDERS}: {counted(shapes, 'pixel')} of {mismatch.drawn:,} "
-                     f"({', '.join(parts)})")
+        counts = (mismatch.count("extra"), "more"), (mismatch.count("missing"), "fewer")
+        parts = ", ".join(f"{count:,} {word}" for count, word in counts if count)
+        words.append(f"{AT_BORDERS}: {counted(shapes, 'pixel')} of {mismatch.drawn:,} ({parts})")
     if others:
         words.append(f"{len(others):,} of {mismatch.drawn:,} show another triangle where triangles meet")
     if offsets:
