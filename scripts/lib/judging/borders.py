@@ -1,5 +1,5 @@
-"""Another rule at the borders: each pixel that differs has to show what lies within REACH of it, across an
-edge or the line where two triangles meet."""
+"""Another rule at the borders: each pixel that differs has to show a triangle or the background that lies
+within REACH of it, across an edge or the line where two triangles meet."""
 import collections
 import functools
 import math

@@ -1,8 +1,8 @@
 """The 4 x 4 matrix that takes one list of points to another, fitted by least squares, and how it compares
 with ours.
 
-A matrix is shown only if the points determine it: what their rounding leaves uncertain is found by fitting
-again with the numbers moved within their last digit."""
+A matrix is shown only if the points determine it: fits to numbers that are moved within their last digit show
+how far rounding leaves it uncertain."""
 import dataclasses
 import math
 import random
@@ -140,7 +140,7 @@ def fitted(before, after, is_divided):
 
 
 def scaled_like(m, ours):
-    """A matrix known up to a factor, with the factor that makes most elements those of ours."""
+    """A matrix known up to a factor, scaled so that most elements equal ours."""
     ratios = [
         b / a for row, other in zip(m, ours) for a, b in zip(row, other) if abs(b) > 1e-9 and abs(a) > 1e-12]
 
@@ -162,7 +162,7 @@ def misses(m, before, after, units, is_divided):
 
 def compare(before, after, units, ours, is_divided):
     """The Comparison of the matrix from `before` to `after` with ours; a NoMatrix if none comes near the
-    points, and None if they do not determine it. `units` are those of `after`."""
+    points, and None if they do not determine it. `units` belong to `after`."""
     step = max(1, len(before) // MOST_POINTS)
     chosen = [i for i in range(0, len(before), step) if all(map(math.isfinite, after[i]))]
     before, after, units = ([values[i] for i in chosen] for values in (before, after, units))

@@ -6,7 +6,7 @@ import re
 from lib.rim.command import shown
 from lib.rim.input_file import InputError, read_input
 
-# The kinds of files, their first name in the assignment, and what other names look like, in lower case
+# The kinds of files, their first name in the assignment, and a pattern for other names, in lower case
 # without - _ and blanks; a student's number may stand before or after the name.
 KINDS = {
     **{f"stage{i}": (f"stage{i}.txt", re.compile(rf"\d*stage{i}\d*\.txt"))

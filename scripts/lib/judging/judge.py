@@ -1,9 +1,9 @@
 """The judge: the verdicts on a hand-in, stage by stage.
 
-Each stage is judged by the numbers that it may have read, those of the stage's file before it or the exact
-ones in memory, so that a mistake counts once. A stage is right if it reproduces the numbers under any
-combination of what the assignment leaves open; else wrong by the mistake that reproduces them; else, in stage
-4, by another rule at the borders; else wrong without a cause.
+Each stage is judged by the numbers that it may have read, from the file of the stage before it or, exact,
+from memory, so that a mistake counts once. A stage is right if any combination of the rules that the
+assignment leaves open reproduces its numbers; else wrong by the mistake that does; else, in stage 4, right by
+another rule at the borders; else wrong without a cause.
 """
 from lib.judging.digits import of_one_program
 from lib.judging.hand_in import STAGE_OF, File
@@ -29,7 +29,7 @@ STAGES = (("stage1", "model"), ("stage2", "view"), ("stage3", "project"))
 def judge(files, scene, config=None):
     """The Verdict on a hand-in: `files` are its Files by kind (hand_in.find_files), `scene` and `config` the
     bytes of those files. Without a config the first three stages are judged. Raises a JudgeError if there is
-    nothing to judge by; whatever a file of the hand-in holds only costs that file its verdict."""
+    nothing to judge by; a bad file of the hand-in only spoils its own verdict."""
     return HandIn(files, reference(scene, config), kinds_of(config)).judge()
 
 
@@ -59,7 +59,7 @@ class HandIn:
             self.add_others(kind, outcome.verdict)
             verdicts.append(outcome.verdict)
             memory, before, thin = outcome.memory, theirs, ""
-            if is_thin:  # what follows is judged as if it had not been handed in
+            if is_thin:  # the next stage is judged as if this file were missing
                 memory, before, thin = self.right_memory(stage, readings), None, name
         if "picture" in self.kinds:
             verdicts += self.pixels(before, memory, thin, all(verdict.is_good for verdict in verdicts))
@@ -82,7 +82,7 @@ class HandIn:
         outcome = stage_outcome(self.ours, stage, name, theirs, readings, self.clipped(stage, readings))
         failed = [verdict for verdict in verdicts if not verdict.is_good]
         if outcome.verdict.verdict == WRONG and failed:
-            # A program may write other numbers into a file than it goes on with.
+            # A program may write other numbers into a file than it keeps in memory.
             right = [Reading.exact(self.ours.exact["model" if stage == "view" else "view"])]
             by_right = stage_outcome(self.ours, stage, name, theirs, right, self.clipped(stage, right))
             if by_right.verdict.verdict in GOOD:
@@ -164,7 +164,7 @@ class HandIn:
     # stage 4
     def pixels(self, stage3, memory, thin, is_right):
         """The FileVerdicts of the depths and of the picture. `thin` names a stage3.txt of too few points,
-        `is_right` tells whether all stages before are right."""
+        `is_right` is True if all stages before are right."""
         depths = self.read("depths", read_depths)
         colors = self.colors(self.ours.window.width, self.ours.window.height)
         exchanged = colors is None and self.exchanged_colors()

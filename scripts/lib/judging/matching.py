@@ -107,7 +107,7 @@ def reordered(written, right, is_same):
 
 def causes_at_vertices(result, count, is_right_at, causes_at):
     """The causes if each triangle is wrong at one or two vertices of its three, and the others are right.
-    `result` is what differs in `count` triangles; `is_right_at` tells of a slice of the points whether all
+    `result` lists the differences in `count` triangles; `is_right_at` is True for a slice of points that
     are right, `causes_at` explains slices."""
     wrong = [k for k in range(3) if not is_right_at(VERTICES[k])]
     counts = [len({i for i, *_ in result if i % 3 == k}) for k in wrong]

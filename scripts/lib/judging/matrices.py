@@ -1,5 +1,5 @@
-"""4 x 4 matrices in doubles, as a student's program has them: those of the three stages, right or with one
-mistake."""
+"""4 x 4 matrices in doubles, as in a student's program: the matrices of the three stages, right or with
+mistakes."""
 import math
 
 from lib.maths.vectors import cross as right_cross
@@ -67,8 +67,8 @@ def scaling(factors):
 
 
 def rotation(radians, axis, factors=lambda c, s: (c, 1 - c, s)):
-    """Rodrigues' formula; `axis` should be a unit vector. `factors` makes those of its terms from cosine and
-    sine."""
+    """Rodrigues' formula; `axis` should be a unit vector. `factors` makes the factors of its terms from
+    cosine and sine."""
     of_x, of_axis, of_side = factors(math.cos(radians), math.sin(radians))
     images = []
     for x in (row[:3] for row in IDENTITY[:3]):
@@ -116,7 +116,7 @@ TWO_SPELLINGS = ("up-as-given", "l-not-unit", "r-not-unit", "near-left-out")  # 
 
 # project
 def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistakes=(), pi=math.pi, spelling=0):
-    """The matrix of project; `mistakes` and `spelling` are those of view_matrix."""
+    """The matrix of project; `mistakes` and `spelling` as for view_matrix."""
     radian = 1.0 if "fov-in-radians" in mistakes else pi / 180
     of_tangent = 0.5 if "tangent-halved" in mistakes else 1.0
     part = 1 if {"fov-not-halved", "tangent-halved"} & {*mistakes} else 2
@@ -132,7 +132,7 @@ def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistakes=(), pi
 
 
 def projection_matrix(window, near, far, mistakes=()):
-    """The matrix of a perspective or a frustum. `window` has the scale and the shift of x, and those of y."""
+    """The matrix of a perspective or a frustum. `window` has the scale and the shift of x, then of y."""
     if "near-and-far-swapped" in mistakes:
         near, far = far, near
     z_row = (0.0, 0.0, -(far + near) / (far - near),

@@ -30,12 +30,12 @@ class Habit:
     """How a program carries out the commands. The defaults are right."""
     order: str = "right"  # on which side of the matrix a transform is multiplied: right, left, left
     #                                 if it is a rotation, or neither
-    stack: str = "nested"  # what push and pop do
+    stack: str = "nested"  # how push and pop work
     radians: object = math.radians  # of degrees
-    axis: object = normalized  # what becomes of the axis of a rotation
+    axis: object = normalized  # made of the axis of a rotation
     form: object = rotation  # makes a matrix of radians and an axis
-    after: object = tuple  # what becomes of that matrix
-    offset: str = ""  # added, put: what becomes of the matrix's last column at `translate`
+    after: object = tuple  # made of that matrix
+    offset: str = ""  # added, put: how `translate` changes the matrix's last column
 
     def turn(self, degrees, axis):
         """The matrix of a rotation."""

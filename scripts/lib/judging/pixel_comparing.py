@@ -10,7 +10,7 @@ from lib.judging import pixel_rules
 from lib.judging.raster import Drawing, Grid, Rule, Triangles, spend
 from lib.judging.shown import DEPTH_BASE
 
-PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else they could show
+PIXELS_LOOKED_AT = 30_000  # the most differing pixels that are checked for all they could show
 # Pixels of triangles and spans that are looked at, in the search for a cause and for the rules that are open.
 # They are counted: seconds would make a verdict depend on the machine.
 MOST_WORK, MOST_OPEN_WORK = 10_000_000, 60_000_000
@@ -24,7 +24,7 @@ class Mismatch:
     reading: str
     pixels: dict = dataclasses.field(default_factory=dict)
     drawn: int = 0  # pixels with a triangle, by the rule
-    doubtful: int = 0  # pixels whose shape is that of the hand-in only as far as the rule is uncertain
+    doubtful: int = 0  # pixels whose shape is the hand-in's only within the rule's uncertainty
     areas: collections.Counter = dataclasses.field(default_factory=collections.Counter)  # these by triangle
     offsets: dict = dataclasses.field(default_factory=dict)  # of depths, at these pixels
     colors: dict = dataclasses.field(default_factory=dict)  # of each triangle, by the majority of its pixels
@@ -166,7 +166,7 @@ class Attempt:
         return self.budget > 0 and self.could_show(*pixel)
 
     def differences(self, row, drawn_row=None):
-        """(column, kind) of what a row shows that the rule does not explain, colors aside. `drawn_row` is
+        """(column, kind) of each pixel of a row that the rule does not explain, colors aside. `drawn_row` is
         the one of the drawing."""
         owner, depth, columns = drawn_row or self.drawing.row(row)
         spend(self.drawing.work, self.width)

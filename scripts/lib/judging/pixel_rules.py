@@ -1,5 +1,5 @@
-"""The rules of stage 4 to try: what the assignment leaves open, and the mistakes that are made there, as
-changes of raster.Rule."""
+"""The rules of stage 4 to try, as changes of raster.Rule: the choices that the assignment leaves open, and
+the mistakes that programs make."""
 import itertools
 
 from lib.judging.raster import COLUMNS, FLAT_ROW, FLAT_TRIANGLE
@@ -24,7 +24,7 @@ def flipped(how):
 
 
 # {mistake, or several at once: the ways to make it, in the order to try}. A way that does less than the
-# mistake's sentence says comes after all others.
+# mistake's sentence claims comes after all others.
 WAYS = {
     "no-half-pixel-in-x": [{"half_x": False}],
     "no-half-pixel-in-y": [{"half_y": False}],
@@ -88,7 +88,7 @@ def can_matter(changes, window, shown):
 
 
 def open_rules(window, readings, has_depths):
-    """(rank, changes) of what the assignment leaves open, the usual rules first; rules of depth only where
+    """(rank, changes) of the rules that the assignment leaves open, the usual ones first; of depth only where
     they can make a difference."""
     dx = -2 * float(window.left)
     is_beyond = any(abs(p[0]) > dx / 2 for points, _ in readings.values() for p in points)

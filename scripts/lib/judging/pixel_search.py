@@ -103,7 +103,7 @@ def spread(values, count):
 
 
 def sample_rows(context, mismatch):
-    """A few rows that tell rules apart: some with differences, some others."""
+    """A few rows that distinguish rules: some with differences, some without."""
     wrong = sorted({row for row, _ in mismatch.pixels})
     pixels = context.shown.pixels()
     filled = [

@@ -21,7 +21,7 @@ PRINTED = "pixels without a triangle are printed"
 
 
 def pixel_readings(stage3, memory, right_ndc):
-    """{name: (points, units)} of what a program may have drawn: the file, the numbers in memory, and the
+    """{name: (points, units)} of all that a program may have drawn: the file, the numbers in memory, and the
     right ones, also as a text has them after three roundings, if its stages are not."""
     readings = {}
     if stage3 is not None:
@@ -37,13 +37,13 @@ def pixel_readings(stage3, memory, right_ndc):
 
 class PixelStage:
     """Judges depths and picture. `thin` names a stage3.txt that holds too little to judge by; `borders_first`
-    is that of judge.HandIn."""
+    is described at judge.HandIn."""
     def __init__(self, ours, files, readings, thin, borders_first):
         self.ours, self.files, self.readings, self.thin = ours, files, readings, thin
         self.borders_first = borders_first
 
     def verdicts(self, depths, colors):
-        """{kind: FileVerdict} of what could be read; each of the two may be None."""
+        """{kind: FileVerdict} of the files that could be read; either may be None."""
         verdicts = {}
         if self.ours.has_own_colors and colors is not None:
             verdicts["picture"], colors = self.verdict_of_colors(colors), None
@@ -98,7 +98,7 @@ class PixelStage:
         return verdicts, best.mismatch
 
     def verdicts_of_exchanged(self, depths, colors):
-        """The verdicts, if the picture's rows are our columns; those of the text may be, too."""
+        """The verdicts, if the picture's rows are our columns; the rows of the text may be, too."""
         kinds = ["picture"]
         if depths is not None:
             shown = Shown(colors, depths, self.ours.window, self.is_uncovered)

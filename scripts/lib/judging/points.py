@@ -80,7 +80,7 @@ def printed_tolerance(p, digits):
 
 
 def is_off(a, b, tolerance):
-    """True if a differs from b; whatever is not finite on our side decides nothing."""
+    """True if a differs from b; a number of ours that is not finite decides nothing."""
     return math.isfinite(b) and abs(a - b) > tolerance
 
 

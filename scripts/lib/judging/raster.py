@@ -1,7 +1,7 @@
 """Draws triangles row by row under any combination of the rules that the assignment leaves open, and of
 mistakes.
 
-Every span of a row knows how uncertain its ends and depths are, since the numbers in a text are rounded: a
+Every span of a row carries the uncertainty of its ends and depths, since the numbers in a text are rounded: a
 pixel whose owner depends on that may show either."""
 import dataclasses
 import functools
@@ -316,7 +316,7 @@ class Drawing:
 
     def could_show(self, row, column, tolerance):
         """All that a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of
-        depths; the triangle -1 stands for none. `tolerance` is that of a depth."""
+        depths; the triangle -1 stands for none. `tolerance` is a depth's."""
         sure, possible, unsure, spans, center = [], [], [], self.reach(row), column - self.rule.shift[0]
         spend(self.work, len(spans))
         for span, (least, most), (first, last), (at_0, slope) in spans:

@@ -43,7 +43,7 @@ class Reference:
         self.has_own_colors = any(keyword in self.header for keyword in OWN_COLORS)
 
     def accepted(self, data):
-        """The scene's text and what model makes of it."""
+        """The scene's text and the output of model for it."""
         text = text_of(data, "the scene")
         try:
             return text, self.tools.output("model", *EXACT, stdin=data)
@@ -158,7 +158,7 @@ def without_old_lines(text):
     lines = text.split("\n")
     filled = [(i, words) for i, line in enumerate(lines) if (words := line.split("#")[0].split())]
     head = [*itertools.takewhile(lambda line: not is_word(line), filled)]
-    dropped = {i for i, words in head if len(words) == 2}  # the size; the background is the line behind it
+    dropped = {i for i, words in head if len(words) == 2}  # the size; the background is the line after it
     if len(head) > 5:
         dropped |= {i for (_, size), (i, _) in zip(head, head[1:]) if len(size) == 2}
     for (_, word), *numbers in zip(*(filled[len(head) + k:] for k in range(5))):

@@ -1,4 +1,4 @@
-"""A scene that `model` has accepted: its camera, its commands, and what it becomes in world space, right or
+"""A scene that `model` has accepted: its camera, its commands and its points in world space, right or
 with one mistake."""
 import itertools
 import math

@@ -49,7 +49,7 @@ def read_depths(data, name):
 
 
 def read_colors(data, name, size, background):
-    """Rows of colors, three bytes each; what is transparent shows the background. Raises a PictureError, also
+    """Rows of colors, three bytes each; transparent pixels show the background. Raises a PictureError, also
     if the picture has another size (width, height)."""
     rows = picture_of(data, name, background, size)[2]
     return [[row[i:i + 3] for i in range(0, 3 * size[0], 3)] for row in rows]
@@ -85,8 +85,8 @@ class Pixels:
 
 
 class Shown:
-    """A hand-in's picture (rows of colors, or None) and Depths (or None). `is_uncovered` makes rows that tell
-    for each pixel whether no triangle covers it."""
+    """A hand-in's picture (rows of colors, or None) and Depths (or None). `is_uncovered` makes rows with
+    True for each pixel that no triangle covers."""
     def __init__(self, colors, depths, window, is_uncovered):
         self.colors, self.depths, self.made = colors, depths, {}
         self.width, self.height, self.rear = width, height, rear = window.width, window.height, float(
@@ -182,7 +182,7 @@ class Shown:
         return FLIPS[flip](rows)
 
     def aligned(self, drawn, listed):
-        """The depth of each pixel of a row, None where none is drawn; or None if the numbers do not tell."""
+        """The depth of each pixel of a row, None where none is drawn; or None if it is not determined."""
         if self.is_full:
             return [None if self.empty is not None and z >= self.empty else z for z in listed]
         if drawn is None or sum(drawn) != len(listed):

@@ -113,8 +113,8 @@ def count_verdict(ways, name, theirs, expected, digits):
 
 
 def causes_of_triangles(theirs, expected, digits, matched):
-    """The cause that a function of `matching` finds in the triangles of a text beside those of one of the
-    lists expected; a list of at most one."""
+    """The cause that a function of `matching` finds in the triangles of a text beside one of the lists
+    expected; a list of at most one."""
     written, *right = ([points[i:i + 3] for i in range(0, len(points), 3)]
                        for points in map(list, (theirs.points, *expected)))
     texts = (matched(written, triangles, lambda one, other: not differs(one, digits, other))

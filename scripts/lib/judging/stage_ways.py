@@ -107,7 +107,7 @@ class MatrixWays:
     def __init__(self, stage, scene, readings, right):
         self.stage, self.scene, self.readings = stage, scene, readings
         _, self.ours, self.divides = right[0]
-        # what cancels in the matrix
+        # the rounding of numbers that cancel in the matrix
         self.reach = ROUNDING * math.hypot(*scene.eye) if stage == "view" else 0.0
         self.right = [self.way(Cause("", rule), m, is_divided) for rule, m, is_divided in right]
 

@@ -50,8 +50,7 @@ class FileVerdict:
     file: str  # as its author named it
     verdict: str  # one of the words above
     rule: str = ""  # the other rule, in words
-    causes: list = dataclasses.field(
-        default_factory=list)  # of Cause; more than one if the numbers cannot tell them apart
+    causes: list = dataclasses.field(default_factory=list)  # several if the numbers do not distinguish them
     remarks: list = dataclasses.field(default_factory=list)
     differing: int = None  # how many numbers or pixels
     compared: int = 0
@@ -60,11 +59,11 @@ class FileVerdict:
     first: str = ""  # the first one
     matrices: object = None  # a lib.judging.fit.Comparison
     places: list = dataclasses.field(default_factory=list)  # (row, column) of the pixels that differ
-    worth: float = 1.0  # what another rule earns, of the points of a right file
+    worth: float = 1.0  # the share of a right file's points that another rule earns
 
     @property
     def shown_count(self):
-        """How many differ, if that says something: a cause that explains every pixel leaves none."""
+        """How many differ; None if a cause explains every pixel, which leaves none."""
         return None if self.verdict == WRONG and self.differing == 0 else self.differing
 
     @property
