@@ -13,7 +13,7 @@ import shlex
 import unittest
 
 import toolbox
-from toolbox import BIN, SOURCE, ToolTest, add_claims, run
+from toolbox import BIN, SOURCE, ToolTest, add_claims, alternatives, run
 
 
 @dataclasses.dataclass
@@ -51,9 +51,8 @@ CASES, TEXTS = read_cases()
 
 def ways(case):
     """(command, input as bytes) with each of the alternatives {a|b} of both."""
-    parts = re.split(r"\{([^{}|]*(?:\|[^{}|]*)+)\}", f"{case.command}\0{case.input}")
-    for way in itertools.product(*(part.split("|") if i % 2 else [part] for i, part in enumerate(parts))):
-        command, text = "".join(way).split("\0")
+    for way in alternatives(f"{case.command}\0{case.input}"):
+        command, text = way.split("\0")
         texts = {**TEXTS, "HEADER": toolbox.HEADERS.get(tool_of(command.split(" | ")[-1]), "")}
         yield command, with_texts(text, texts).encode("latin-1").decode("unicode_escape").encode("latin-1")
 

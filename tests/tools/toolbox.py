@@ -2,6 +2,7 @@
 
 A test script takes the folder of the binaries, then unittest's own arguments.
 """
+import itertools
 import os
 import pathlib
 import re
@@ -139,6 +140,13 @@ class ToolTest(unittest.TestCase):
 
     def files(self):
         return sorted(os.listdir("."))
+
+
+def alternatives(text):
+    """The texts with one of the parts of each {a|b}."""
+    parts = re.split(r"\{([^{}|]*(?:\|[^{}|]*)+)\}", text)
+    ways = (part.split("|") if i % 2 else [part] for i, part in enumerate(parts))
+    return ["".join(way) for way in itertools.product(*ways)]
 
 
 def add_claims(case, rows):
