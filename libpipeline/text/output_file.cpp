@@ -44,11 +44,12 @@ bool has_status(const std::string& path, struct stat& status) {
 /// The end of the chain of symbolic links that begins at `path`, whether or not a file exists there.
 std::string target_of(const std::string& path) {
   constexpr int kMaxLinks = 40;  // the kernel's limit
-  std::filesystem::path target = path;
+  std::string target = path;
   std::error_code error;
   for (int i = 0; i <= kMaxLinks; ++i) {
     if (own_descriptor_of(target) != kNone || !std::filesystem::is_symlink(target, error)) return target;
-    target = target.parent_path() / std::filesystem::read_symlink(target, error);
+    const std::filesystem::path folder = std::filesystem::path(target).parent_path();
+    target = (folder / std::filesystem::read_symlink(target, error)).string();
     if (error) throw IoError("open", path, error.value());
   }
   throw IoError("open", path, ELOOP);
@@ -99,6 +100,11 @@ bool remove_unfinished() noexcept {
 
 std::optional<FilePlace> place_of(const std::string& path) {
   if (path.empty()) return std::nullopt;
+#ifdef _WIN32  // there, stat() numbers no files
+  if (!is_replaced(path)) return std::nullopt;
+  std::string canonical = std::filesystem::absolute(path).string();
+  return FilePlace{0, 0, ::_strlwr(canonical.data())};
+#endif
   struct stat status = {};
   std::string target = path;
   if (has_status(path, status) || has_status(target = target_of(path), status))
@@ -147,12 +153,12 @@ void OutputFile::open_directly(int own_descriptor) {
 
 std::string OutputFile::temporary_name(int attempt) const {
   const std::string name = ".pipeline-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
-  return std::filesystem::path(target_).parent_path() / name;
+  return target_.substr(0, target_.size() - std::filesystem::path(target_).filename().native().size()) + name;
 }
 
 /// Opens a file that has no name yet; false where the system does not support it. Its name is linked later,
 /// through /proc.
-bool OutputFile::open_unnamed(const std::string& folder, unsigned mode) {
+bool OutputFile::open_unnamed([[maybe_unused]] const std::string& folder, [[maybe_unused]] unsigned mode) {
 #ifdef O_TMPFILE
   if (::access("/proc/self/fd", X_OK) != 0) return false;
   descriptor_ = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);
@@ -182,7 +188,7 @@ void OutputFile::make_temporary(const std::function<bool(const std::string&)>& m
 }
 
 void OutputFile::open_beside(bool exists, unsigned mode) {
-  const std::string folder = std::filesystem::path(target_).parent_path();
+  const std::string folder = std::filesystem::path(target_).parent_path().string();
   if (!open_unnamed(folder.empty() ? "." : folder, mode))
     make_temporary([&](const std::string& name) {
       descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);

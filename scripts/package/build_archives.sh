@@ -30,13 +30,14 @@ configure x86_64
 cmake --build x86_64
 configure aarch64 -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++
 cmake --build aarch64 --target all-tools
+sh /src/scripts/package/build_windows.sh windows
 
 cmake --install x86_64 --prefix /build/installed
 [ -s installed/share/doc/pipeline/THIRD-PARTY ]  # else cmake has named the parts without a license
 put_program x86_64 strip installed
 (cd x86_64 && cpack -D CPACK_INSTALL_CMAKE_PROJECTS= -D "CPACK_INSTALLED_DIRECTORIES=/build/installed;/usr" \
   -D CPACK_DEBIAN_COMPRESSION_TYPE=xz -B /build/deb)
-cp deb/*.deb out/
+cp deb/*.deb windows/*.zip out/
 # The archives have no library.
 rm -r installed/include installed/lib
 for arch in x86_64 aarch64; do cp -a installed "pack/pipeline-$version-linux-$arch"; done

@@ -351,7 +351,7 @@ std::optional<std::string> CommandLine::parse(int argc, char** argv) {
   if (argc < 2) return std::nullopt;
   app_ = std::make_unique<CLI::App>(tool_.purpose, tool_.name);
   const auto help_form = std::make_shared<HelpForm>(tool_, usage_);
-  app_->formatter(help_form);
+  app_->formatter(help_form)->allow_windows_style_options(false);  // there, too, /tmp/scene.txt is a file
   app_->get_help_ptr()->group(kLastGroup)->description("Print this help and exit; --help-all: all of it");
   app_->option_defaults()->group(kLastGroup);
   app_->set_version_flag("--version", version_, "Print the version and exit");
