@@ -96,8 +96,9 @@ class Frames:
         self.lines = {
             words[0]: " ".join(words).strip()
             for words in zip(self.names, self.views, self.projections)}
-        self.source = hashlib.sha256(scene.world + b"\0" + scene.config + b"\0" +
-                                     " ".join([drawing, *drawing_words]).encode()).hexdigest()
+        stages = ["view", *re.findall(r"stage (\w+)", drawing)]
+        words = tools.fingerprint(stages, drawing, *drawing_words).encode()
+        self.source = hashlib.sha256(scene.world + b"\0" + scene.config + b"\0" + words).hexdigest()
 
     def list_of(self, lines):
         return "".join(line + "\n" for line in [self.source, *lines]).encode()

@@ -20,7 +20,7 @@ import zlib
 from lib.showing.pictures import png_chunks, read_picture, unfiltered
 from random_scene import scene_of_parts as scene
 from ssh_server import SshServer
-from toolbox import BIN, SOURCE, ToolTest, pipe, run, run_script
+from toolbox import BIN, SOURCE, ToolTest, pipe, run, run_script, tools_with
 
 FARM = SOURCE / "scripts/farm"
 SETTINGS = ([], ["--coverage", "center", "--samples", "2"], [
@@ -32,7 +32,8 @@ PATIENCE = 240  # seconds, far more than anything here takes
 # A model that waits, so that a job can be killed in its midst, however fast or slow the machine is. It leaves
 # word where it began; without its part, too.
 HOLD = ('for file; do :; done; [ -e "$file" ] || pwd >> {0}/without-part; echo $$ "$PWD" > '
-        '"{0}/began-${{file#parts/}}"; while [ -e "$file" ] && [ ! -e {0}/go ]; do sleep 0.05; done')
+        '"{0}/began-${{file#parts/}}"; while [ -e "$file" ] && [ ! -e {0}/go ]; do sleep 0.05; done; '
+        'exec $real "$@"')
 
 
 def setUpModule():  # noqa: N802
@@ -80,16 +81,6 @@ class FarmTest(ToolTest):
         super().setUp()
         pathlib.Path("config.txt").write_text("50 40\n")
         self.bin = BIN
-
-    def use_slow_tools(self, script, slow):
-        """Tools of which one first runs a script."""
-        self.bin = pathlib.Path("slow").absolute()
-        shutil.rmtree(self.bin, ignore_errors=True)
-        self.bin.mkdir()
-        for name in {"model", "view", "project", "zbuf", "cut-scene", "join-seen"} - {slow}:
-            (self.bin / name).symlink_to(BIN / name)
-        (self.bin / slow).write_text(f'#!/bin/sh\n{script}\nexec {BIN}/{slow} "$@"\n')
-        (self.bin / slow).chmod(0o755)
 
     def words(self, settings, *more):
         return [FARM, "scene.txt", "config.txt", *settings, "-o", "farm.ppm", "--z-buffer", "farm.txt", *more]
@@ -150,7 +141,7 @@ class Local(FarmTest):
 
     def test_a_killed_worker(self):
         self.expect([], True)
-        self.use_slow_tools(HOLD.format(pathlib.Path.cwd()), "model")
+        self.bin = tools_with("model", HOLD.format(pathlib.Path.cwd()))
         process = self.start([], "--parts", "4", "--keep", "--", "--jobs", "2")
         output, worker = begun(process, 2).popitem()
         os.kill(worker, signal.SIGKILL)
@@ -158,8 +149,9 @@ class Local(FarmTest):
 
     def test_a_second_run_does_what_is_left(self):
         self.expect([], True)
-        self.use_slow_tools(
-            f'case "$*" in *parts/3.txt) [ -e {pathlib.Path.cwd()}/mended ] || exit 3 ;; esac', "model")
+        self.bin = tools_with(
+            "model", f'case "$*" in *parts/3.txt) [ -e {pathlib.Path.cwd()}/mended ] || exit 3 ;; esac\n'
+            'exec $real "$@"')
         done = self.farm([], "--parts", "5", "--", "--jobs", "1")
         self.assertEqual(done.returncode, 1)
         self.assertIn("farm: no picture: 1 of 5 parts are missing: seen-0-3.txt: model: exit status 3; ",
@@ -171,8 +163,12 @@ class Local(FarmTest):
         self.check([], "--parts", "5", "--keep")
         after = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("farm.ppm.farm").glob("seen*")}
         self.assertEqual({name: after[name] for name in before}, before)
-        # Another scene is drawn anew.
+        # Another scene is drawn anew, and the same one by other tools.
         self.expect([], False)
+        self.check([], "--parts", "5", "--keep")
+        self.bin = tools_with("project", 'exec $real --cull front "$@"')
+        self.assertEqual(self.farm([], "--parts", "5", "--keep").returncode, 0)
+        self.assertNotEqual(pathlib.Path("farm.txt").read_bytes(), self.expected[0])
         self.bin = BIN
         self.check([], "--parts", "5")
 
@@ -240,7 +236,7 @@ class OtherMachines(FarmTest):
             "w4": listener.getsockname()[1]})
         hosts = ["--", *server.words, "--sshlogin", "1/w1,1/w2,1/w3,1/w4"]
         self.expect(SETTINGS[1], True)
-        self.use_slow_tools(HOLD.format(pathlib.Path.cwd()), "model")
+        self.bin = tools_with("model", HOLD.format(pathlib.Path.cwd()))
         process = self.start(SETTINGS[1], "--parts", "4", "--keep", *hosts)
         (one, first), (two, second), *_ = begun(process, 2, ("w1", "w2")).items()
         connection = next(i for i, name in ancestors(first) if name.startswith("sshd"))

@@ -16,7 +16,7 @@ import unittest
 from unittest import mock
 
 from ssh_server import SshServer
-from toolbox import BIN, SOURCE, ToolTest, pipe, run
+from toolbox import BIN, SOURCE, ToolTest, pipe, run, run_script, tools_with
 
 FILM = SOURCE / "scripts/film"
 ENVIRONMENT = {**os.environ, "BIN": str(BIN)}
@@ -212,15 +212,19 @@ class Interruptions(FilmTest):
             self.make(*words)
             self.assertEqual(frames("out"), older)
 
-    def test_frames_of_another_scene_or_way_are_drawn_anew(self):
+    def test_frames_of_another_scene_or_way_or_of_other_tools_are_drawn_anew(self):
         self.make("--turn", "1", "--fps", "4", "-o", "out")
         first = frames("out")
         pathlib.Path("scene.txt").write_text(SCENE.replace("0 0.5 -2", "0 0.9 -2"))
         self.make("--turn", "1", "--fps", "4", "-o", "out")
         second = frames("out")
         self.assertNotEqual(first, second)
-        self.make("--turn", "1", "--fps", "2", "-o", "out")
+        words = ["--turn", "1", "--fps", "2", "-o", "out"]
+        self.make(*words)
         self.assertEqual(list(frames("out").values()), [second["00000.png"], second["00002.png"]])
+        with mock.patch.dict(ENVIRONMENT, BIN=str(tools_with("project", 'exec $real --cull front "$@"'))):
+            self.assertEqual(film("scene.txt", "config.txt", *words).returncode, 0)
+        self.assertNotIn(second["00000.png"], frames("out").values())
 
     def test_what_is_broken_is_made_again(self):
         self.make("--turn", "1", "--fps", "4", "-o", "out")
@@ -253,17 +257,11 @@ class Interruptions(FilmTest):
         self.assertIn("film: 9 of 9 frames have not been drawn: the first is 00000.png (--eye ", done.stderr)
 
     def test_a_frame_that_fails_ends_the_film_and_names_its_camera(self):
-        os.mkdir("bin")
-        for tool in ("model", "view", "project"):
-            os.symlink(BIN / tool, f"bin/{tool}")
-        pathlib.Path("bin/zbuf").write_text("#!/bin/sh\n"
-                                            f'case "$*" in *00010.*) ;; *) exec {BIN}/zbuf "$@"; esac\n'
-                                            "echo zbuf: so it is >&2\nexit 1\n")
-        os.chmod("bin/zbuf", 0o755)
-        words = [
-            FILM, "scene.txt", "config.txt", "--turn", "1", "--fps", "20", "-o", "out", "--", "--jobs", "1"]
-        environment = {**ENVIRONMENT, "BIN": os.path.abspath("bin")}
-        done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=240)
+        words = ["scene.txt", "config.txt", "--turn", "1", "--fps", "20", "-o", "out", "--", "--jobs", "1"]
+        tools = tools_with(
+            "zbuf", 'case "$*" in *00010.*) ;; *) exec $real "$@"; esac\n'
+            "echo zbuf: so it is >&2\nexit 1")
+        done = run_script("film", *words, env={**ENVIRONMENT, "BIN": tools})
         self.assertEqual(done.returncode, 1)
         self.assertEqual(
             done.stderr, "film: 10 of 20 frames have not been drawn: 00010 (--eye -3 1 -7 --look 0 0 "

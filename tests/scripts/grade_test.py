@@ -29,7 +29,8 @@ from grade_parts.summary import findings
 from lib.judging.mistakes import fix, sentences
 from lib.judging.verdict import Cause, FileVerdict, Verdict
 from lib.rim.command import CommandFailure
-from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pseudo_terminal, run_script
+from toolbox import (BIN, SOURCE, ToolTest, end_by_signal, heed_signals, pseudo_terminal, run_script,
+                     tools_with)
 
 SAMPLE = SOURCE / "samples/worked-example"
 FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
@@ -657,14 +658,8 @@ class Hostile(ClassTest):
         self.assertEqual(os.path.getsize("large"), 1 << 30)
 
     def test_no_judge_and_none_of_its_tools_outlives_grade(self):
-        os.mkdir("tools")
         os.mkfifo("held")
-        for tool in TOOLS:
-            os.symlink(BIN / tool, f"tools/{tool}")
-        os.unlink("tools/project")
-        pathlib.Path("tools/project").write_text('#!/bin/sh\n[ "$1" != --scene ] || exec sleep 100 > held\n'
-                                                 f'exec {BIN}/project "$@"\n')
-        os.chmod("tools/project", 0o755)
+        tools = tools_with("project", '[ "$1" != --scene ] || exec sleep 100 > held\nexec $real "$@"')
         for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
             with self.subTest(number), tempfile.TemporaryDirectory() as temporary:
                 reader, writer = os.pipe()  # which the judge inherits
@@ -673,7 +668,7 @@ class Hostile(ClassTest):
                     grade = subprocess.Popen([SOURCE / "scripts/grade", "hand-ins", "tests"], stderr=told,
                                              stdout=subprocess.DEVNULL, pass_fds=[
                                                  writer], preexec_fn=heed_signals,
-                                             env={**os.environ, "BIN": "tools", "TMPDIR": temporary})
+                                             env={**os.environ, "BIN": str(tools), "TMPDIR": temporary})
                 os.close(writer)
                 with open("held", "rb") as tool:  # once a judge's tool has opened it
                     end_by_signal(grade, number)
@@ -834,18 +829,13 @@ class Hostile(ClassTest):
         # The other one may be done before anybody looks.
         self.assertIn("takes longer than 0.01 s", {row["hand-in"]: row["remarks"]
                                                    for row in self.rows()}["a"])
-        os.mkdir("bin")
-        for tool in TOOLS:
-            os.symlink(BIN / tool, f"bin/{tool}")
-        os.unlink("bin/project")
         for end, reason in (("exit 1", "project: exit status 1, perhaps as it"),
                             ("kill -9 $$", "project: ended by SIGKILL, perhaps as it"),
                             ("echo project: not enough memory >&2; exit 1", "that")):
-            pathlib.Path("bin/project").write_text(  # its first run is for what is right
-                f'#!/bin/sh\nif rmdir first; then exec {BIN}/project "$@"; fi 2> /dev/null\n{end}\n')
+            tools = tools_with(  # its first run is for what is right
+                "project", f'if rmdir first; then exec $real "$@"; fi 2> /dev/null\n{end}')
             os.mkdir("first")
-            os.chmod("bin/project", 0o755)
-            done = run_script("grade", "hand-ins", "tests", env={**os.environ, "BIN": os.path.abspath("bin")})
+            done = run_script("grade", "hand-ins", "tests", env={**os.environ, "BIN": str(tools)})
             self.assertEqual(done.returncode, 1)
             self.assertIn(f"It could not be judged: {reason} needs more than", self.rows()[0]["remarks"])
         self.grade("--memory-limit", "1", status=1)

@@ -6,6 +6,7 @@ import itertools
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -56,6 +57,19 @@ def run_script(name, *words, **settings):
         "capture_output": True, "text": True, "timeout": 300,
         "env": {**os.environ, "BIN": str(BIN), "LANG": "C.UTF-8"}, **settings}
     return subprocess.run([SOURCE / "scripts" / name, *map(str, words)], **settings)
+
+
+def tools_with(tool, script):
+    """A new folder of the tools, in which one is a script of sh; the real one is $real there."""
+    folder = pathlib.Path(f"with-{tool}").absolute()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    for path in BIN.iterdir():
+        (folder / path.name).symlink_to(path)
+    (folder / tool).unlink()
+    (folder / tool).write_text(f"#!/bin/sh\nreal={BIN}/{tool}\n{script}\n")
+    (folder / tool).chmod(0o755)
+    return folder
 
 
 def pipe(*stages, stdin=SCENE, **settings):

@@ -1,5 +1,6 @@
 """Input files, read once and only up to a limit."""
 import contextlib
+import hashlib
 import os
 import stat
 import tempfile
@@ -57,6 +58,15 @@ def read_all(descriptor, path):
         if len(data) > MAX_BYTES:
             raise InputError(path, f"it is longer than {MAX_BYTES >> 20} MiB")
     return bytes(data)
+
+
+def digest(path):
+    """The SHA-256 of a file, in memory for a block."""
+    state = hashlib.sha256()
+    with input_errors(path), open(path, "rb") as file:
+        while block := file.read(BLOCK):
+            state.update(block)
+    return state.hexdigest()
 
 
 def is_same_stream(a, b):

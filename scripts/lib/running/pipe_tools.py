@@ -11,6 +11,7 @@ import tempfile
 
 from lib.rim.child import cpu_seconds, finished
 from lib.rim.command import CommandFailure, shown
+from lib.rim.input_file import digest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
@@ -155,6 +156,10 @@ class Tools:
         if png:
             words = ["--size", "1x1", "--z-buffer", "none", "--image", f"png:{os.devnull}"]
             self.run(tool, *words, *["--ortho", *"010112"] * (tool == "trace"))
+
+    def fingerprint(self, tools, *words):
+        """One line that changes with the words, and with the bytes of the tools that work on them."""
+        return " ".join([*words, *(digest(self.folder / tool) for tool in tools)])
 
     def command(self, tool, words):
         return [self.folder / tool, *(self.one_thread if tool in ("zbuf", "trace") else []), *map(str, words)]
