@@ -272,16 +272,16 @@ class Refusals(FarmTest):
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
             self.assertIn(reason, done.stderr)
 
-    def refuse(self, message, *words):
+    def refuse(self, message, *words, status=1):
         done = self.farm(words)
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, status)
         self.assertRegex(done.stderr, rf"\Afarm: {message}\n\Z")
         self.assertFalse(pathlib.Path("farm.ppm").exists())
 
     def test_what_the_tools_refuse(self):
         self.expect([], False)
         self.refuse(r"zbuf: --samples: expected a whole number from 1 to 16, found '99' \(try zbuf --help\)",
-                    "--samples", "99")
+                    "--samples", "99", status=2)
         pathlib.Path("scene.txt").write_text("0 0 5\n")
         self.refuse(r"cut-scene: \S*scene.txt:2:1: expected the four lines of the camera, found the end of "
                     "the input")

@@ -24,6 +24,7 @@ leftovers = set()  # temporary files, and the folder of others, which go with th
 
 class CommandFailure(Exception):
     """The command cannot do its job; the text is a sentence for the user, without the command's name."""
+    is_misuse = False  # of the command line, which is always status 2
 
 
 class Ended(BaseException):
@@ -124,8 +125,8 @@ def status_of(main, name, failure_status):
         return status
     except BrokenPipeError:
         raise
-    except CommandFailure as failure:  # an output that a tool finds among its inputs is misuse
-        return told(name, failure, 2 if "expected a place of its own for" in str(failure) else failure_status)
+    except CommandFailure as failure:
+        return told(name, failure, 2 if failure.is_misuse else failure_status)
     except OSError as error:
         is_about_file = error.filename and error.errno not in (errno.EMFILE, errno.ENFILE)
         where = f"{shown(os.fsdecode(error.filename))}: " if is_about_file else ""

@@ -117,7 +117,9 @@ def expect_success(*pipe):
         if not tool.reasons:
             raise ToolCrash(f"{tool.name}: exit status {tool.status}")
         is_out = tool.reasons[-1] == f"{tool.name}: not enough memory"
-        raise (ToolOutOfMemory if is_out else ToolFailure)("\n".join(tool.reasons))
+        failure = (ToolOutOfMemory if is_out else ToolFailure)("\n".join(tool.reasons))
+        failure.is_misuse = tool.status == 2
+        raise failure
 
 
 def failure_of_jobs(printed):
