@@ -333,7 +333,7 @@ class Judges(KitTest):
             for name in ("right", hostile):
                 shutil.copytree(f"hand-ins/{name}", top / name, dirs_exist_ok=True)
             judges = "".join(f"source/judge {name} {name}.out & " for name in ("right", hostile)) + "wait"
-            look = "mkdir -p /mq; mount -t mqueue none /mq; cat /proc/sysvipc/shm; ls /tmp; ls /mq"
+            look = "mkdir -p /mq; mount -t mqueue none /mq; cat /proc/sysvipc/shm; ls -A /tmp; ls /mq"
             done = subprocess.run(
                 entered(top, "/autograder", "sh", "-c", f"{judges}; {look}", without="usr/bin/bwrap"),
                 timeout=250, capture_output=True, text=True)
@@ -358,7 +358,7 @@ for signal in TERM KILL; do
   source/judge stays out > /dev/null & while [ ! -e /open/left ]; do sleep 0.05; done
   kill -$signal $!; wait $!; echo $signal $?
   i=0; while ps -eo uid= | grep -q '6....' && [ $i -lt 200 ]; do i=$((i + 1)); sleep 0.05; done
-  ps -eo uid= | grep '6....'; [ $signal = KILL ] || ls /open /tmp; rm -rf /open/*
+  ps -eo uid= | grep '6....'; [ $signal = KILL ] || ls -A /open /tmp; rm -rf /open/*
 done
 umask 077; source/judge right out2 > /dev/null; echo $?
 PATH=/autograder/closed:$PATH source/judge right out > /dev/null; echo $?"""

@@ -96,7 +96,8 @@ def prepare():
             signal.signal(number, end)
     os.umask(os.umask(0o077) & 0o077)  # what it makes, it can open
     for place in filter(None, (os.environ.get("TMPDIR"), "/tmp", "/var/tmp")):
-        folder = os.path.join(place, "pipeline-" + secrets.token_hex(8))
+        # Hidden, so that no search for hand-ins or tests in that place finds it.
+        folder = os.path.join(place, ".pipeline-" + secrets.token_hex(8))
         leftovers.add(folder)
         with contextlib.suppress(OSError):  # what needs a temporary file will say so
             os.mkdir(folder, 0o700)
