@@ -2,6 +2,7 @@
 import csv
 import io
 import json
+import os
 import unicodedata
 
 from grade_parts.summary import equal_files
@@ -43,9 +44,9 @@ def csv_of(graded, tests):
     return out.getvalue().encode()
 
 
-def numbers_csv(hand_ins, names):
+def numbers_csv(hand_ins):
     """The name for each number, as CSV."""
-    out = io.StringIO()
+    out, names = io.StringIO(), (os.path.basename(hand_in.path) for hand_in in hand_ins)
     csv.writer(out, lineterminator="\n").writerows([[
         "number", "hand-in"], *([hand_in.number, cell(name)] for hand_in, name in zip(hand_ins, names))])
     return out.getvalue().encode()

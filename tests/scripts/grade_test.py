@@ -247,12 +247,30 @@ class Results(ClassTest):
         self.assertEqual((os.listdir("elsewhere"), pathlib.Path("precious").read_text()), ([], "mine"))
 
     def test_out_among_the_hand_ins_is_refused(self):
-        """The next run would judge it as a hand-in."""
+        """The next run would judge it as a hand-in; temporary files there are none."""
         self.add("ada")
-        for place, name in (("hand-ins/graded", "HANDINS 'hand-ins'"), ("tests/graded", "TESTS 'tests'")):
-            done = self.grade("-o", place, status=2)
-            message = f"grade: -o: expected a folder outside of {name}, found '{place}' (try grade --help)\n"
-            self.assertEqual((done.stderr, os.path.exists(place)), (message, False))
+        for name in ("hand-ins", "tests"):
+            done = self.grade("-o", f"{name}/graded", status=2)
+            self.assertEqual((done.stderr, os.path.exists(f"{name}/graded")),
+                             (f"grade: -o: expected a place outside of '{name}', found '{name}/graded' "
+                              "(try grade --help)\n", False))
+            with mock.patch.dict(os.environ, TMPDIR=os.path.abspath(name)):
+                self.grade()
+            self.assertEqual(self.scores(), {"ada": 1.0})
+
+    def test_older_results_stay_until_all_new_ones_are_written(self):
+        self.add("ada")
+        self.grade()
+        os.unlink("graded/mistakes.md")
+        os.mkdir("graded/mistakes.md")
+        self.add("ben")
+        before = {path: path.is_file() and path.read_bytes() for path in pathlib.Path("graded").rglob("*")}
+        self.assertEqual(
+            self.grade("--hints", "none", status=2).stderr,
+            "grade: cannot open graded/mistakes.md: Is a directory\n")
+        self.assertEqual(
+            {path: path.is_file() and path.read_bytes()
+             for path in pathlib.Path("graded").rglob("*")}, before)
 
     def test_anonymous(self):
         self.add("Anna Example", mistake=True)

@@ -241,7 +241,7 @@ class Archives(KitTest):
         for words, message in ((["--kit", "plain", "tests"], "expected --kit KIND TESTS -o FILE"), ([
                 "--kit", "plain", "tests", "tests", "-o", "a"], "expected --kit KIND TESTS -o FILE"), ([
                     "--kit", "plain", "tests", "-o",
-                    "tests/worked-example/scene.txt"], "a file outside of TESTS"), ([
+                    "tests/worked-example/scene.txt"], "a place outside of 'tests'"), ([
                         "--kit", "plain", "tests", "-o", "no/a.zip"], "cannot open no/a.zip"), ([
                             "--kit", "plain", "none", "-o", "a.zip"], "cannot read none")):
             self.assertIn(message, self.grade(*words, status=2).stderr)

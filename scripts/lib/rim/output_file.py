@@ -135,10 +135,14 @@ class OutputFile:
         if self.temporary and os.path.getsize(self.temporary) == 0:
             raise OutputError(f"the tools have written nothing to {shown(self.path)}")
 
-    def commit(self):
+    def close(self):
         with self.errors("write"):
             descriptor, self.descriptor = self.descriptor, None
-            os.close(descriptor)
+            if descriptor is not None:
+                os.close(descriptor)
+
+    def commit(self):
+        self.close()
         if self.temporary:
             with self.errors("replace"):
                 os.replace(self.temporary, self.target)
