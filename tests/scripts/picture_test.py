@@ -292,6 +292,10 @@ class Picture(ToolTest):
     def test_what_is_asked_for_elsewhere_is_named(self):
         self.assertIn("(--trace draws them)", picture("vase.obj", "--shadows", "-o", "a.png").stderr)
         self.assertIn("draw a.png, then: convert a.png a.jpg", picture("vase.obj", "-o", "a.jpg").stderr)
+        for output in ("png:", ""):
+            self.assertEqual(
+                picture("vase.obj", "-o", output).stderr,
+                f"picture: -o: expected the name of a file, found '{output}' (try picture --help)\n")
 
     def test_a_model_stands_for_a_scene(self):
         done = subprocess.run([SOURCE / "scripts/explain", "vase.obj", "--triangle", "0"],

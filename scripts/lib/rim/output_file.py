@@ -77,6 +77,8 @@ class OutputFile:
                 self.descriptor = os.open(self.target, os.O_WRONLY | os.O_NOCTTY | os.O_CLOEXEC)
             elif status and not os.access(self.target, os.W_OK):
                 raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+            elif not self.target:
+                raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
             else:
                 self.open_beside(status)
 
