@@ -3,7 +3,6 @@ digits, and pixels that are still uncertain by exact_pixels."""
 import argparse
 import array
 import dataclasses
-import math
 import os
 import re
 import sys
@@ -13,6 +12,7 @@ import textwrap
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import read_input
 from lib.rim.output_file import expect_writable, own_descriptor, target_of, write_file
+from lib.running.owners import owners_in
 from lib.running.pipe_tools import ToolFailure
 from lib.showing.pictures import size_of, with_pixels_of
 
@@ -92,9 +92,8 @@ class CertainPicture:
                     "--certify", report, *["--triangle-array", owners] * is_last]))
             self.expect_unchanged()
             picture = content(image)
-            return Run(digits, notes, Certainty(report,
-                                                size_of(picture)[0]), picture,
-                       numbers(owners, size_of(picture)) if is_last else None)
+            certainty = Certainty(report, size_of(picture)[0])
+            return Run(digits, notes, certainty, picture, owners_in(owners) if is_last else None)
 
     def run_again(self, first):
         """A run with all digits that keeps the first's certain pixels; the first if a tool refuses."""
@@ -133,20 +132,12 @@ class CertainPicture:
             image, owners = os.path.join(folder, f"image.{self.kind}"), os.path.join(folder, "owners.npy")
             *_, words = self.commands(self.with_options(output=image, certify=["--triangle-array", owners]))
             self.tools.run(*words, stdin=text)
-            picture = content(image)
-            return picture, numbers(owners, size_of(picture))
+            return content(image), owners_in(owners)
 
 
 def content(path):
     with open(path, "rb") as file:
         return file.read()
-
-
-def numbers(path, size):
-    """The triangle numbers in a file of zbuf --triangle-array, for a picture of this size."""
-    found = array.array("q")
-    found.frombytes(content(path)[-found.itemsize * math.prod(size):])
-    return found
 
 
 def draw_for_certain(options, *tools_and_calls):

@@ -2,9 +2,10 @@
 import collections
 
 from lib.maths.window import Window
+from lib.running.owners import NOBODY
 from lib.showing.pictures import size_of, with_pixels_of
 from picture_parts.exact_pixels import MOST_BITS, TooMuch, owners
-from picture_parts.single_triangles import NOTHING, SingleTriangles
+from picture_parts.single_triangles import SingleTriangles
 
 MOST_PIXELS, MOST_BYTES = 10000, 1 << 24  # of a picture, and of its scene
 TOO_MUCH = "too much for the exact program"
@@ -23,7 +24,7 @@ def decide(drawing, run):
         return f"{run.tried} ({TOO_MUCH})"
     right, wrong = set(), collections.defaultdict(set)  # wrong ones by the triangle to show
     for (column, row), found in seen.items():
-        number, place = found[0] if found else NOTHING, row * width + column
+        number, place = found[0] if found else NOBODY, row * width + column
         if run.owners and run.owners[place] == number:
             right.add(place)
         else:

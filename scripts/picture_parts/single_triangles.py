@@ -3,11 +3,11 @@ from fractions import Fraction
 
 from lib.maths.balls import exactly
 from lib.maths.matrices import applied, product
+from lib.running.owners import NOBODY
 from lib.running.pipe_tools import ToolFailure
 from lib.text.stage_text import header_and_body
 from picture_parts.exact_pixels import to_view_space
 
-NOTHING = -1  # the number for a pixel without a triangle, as zbuf writes it
 EXACT = ("--digits", "exact")
 GROWTHS = (0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3)  # relative; tried until the triangle covers the center
 
@@ -23,7 +23,7 @@ class SingleTriangles:
 
     def drawn(self, number, triangle, places):
         """Pairs of a picture file that shows triangle `number` alone, and the places that show it there; all
-        places if `number` is NOTHING."""
+        places if `number` is NOBODY."""
         text = self.in_view_space(number)
         for growth in GROWTHS:
             try:
@@ -38,7 +38,7 @@ class SingleTriangles:
 
     def in_view_space(self, number):
         """The text of view of this triangle alone."""
-        lines = self.header if number == NOTHING else [
+        lines = self.header if number == NOBODY else [
             *self.header, f"triangle {number}", *self.body[4 * number:4 * number + 4]]
         return self.tools.output("view", *EXACT, stdin="\n".join([*lines, ""]).encode())
 

@@ -19,7 +19,7 @@ MOVES_AHEAD, MOVES_ASIDE = (-0.0002, 0.02), (0.003, -0.02)  # of the distance to
 
 @dataclasses.dataclass(frozen=True)
 class Loss:
-    wrong: int  # pixels that show another triangle, or none; None with trace, which draws no marks
+    wrong: int  # pixels that show another triangle, or none; None with trace, which numbers no triangles
     gap: float  # between layers, in the scene's units; None with trace, which has no text of project
     levels: float  # of 256, the mean over the channels of the pixels covered; None if none was asked for
     notes: tuple = ()  # of the stages
@@ -62,8 +62,8 @@ class Truth:
         path, _, notes = pipe.text(self.setting)
         for note in notes:
             print(f"trade: the exact run: {without_inner_location(note, pipe.folder)}", file=sys.stderr)
-        self.marks = pipe.owners(self.setting)
-        self.covered = sum(mark != NOBODY for mark in self.marks)
+        self.owners = pipe.owners(self.setting)
+        self.covered = sum(owner != NOBODY for owner in self.owners)
         if not self.covered:
             raise CommandFailure(
                 "the picture of the exact run is empty: there is nothing to compare. Run the pipe to see why")
@@ -75,7 +75,7 @@ class Truth:
         self.smooth = {"samples": SAMPLES_OF_TRUTH} if is_smooth else {}
         self.colors = {}  # by is_traced
         self.felt = {}  # by setting
-        self.moved = None  # pipes with the eye moved a little, and their exact marks
+        self.moved = None  # pipes with the eye moved a little, and the triangles that they show exactly
 
     def moved_pictures(self):
         if self.moved is None:
@@ -98,8 +98,8 @@ class Truth:
         """The most wrong pixels in a picture with the eye moved a little: with few digits all pixels may be
         right by luck."""
         most = 0
-        for pipe, marks in self.moved_pictures():
-            most = max(most, sum(map(operator.ne, pipe.owners(setting), marks)))
+        for pipe, owners in self.moved_pictures():
+            most = max(most, sum(map(operator.ne, pipe.owners(setting), owners)))
             pipe.forget_texts(setting.of_texts)
         return most
 
@@ -156,7 +156,7 @@ class Truth:
         levels = self.levels(setting) if in_color else None
         if setting.is_traced:
             return Loss(None, None, levels)
-        wrong = sum(map(operator.ne, self.pipe.owners(setting), self.marks))
+        wrong = sum(map(operator.ne, self.pipe.owners(setting), self.owners))
         notes = tuple(without_inner_location(note, self.pipe.folder) for note in self.pipe.text(setting)[2])
         return Loss(wrong, self.layers.gap(setting), levels, notes, self.uncertain(setting))
 

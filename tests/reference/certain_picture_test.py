@@ -23,6 +23,7 @@ import reference
 from certain_test import BIN, FIRST, SCENES, SOURCE
 from lib.maths import exact
 from lib.maths.balls import Ball, Undecided
+from lib.running.owners import NOBODY
 from lib.showing.pictures import picture_of, read_picture
 
 sys.path.append(str(SOURCE / "scripts/measure"))
@@ -138,12 +139,12 @@ class CertainPictures(unittest.TestCase):
         for case in (Case("distance", 1e13), Case("depth", 1e12), Case("size", 1e-12), Case(
                 "angle", 179.999), Case("angle", 1e-9)):
             text = scene_text(case)
-            marks = true_owners(true_vertices(text), SIZE)
+            owners = true_owners(true_vertices(text), SIZE)
             found, listed, _ = self.certain(colored(text.splitlines()[:-1]), f"{SIZE} {SIZE}\n")
             self.assertEqual(listed, set())
-            for place, mark in enumerate(marks):
+            for place, owner in enumerate(owners):
                 row, column = divmod(place, SIZE)
-                self.assertEqual(found[row][column], color_of(mark - 1 if mark else None), case)
+                self.assertEqual(found[row][column], color_of(None if owner == NOBODY else owner), case)
 
     def test_a_certain_pixel_stays_as_it_was_drawn(self):
         """Each run has a background of its own, which shows where its pixels are. A second certificate that

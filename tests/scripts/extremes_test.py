@@ -97,9 +97,9 @@ class Truth(unittest.TestCase):
                            for triangle in triangles) + "\n"
         config = reference.Config(16, 16, *map(Fraction, (-1, -1, -1, 1)), ("-1", "-1"))
         _, seen = reference.draw(reference.Stage(text.encode(), "zbuf").triangles(), config, "center")
-        owners = [triangle.number + 1 if triangle else 0 for row in seen for triangle in row]
+        owners = [triangle.number if triangle else -1 for row in seen for triangle in row]
         self.assertEqual(true_owners(triangles, 16), owners)
-        self.assertEqual(set(owners), {0, 1, 2, 3})
+        self.assertEqual(set(owners), {-1, 0, 1, 2})
 
     def test_digits_count_within_the_extent(self):
         truth = [[(Fraction(0), Fraction(0), Fraction(0)), (Fraction(2), Fraction(1), Fraction(1, 100)),

@@ -64,7 +64,6 @@ class Writing(ToolTest):
         "lib/rim/work_folder.py": "owns a folder to work in",
         "lib/rim/command.py": "owns the temporary folder of a command",
         "lib/rim/input_file.py": "in the temporary folder: a copy of what is no file",
-        "lib/running/owners.py": "in the temporary folder of trade",
         "lib/running/pipe_tools.py": "in the temporary folder of trade, and the null device",
         "lib/running/pipe.py": "in its temporary folder",
         "fly_parts/pipe.py": "in its temporary folder",

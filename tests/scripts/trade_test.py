@@ -11,7 +11,7 @@ import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from lib.running.owners import NOBODY, owners, write_marked
+from lib.running.owners import NOBODY
 from lib.running.pipe import DEFAULT, Pipe, Setting
 from lib.running.pipe_tools import Tools, without_inner_location
 from lib.showing.figures import Quartiles
@@ -286,22 +286,21 @@ class Owners(ToolTest):
         """zbuf gives triangle N draws 3N, 3N + 1 and 3N + 2 of the course's generator."""
         state, colors = 1, {bytes(3): NOBODY}
         sample = SOURCE / "samples/torus"
-        for mark in range(1, 1 + (sample / "scene.txt").read_text().count("triangle")):
+        for number in range((sample / "scene.txt").read_text().count("triangle")):
             color = []
             for _ in range(3):
                 state = (214013 * state + 2531011) % 2**32
                 color.append((state >> 16 & 0x7fff) % 256)
-            colors.setdefault(bytes(color), mark)
+            colors.setdefault(bytes(color), number)
         for rule in ("nearest", "center"):
-            pathlib.Path("stage3.txt").write_bytes(
-                text := pipe(["model", sample / "scene.txt"], ["view"], ["project"]))
+            text = pipe(["model", sample / "scene.txt"], ["view"], ["project"])
             run("zbuf", sample / "config.txt", "--coverage", rule, "-o", "out.ppm", "--z-buffer", "none",
                 stdin=text)
             shown = pathlib.Path("out.ppm").read_bytes().split(b"255\n", 1)[1]
-            write_marked("stage3.txt", "marked.txt")
-            marks = owners(Tools(BIN), "marked.txt", sample / "config.txt", ["--coverage", rule], "marks.ppm")
-            self.assertGreater(len(set(marks)), 500)
-            self.assertEqual([colors[shown[i:i + 3]] for i in range(0, len(shown), 3)], list(marks))
+            owners = Pipe(Tools(BIN), sample / "scene.txt", sample / "config.txt", [], ".").owners(
+                Setting(coverage=rule))
+            self.assertGreater(len(set(owners)), 500)
+            self.assertEqual([colors[shown[i:i + 3]] for i in range(0, len(shown), 3)], list(owners))
 
 
 def row(setting=DEFAULT, ratio=1, wrong=0):

@@ -6,7 +6,7 @@ import re
 import shlex
 import subprocess
 
-from lib.running.owners import owners, write_marked
+from lib.running.owners import owners_in
 from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.showing.pictures import read_picture
 
@@ -113,11 +113,11 @@ class Pipe:
 
     def owners(self, setting):
         """Which triangle each pixel shows (lib.running.owners)."""
-        marked = self.marked(setting)
-        if not marked.exists():
-            write_marked(self.text(setting)[0], marked)
-        return owners(self.tools, marked, self.config, setting.words("coverage", "depth", "depth_epsilon"),
-                      self.folder / "marks.ppm")
+        path, text = self.folder / "owners.npy", self.text(setting)[0]
+        self.tools.run("zbuf", *setting.words("coverage", "depth",
+                                              "depth_epsilon"), *self.opaque, "--z-buffer", "none", "--image",
+                       self.folder / "owners.ppm", "--triangle-array", path, self.config, text)
+        return owners_in(path)
 
     def colors(self, setting):
         """The picture of a setting, as the bytes of its pixels; by trace, without effects that zbuf lacks."""
@@ -131,20 +131,15 @@ class Pipe:
             self.tools.run("zbuf", *self.words("zbuf", setting), *output, self.text(setting)[0])
         return b"".join(read_picture(image)[2])
 
-    def marked(self, setting):
-        return self.folder / f"marked {setting.of_texts}.txt"
-
     def remove_texts(self, setting):
         """Makes room for others; the results of text() are kept."""
         if setting in self.texts:
             self.texts[setting][0].unlink()
-        self.marked(setting).unlink(missing_ok=True)
 
     def forget_texts(self, setting):
         """Removes the texts so that text() makes them anew."""
         if setting in self.texts:
             self.texts.pop(setting)[0].unlink(missing_ok=True)
-        self.marked(setting).unlink(missing_ok=True)
 
     def camera(self):
         """The words of the scene's camera, line by line."""

@@ -37,7 +37,7 @@ def measured(job):
     bin_dir, case = job
     text = scene_text(case)
     truth = true_vertices(text)
-    marks = true_owners(truth, SIZE)
+    owners = true_owners(truth, SIZE)
     with tempfile.TemporaryDirectory() as folder:
         scene, config = pathlib.Path(folder, "scene.txt"), pathlib.Path(folder, "config.txt")
         scene.write_text(text)
@@ -46,15 +46,15 @@ def measured(job):
         lossless = list(pipe.owners(centered(Setting("exact"))))
         return [{
             "axis": case.axis, "value": f"{case.value:g}",
-            "setting": str(setting), "covered": sum(mark != NOBODY for mark in marks), **losses(
-                pipe, centered(setting), truth, marks, lossless), "wrong_without_note": wrong_without_note(
+            "setting": str(setting), "covered": sum(owner != NOBODY for owner in owners), **losses(
+                pipe, centered(setting), truth, owners, lossless), "wrong_without_note": wrong_without_note(
                 pipe.tools, text, setting.digits) if setting in ROUNDED else ""} for setting in SETTINGS]
 
 
-def losses(pipe, setting, truth, marks, lossless):
+def losses(pipe, setting, truth, owners, lossless):
     picture = list(pipe.owners(setting))
     uncertain = uncertain_pixels(pipe, setting)
-    wrong = {place for place, (owner, mark) in enumerate(zip(picture, marks)) if owner != mark}
+    wrong = {place for place, (owner, right) in enumerate(zip(picture, owners)) if owner != right}
     path, _, notes = pipe.text(setting)
     done = pipe.tools.run("zbuf", *pipe.words("zbuf", setting), "--z-buffer", "none", "--image",
                           pipe.folder / "out.ppm", pipe.config, path)

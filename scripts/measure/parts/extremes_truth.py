@@ -5,6 +5,8 @@ import pathlib
 import sys
 from fractions import Fraction
 
+from lib.running.owners import NOBODY
+
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tests/reference"))
 import reference  # noqa: E402
 
@@ -52,11 +54,11 @@ def true_vertices(text):
 
 
 def true_owners(triangles, size):
-    """The mark (lib.running.owners) of the triangle at each pixel of a picture of `size` columns and rows, by
-    the rule `center`."""
+    """The triangle (lib.running.owners) at each pixel of a picture of `size` columns and rows, by the rule
+    `center`."""
     far = (1, 1)
-    depths, marks = {}, [0] * size * size  # a depth is a numerator and a denominator, which is above 0
-    for mark, triangle in enumerate(triangles, 1):
+    depths, owners = {}, [NOBODY] * size * size  # a depth is a numerator and a denominator, which is above 0
+    for number, triangle in enumerate(triangles):
         # Columns and rows, times a power of two that makes them whole numbers.
         points = [((x + 1) * size / 2 - Fraction(1, 2), (1 - y) * size / 2 - Fraction(1, 2), z)
                   for x, y, z in triangle]
@@ -77,5 +79,5 @@ def true_owners(triangles, size):
                     z, w = sum(weight * p[2] for weight, p in zip(weights, (a, b, c))), abs(area) * unit
                     nearest, below = depths.get((row, column), far)
                     if -w <= z and z * below < nearest * w:
-                        depths[row, column], marks[row * size + column] = (z, w), mark
-    return marks
+                        depths[row, column], owners[row * size + column] = (z, w), number
+    return owners
