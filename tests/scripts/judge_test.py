@@ -121,7 +121,10 @@ class HandIn(ToolTest):
         pathlib.Path(NAMES[number - 1]).write_text("\n".join(" ".join(f"{x:.7f}" for x in p) for p in images))
 
     def verdict(self, config=True):
-        return judge(find_files("."), self.scene.encode(), self.config.encode() if config else None)
+        verdict = judge(find_files("."), self.scene.encode(), self.config.encode() if config else None)
+        for file in verdict.files:  # never more than all
+            self.assertLessEqual(file.explained + (file.differing or 0), file.compared, file)
+        return verdict
 
     def words(self, config=True):
         return [file.verdict for file in self.verdict(config).files]

@@ -36,6 +36,11 @@ class Mismatch:
     def count(self, *kinds):
         return sum(kind in kinds for kind in self.pixels.values())
 
+    @property
+    def compared(self):
+        """How many pixels show a triangle, by the rule or in the hand-in."""
+        return self.drawn + sum(place not in self.owners for place in self.pixels)
+
     @functools.cached_property
     def by_color(self):
         """{color: the triangles that have it}, once all colors are known."""

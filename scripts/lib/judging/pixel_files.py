@@ -120,6 +120,9 @@ def blames_many_colors(verdict, shown, context, mismatch):
     verdict.remarks += [f"with {verdict.rule}"] if verdict.rule else []
     verdict.verdict, verdict.rule = WRONG, ""
     verdict.differing += len(places)
+    explained = places.keys() & context.of_one_file("picture").plain.of("picture") if verdict.explained else (
+    )
+    verdict.explained -= len(explained)  # they differ all the same
     verdict.places = sorted({*verdict.places, *places})
     place, t = min(places.items())
     verdict.first = (f"{place_in_words(place, context.window.width)}: one of {len(counts[t]):,} colors of "

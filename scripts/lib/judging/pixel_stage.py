@@ -143,7 +143,7 @@ class PixelStage:
         mismatch, rule = finding.mismatch, "" if finding.verdict == "unknown" else finding.rule
         places = mismatch.of(kind)
         verdict = self.verdict(kind, RIGHT, rule, differing=len(places), places=places,
-                               compared=mismatch.drawn + mismatch.count("extra"))
+                               compared=mismatch.compared)
         if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
             verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
             verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []
@@ -166,6 +166,7 @@ class PixelStage:
         mismatch = mismatch_to_show(context, finding, verdict.verdict == WRONG)
         if finding.verdict == "mistake" and verdict.causes:
             verdict.explained = len({*context.plain.of(kind)} - {*unexplained})
+            verdict.compared = max(context.plain.compared, verdict.explained + len(unexplained))
             if unexplained:
                 verdict.remarks.append(unexplained_in_words(unexplained, verdict.explained, width))
         verdict.places = sorted({*unexplained, *mismatch.of(kind)})
