@@ -5,7 +5,6 @@ an older good file stays, and nothing else is left.
 usage: disk_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
-import pathlib
 import resource
 import shutil
 import subprocess
@@ -13,97 +12,100 @@ import tempfile
 import unittest
 
 from older_files import OlderImageTest
-from toolbox import DRAWING, command, run, stage_texts, tool_inputs
+from toolbox import ALL_TOOLS, DRAWING, add_claims, command, run, tool_inputs
 
-NOBODY = 65534
+INPUTS = {tool: text for tool, _, text in tool_inputs()}
 
 
-class FilledDisk(OlderImageTest):
-    def run_limited(self, size, tool, operands, text):
-        """A run that may write no file beyond `size` bytes; stdout is a file in another folder."""
+def run_here(_, tool, words):
+    yield run(tool, *words, stdin=INPUTS[tool])
+
+
+def run_at_every_byte(test, tool, words):
+    """Runs that may write no file beyond 0 bytes, 1, ..., all but one; stdout is a file elsewhere."""
+    good, image = test.good_run(tool, words, INPUTS[tool])
+    needed = max(len(good), len(image) if tool in DRAWING else 0)
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    test.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, limits)
+    for size in range(needed + 1):
         with tempfile.TemporaryFile() as out:
-            done = run(tool, *operands, stdin=text, stdout=out,
-                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
-            out.seek(0)
-            return done, out.read()
-
-    def test_at_any_byte_it_is_a_failure_and_nothing_is_left(self):
-        for tool, operands, text in tool_inputs():
-            good, image = self.good_run(tool, operands, text)
-            needed = max(len(good), len(image) if tool in DRAWING else 0)
-            for size in range(needed):
-                with self.subTest(tool=tool, size=size):
-                    done, _ = self.run_limited(size, tool, operands, text)
-                    self.assertEqual(done.returncode, 1)
-                    self.assertRegex(done.stderr.decode(),
-                                     f"^{tool}: cannot write (<stdout>|out.bmp): File too large\n$")
-                    self.assert_as_before()
-            done, out = self.run_limited(needed, tool, operands, text)
-            self.assert_quiet_success(done)
-            self.assertEqual(out, good)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
+            done = run(tool, *words, stdin=INPUTS[tool], stdout=out)
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+            if size < needed:
+                yield done
+            else:
+                test.assert_quiet_success(done)
+                out.seek(0)
+                test.assertEqual(out.read(), good)
 
 
-class Folders(OlderImageTest):
-    def check(self, image, reason, **settings):
-        for tool, operands, text in tool_inputs()[3:]:
-            done = run(tool, *operands, "--image", image, stdin=text, **settings)
-            self.assert_fails(done, 1, f"{tool}: cannot open {image}: {reason}")
-            self.assert_as_before()
-
-    def test_a_missing_one_is_a_failure(self):
-        self.check("missing/out.bmp", "No such file or directory")
-
-    def test_a_device_is_none(self):
-        self.check("/dev/full/out.bmp", "Not a directory")
-
-    def test_one_that_may_not_be_written_is_a_failure(self):
-        if os.geteuid() != 0:
-            self.skipTest("only root can become somebody else")
-        os.chmod(".", 0o755)
-        self.addCleanup(shutil.rmtree, tools := tempfile.mkdtemp())
+def run_as_nobody(test, tool, words):
+    if os.geteuid() != 0:
+        test.skipTest("only root can become somebody else")
+    os.chmod(".", 0o755)
+    with tempfile.TemporaryDirectory() as tools:
         os.chmod(tools, 0o755)
-        shutil.copy(command("zbuf")[0], tools)
-        for image in ("new.bmp", "out.bmp"):
-            done = subprocess.run([f"{tools}/zbuf", "config.txt", "--image", image], input=stage_texts()[2],
-                                  capture_output=True, user=NOBODY, timeout=60)
-            self.assert_fails(done, 1, f"zbuf: cannot open {image}: Permission denied")
-            self.assert_as_before()
+        shutil.copy(command(tool)[0], tools)
+        yield subprocess.run([f"{tools}/{tool}", *words], input=INPUTS[tool], capture_output=True, user=65534,
+                             timeout=60)
 
 
-class SmallFileSystem(OlderImageTest):
-    """Private file systems, in a namespace that ends with the command."""
-    def run_there(self, mount_options, words, text):
-        """Runs a command in a new file system that holds the older image, then lists that file system on
-        stdout."""
-        script = (
-            'mkdir there && mount -t tmpfs -o size=64k none there && cp out.bmp there || exit 77; cd there; '
-            'mount -o "remount,$0" . || exit 77; '
-            '"$@"; status=$?; cmp -s out.bmp ../out.bmp && echo the older image; ls -A; exit $status')
+def file_system(mount_options):
+    """Runs in a new file system, with the older image alone, in a namespace that ends with the command."""
+    script = (
+        'mkdir there && mount -t tmpfs -o size=64k none there && cp out.bmp there || exit 77; cd there; '
+        f'mount -o "remount,{mount_options}" . || exit 77; "$0" "$@"; status=$?; '
+        'cmp out.bmp ../out.bmp && [ "$(ls -A)" = out.bmp ] || echo "not as before"; exit $status')
+
+    def run_there(test, tool, words):
         done = subprocess.run(
-            ["unshare", "--mount", "--map-root-user", "sh", "-c", script, mount_options, *words], input=text,
-            capture_output=True, timeout=60)
+            ["unshare", "--mount", "--map-root-user", "sh", "-c", script, *command(tool, *words)],
+            input=INPUTS[tool], capture_output=True, timeout=60)
         shutil.rmtree("there", ignore_errors=True)
         if done.returncode == 77 or done.stderr.startswith(b"unshare: "):
-            self.skipTest("mounting is not allowed here: " + done.stderr.decode().strip())
-        return done
+            test.skipTest("mounting is not allowed here: " + done.stderr.decode().strip())
+        test.assertEqual(done.stdout, b"")
+        yield done
 
-    def test_one_that_is_read_only_is_a_failure(self):
-        for image in ("new.bmp", "out.bmp"):
-            done = self.run_there(
-                "ro", command("zbuf", "../config.txt", "--image", image, "--z-buffer", "../depths"),
-                stage_texts()[2])
-            self.assertEqual((done.returncode, done.stderr.decode()),
-                             (1, f"zbuf: cannot open {image}: Read-only file system\n"))
-            self.assertEqual(done.stdout, b"the older image\nout.bmp\n")
+    return run_there
 
-    def test_one_that_is_full_is_a_failure_and_nothing_is_left(self):
-        pathlib.Path("config.txt").write_text("200 200\n")  # an image of 120 kB
-        for tool, _, text in tool_inputs()[3:]:
-            done = self.run_there("rw", command(tool, "../config.txt", "--z-buffer", "../depths"), text)
-            self.assertEqual((done.returncode, done.stderr),
-                             (1, f"{tool}: cannot write out.bmp: No space left on device\n".encode()))
-            self.assertEqual(done.stdout, b"the older image\nout.bmp\n")
 
+ELSEWHERE = "--z-buffer ../depths --image"
+OURS = ("new.bmp", "out.bmp")
+# A claim, the tools it holds for, their options, how they are run, and the one message of every run.
+CASES = (
+    ("at any byte it may be full", ALL_TOOLS, "", run_at_every_byte,
+     "cannot write (<stdout>|out.bmp): File too large"),
+    ("a folder may be missing", DRAWING, "--image missing/out.bmp", run_here,
+     "cannot open missing/out.bmp: No such file or directory"),
+    ("a device is no folder", DRAWING, "--image /dev/full/out.bmp", run_here,
+     "cannot open /dev/full/out.bmp: Not a directory"),
+    *((f"a folder may be closed to {name}", [
+        "zbuf"], f"--image {name}", run_as_nobody, f"cannot open {name}: Permission denied")
+      for name in OURS),
+    *((f"a file system may be closed to {name}", [
+        "zbuf"], f"{ELSEWHERE} {name}", file_system("ro"), f"cannot open {name}: Read-only file system")
+      for name in OURS),
+    ("a file system may be full", DRAWING, f"{ELSEWHERE} out.bmp --size 200x200", file_system("rw"),
+     "cannot write out.bmp: No space left on device"),
+)
+
+
+class Disk(OlderImageTest):
+    def check(self, tools, options, run_all, message):
+        for tool in tools:
+            words = options.split()
+            if tool in DRAWING and "--size" not in words:
+                words += ["--size", "6x6"]
+            for i, done in enumerate(run_all(self, tool, words)):
+                with self.subTest(tool=tool, run=i):
+                    self.assertRegex(done.stderr.decode(), rf"\A{tool}: {message}\n\Z")
+                    self.assertEqual(done.returncode, 1)
+                    self.assert_as_before()
+
+
+add_claims(Disk, CASES)
 
 if __name__ == "__main__":
     unittest.main()
