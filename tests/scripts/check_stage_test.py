@@ -193,6 +193,15 @@ class Program(ToolTest):
         rows = told.split("| right\n")[1].splitlines()
         self.assertEqual([row.count("*") for row in rows[:4]], [4, 4, 4, 0])
 
+    def test_a_program_that_fails_leads_to_a_scene_that_shows_a_cause(self):
+        """It divides by the length of the look, which is 0 in the first scene."""
+        for at_0, words in ("exit 3", "wrong: its exit status is 3"), ('print "nan nan nan"', "unreadable: "):
+            done = check("view", "--",
+                         script(f"exec awk '/^look 0 0 0$/ {{ {at_0} }} /^[elu]/ {{ next }} 1'"))
+            self.assertRegex(
+                done.stdout, rf"^1-one-triangle: {words}(?s:.*?)\n2-camera: wrong\n"
+                r"(?:  .*\n)*  cause: The points are those of the stage before, unchanged\n")
+
     def test_a_cause_is_named_as_far_as_the_next_scene_confirms_it(self):
         """All these write the same for the first scene, whose camera looks along z from 0 0 4."""
         for factor, cause in ("0",
