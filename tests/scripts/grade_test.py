@@ -162,7 +162,7 @@ class Results(ClassTest):
     def test_folders_and_files_as_people_name_them(self):
         os.rename("tests/square", "tests/2-one-square")
         self.add_test("13-other")
-        for folder in ("2-One_Square", "2 one square", "2", "test2", "Test 02", "scene-2"):
+        for folder in ("2-One_Square", "2 one square", "2", "test2", "Test 02", "scene-2", "Output_2"):
             self.add(f"as {folder}", folder)
             self.add(f"as {folder}", "13")
         numbered = [f"1905042_{name}" if name[0] == "s" else name.replace(".", "_1905042.") for name in FILES]
