@@ -45,7 +45,12 @@ export class Editor {
 
   stateOf(text) { return EditorState.create({doc: text, extensions: this.extensions}); }
 
-  get text() { return this.view.state.doc.toString(); }
+  // One string for each version of the text, since a long one is asked for several times.
+  get text() {
+    const {doc} = this.view.state;
+    if (doc !== this.doc) Object.assign(this, {doc, whole: doc.toJSON().join("\n")});
+    return this.whole;
+  }
 
   // The reader can undo the change.
   set text(text) {
