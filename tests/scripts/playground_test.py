@@ -538,10 +538,12 @@ class ThePage(PageTest):
                   "'dblclick', {bubbles: true}))")
         key = ("document.querySelector(arguments[0]).dispatchEvent(new KeyboardEvent('keydown', "
                "{key: arguments[1], bubbles: true}))")
+        behind = "return getComputedStyle(document.querySelector('.large')).backgroundColor"
         self.assertLess(self.browser.run(lines), 15)
         for script, words in ((double, ["#texts section:nth-child(2) h2"]), (key, ["#text-view", "F8"])):
             self.browser.run(script, *words)
             self.browser.wait_for(lambda: self.browser.run(lines) >= 15)
+            self.assertNotEqual(self.browser.run(behind), "rgba(0, 0, 0, 0)")
             self.edit(config="60 60\n" if script is key else "50 50\n")  # the panel is made anew
             self.assertGreaterEqual(self.browser.run(lines), 15)
             self.browser.run(key, "#text-view", "Escape")
