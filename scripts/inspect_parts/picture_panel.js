@@ -36,17 +36,11 @@ export class PicturePanel {
     canvas.getContext("2d").putImageData(picture, 0, 0);
   }
 
-  // Shows the image of a run whose other data are still to come; true if the image has the same size.
-  preview({columns, rows, pixels}) {
-    const fits = columns === this.columns && rows === this.rows;
-    if (fits) this.showImage(pixels);
-    return fits;
-  }
-
-  showImage(rgb) {
-    const picture = new ImageData(this.columns, this.rows), pixels = new Uint32Array(picture.data.buffer);
+  // Shows an image; of another size, from a run whose other data are still to come, it fits into the place of this one.
+  showImage(rgb, columns = this.columns, rows = this.rows) {
+    const picture = new ImageData(columns, rows), pixels = new Uint32Array(picture.data.buffer);
     for (let p = 0, at = 0; p < pixels.length; ++p, at += 3) pixels[p] = packed(rgb[at], rgb[at + 1], rgb[at + 2]);
-    this.canvases[0].getContext("2d").putImageData(picture, 0, 0);
+    Object.assign(this.canvases[0], {width: columns, height: rows}).getContext("2d").putImageData(picture, 0, 0);
   }
 
   // Paints pixels that differ from another image in one color, all others in dark gray tones.

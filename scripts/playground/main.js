@@ -217,8 +217,10 @@ class Playground {
   }
 
   // Shows the picture of a run before its other panels.
-  preview(picture) {
-    if (this.inspector && this.inspector.pixels.preview(picture)) one("#glass").classList.add("ahead");
+  preview({pixels, columns, rows}) {
+    if (!this.inspector) return;
+    this.inspector.pixels.showImage(pixels, columns, rows);
+    one("#glass").classList.add("ahead");
   }
 
   run() {

@@ -587,8 +587,8 @@ class ThePage(PageTest):
 
     def test_after_an_error_every_panel_says_that_it_is_older(self):
         shown = self.browser.run(IMAGE)
-        self.browser.run("document.body.playground.preview({columns: 10, rows: 10, "
-                         "pixels: new Uint8Array(300)})")
+        self.browser.run("document.body.playground.preview({columns: 20, rows: 10, "
+                         "pixels: new Uint8Array(600)})")
         self.assertNotEqual(self.browser.run(IMAGE), shown)
         self.browser.run(SET, {"scene": "what\n"})
         older = "return document.querySelector('#older').offsetHeight > 0"
