@@ -14,7 +14,7 @@ import {STEPS} from "./tour.js";
 import {VERSION, importerModule, texts, toolModule, workerAddress} from "./resources.js";
 
 const FIRST_SAMPLE = "glass-and-mirrors", FIRST_CONFIG = "320 240\n", EXAMPLE = "worked-example";
-const LARGEST_FILE = 1 << 26, LARGE_SCENE = 2e6;  // characters
+const LARGEST_FILE = 1 << 26, LARGE_SCENE = 1e6;  // characters
 const SIZE_OF_MODELS = [800, 600];  // that of pipeline picture
 const MODEL = /\.(obj|stl|ply|gltf|glb)$/i;
 const NO_WORDS = {model: "", view: "", project: "", zbuf: ""};
@@ -124,6 +124,7 @@ class Playground {
     for (const file of model ? [model] : files) {
       try {
         expectFits(file.size);
+        this.tellOfSize(file.name, file.size);
         await (model ? this.takeModel(model.name, files) : this.takeFile(file));
       } catch (error) {
         this.tell(`${file.name} cannot be read: ${error.message}.`);
@@ -201,6 +202,8 @@ class Playground {
 
   tell(...parts) { one("#told").replaceChildren(...parts); }
 
+  tellOfSize(name, size) { this.tell(size > LARGE_SCENE ? `${name} has ${(size / 1e6).toFixed(1)} MB: the picture comes first; the panels take seconds, and show a part of more than 20,000 triangles.` : ""); }
+
   edited() {
     this.isWork = true;
     one("#samples").value = "";
@@ -225,7 +228,7 @@ class Playground {
 
   run() {
     const {scene, config, words} = this.state;
-    this.tell(scene.length > LARGE_SCENE ? `A scene of ${(scene.length / 1e6).toFixed(1)} MB: after an edit the picture comes first, and the panels, which show a part of it, take seconds.` : "");
+    this.tellOfSize("The scene", scene.length);
     this.client.run({scene, config, words, own: this.own.stage});
   }
 

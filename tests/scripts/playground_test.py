@@ -571,7 +571,10 @@ class ThePage(PageTest):
         """One triangle in two, at its line; the picture and the counts are of all."""
         scene = subprocess.run([ROOT / "scripts/make-torus", "--around", "150", "--tube", "40"],
                                capture_output=True, text=True, check=True).stdout
-        self.browser.run(SET, {"scene": scene, "config": "60 60\n"})
+        self.edit(config="60 60\n")
+        before = self.browser.run(f"{self.DROP} return document.querySelector('#told').innerText",
+                                  [["torus.txt", letters(scene.encode())]])
+        self.assertIn("torus.txt has 1.8 MB: the picture comes first", before)
         told = "return document.querySelector('#notes').innerText"
         self.browser.wait_for(lambda: "one in 2 is drawn" in self.browser.run(told))
         self.browser.wait_for(lambda: self.browser.run(IS_DONE))
