@@ -682,8 +682,6 @@ class ThePage(PageTest):
             self.browser.wait_for(lambda: not any(self.browser.run(self.TOLD)))
 
     def test_a_wrong_stage_is_laid_over_ours(self):
-        scene, config = self.sample("worked-example")
-        self.edit(scene=scene.decode(), config=config.decode())
         text = (ROOT / "samples/worked-example/stage2.txt").read_text().replace("-2.0", "2.0", 1)
         mine = {"tool": "view", "kind": "text", "text": "perspective 60 1 1 10\n" + text}
         self.browser.run(SET, {"mine": mine})
@@ -698,8 +696,6 @@ class ThePage(PageTest):
         self.assertEqual(listed, 1)
 
     def test_nothing_is_right_that_the_stages_behind_draw_otherwise_or_refuse(self):
-        scene, config = self.sample("worked-example")
-        self.edit(scene=scene.decode(), config=config.decode())
         text = (ROOT / "samples/worked-example/stage3.txt").read_text()
         for wrong, told in ((text + ".5 .5 .0\n.9 .9 .0\n.1 .9 .0\n", "2 triangles in place of 1"),
                             ("triangle 77\n" + text, "every vertex is right, but"), (text.replace(
@@ -736,8 +732,7 @@ class ThePage(PageTest):
         self.assertIsNone(self.browser.run(hit))
 
     def test_code_that_ran_runs_again_on_an_edited_scene(self):
-        scene, config = self.sample("worked-example")
-        self.edit(scene=scene.decode(), config=config.decode())
+        scene, _ = self.sample("worked-example")
         self.assertIn("every vertex is right", self.own("view")[1])
         self.edit(scene=scene.decode().replace("0 0 2 ", "1 1 3 "))
         self.browser.wait_for(lambda: any(self.browser.run(self.TOLD)))
@@ -769,8 +764,7 @@ class ThePage(PageTest):
             self.assertEqual(found, {"scene.txt": scene, "config.txt": config, **expected})
 
     def test_the_picture_is_there_before_all_else(self):
-        scene, config = self.sample("worked-example")
-        self.edit(scene=scene.decode(), config=config.decode())
+        scene, _ = self.sample("worked-example")
         self.browser.run("""const {client} = document.body.playground, {drawn, answered} = client;
           window.heard = [];
           client.drawn = picture => { drawn(picture); window.heard.push(picture.pixels.length); };
@@ -780,16 +774,12 @@ class ThePage(PageTest):
         self.assertEqual(self.browser.run("return window.heard.slice(0, 2)"), [size, "all"])
 
     def test_a_verdict_does_not_outlive_what_it_is_about(self):
-        scene, config = self.sample("worked-example")
-        self.edit(scene=scene.decode(), config=config.decode())
         self.assertIn("every vertex is right", self.own("view")[1])
         self.browser.run(self.TYPE, "own", "//")
         self.browser.wait_for(lambda: not any(self.browser.run(self.TOLD)))
 
     def test_code_that_came_along_does_nothing_until_run_and_then_no_harm(self):
-        scene, config = self.sample("worked-example")
-        self.edit(scene=scene.decode(), config=config.decode(), mine={
-            "tool": "view", "kind": "js", "text": "return 'ran'"})
+        self.edit(mine={"tool": "view", "kind": "js", "text": "return 'ran'"})
         self.assertEqual(self.browser.run(self.TOLD), ["", ""])
         self.assertIn("'ran'", self.browser.run("return document.body.playground.state.mine.text"))
         address, asked = serve(self, BUILT / "site")
@@ -849,8 +839,6 @@ class TheFolder(PageTest):
         self.assertEqual([line for line in self.asked if "mesh2scene" in line], [])
 
     def test_code_reaches_no_file_of_the_server(self):
-        scene, config = self.sample("worked-example")
-        self.edit(scene=scene.decode(), config=config.decode())
         count, where = len(self.asked), f"{self.address}main.js"
         for code in (f"importScripts('{where}')",
                      f"const r = new XMLHttpRequest(); r.open('GET', '{where}', false); r.send()",
