@@ -3,21 +3,16 @@
 
 usage: options_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
-import itertools
 import os
 import pathlib
 import re
 import subprocess
 import unittest
 
-from toolbox import (ALL_TOOLS, BIN, CAMERA, HEADER, HEADERS, SCENE, SOURCE, ToolTest, pipe, run, stage_texts,
-                     tool_inputs)
+import toolbox
+from toolbox import ALL_TOOLS, BIN, CAMERA, SOURCE, ToolTest, add_claims, alternatives, stage_texts
 
-PLAIN = """1 2 6
-1 0.5 0
-0 1 0
-60 1.5 1 100
-translate
+SCENE = CAMERA.replace("0 0 5\n0 0 0", "1 2 6\n1 0.5 0").replace("60 1 1", "60 1.5 1") + """translate
 0.25 0 -1
 push
 rotate
@@ -35,227 +30,164 @@ triangle
 0 -1 1
 end
 """
-VIEW_SPACE = "0 0 -2\n1 0 -2\n0 1 -3\n\n"
-OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"]}
-INPUTS = {"model": SCENE, "view": HEADER, "project": HEADERS["project"], "zbuf": ""}
+INPUTS = {
+    "model": "scene.txt", "view": "stage1.txt", "project": "stage2.txt", "zbuf": "stage3.txt",
+    "trace": "stage2.txt"}
+FILES = {
+    before + name: text
+    for before, scene in (("", SCENE), ("one.", toolbox.SCENE))
+    for name, text in zip(INPUTS.values(), (scene.encode(), *stage_texts(scene)))}
+OPERANDS = {tool: "config.txt " if tool in ("zbuf", "trace") else "" for tool in ALL_TOOLS}
+VERSION = re.search(r"VERSION (\d+\.\d+\.\d+)", (SOURCE / "CMakeLists.txt").read_text())[1]
+STAGE, COMMON = ["--digits N|exact", "--precision double|extended"], ["--help", "--version", "--timing"]
+PROJECTION = [
+    "--perspective FOVY ASPECT NEAR FAR", "--frustum L R B T N F", "--ortho L R B T N F", "--scene FILE"]
+DRAWN = ["CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--background RRGGBB"]
+WORDS = {
+    "model": [*STAGE, "--bare", "--framed"],
+    "view": [*STAGE, *PROJECTION, "--bare", "--eye X Y Z", "--look X Y Z", "--up X Y Z"],
+    "project": [
+        *STAGE, *PROJECTION, "--aspect angle|ratio", "--clip auto|near|frustum|reject|none",
+        "--cull back|front"],
+    "zbuf": [*DRAWN, "--coverage ", "--algorithm "],
+    "trace": [
+        *PROJECTION, *DRAWN, "--sampling basic|regular|jittered|adaptive", "--samples N", "--threshold N",
+        "--threads N"],}
+GROUPS = {
+    "model": ["Numbers", "Output"],
+    "view": ["Numbers", "Camera", "Light", "Output"],
+    "project": ["Numbers", "Projection", "Clipping", "Output"],
+    "zbuf": ["Output", "Pixels", "Color and light", "Debugging"],
+    "trace": ["Output", "Projection", "Pixels", "Color and light", "Debugging"],}
 
 
-class Locale(ToolTest):
-    def test_a_decimal_comma_of_the_locale_changes_nothing(self):
-        environment = dict(os.environ, LC_ALL="de_DE.UTF-8")
-        if subprocess.run(["locale", "decimal_point"], capture_output=True, text=True,
-                          env=environment).stdout != ",\n":
+def same(test, *outputs):
+    test.assertEqual(set(outputs), {outputs[0]})
+
+
+def matches(pattern):
+    return lambda test, *outputs: [test.assertRegex(text, pattern) for text in outputs]
+
+
+def names(words):
+    return lambda test, text: test.assertEqual([word for word in words if word not in text], [])
+
+
+def is_of_80_columns(test, *texts):
+    test.assertEqual(
+        [line for text in texts for line in text.split("\n") if not len(line.rstrip()) == len(line) <= 80],
+        [])
+
+
+def shortens(test, common, full):
+    """Without rare options, the help names the others in the same words."""
+    common, full = (re.findall(r"^  -.*\n(?: {25}.*\n)*", text, re.M) for text in (common, full))
+    test.assertEqual([option for option in full if option in common], common)
+    test.assertLess(len(common), len(full))
+
+
+def has_groups(groups):
+    return lambda test, text: test.assertEqual(re.findall(r"^(\w[\w ]*):$", text, re.M), [
+        "Example", "Operands", *groups, "General"])
+
+
+def has_examples(test, text):
+    """Two, which do what they show."""
+    examples = re.search(r"^Examples:\n((?:  .*\n)+)", text, re.M)[1].splitlines()
+    test.assertEqual(len(examples), 2)
+    for example in examples:
+        test.assertIn(text.split()[1], example)
+        test.output(example)
+        for result in re.findall(r"(?:>|-o) (\S+)", example):
+            test.assertGreater(pathlib.Path(result).stat().st_size, 0)
+
+
+def claims_of(tool):
+    line, file = f"{tool} {OPERANDS[tool]}", INPUTS[tool]
+    return (
+        ("takes a file, a dash or nothing for its input", line + f"{{{file}|- < {file}|< {file}}}", same),
+        ("writes help and reads nothing", f"{tool} {{--help|-h|--help none.txt}}",
+         matches(f"Usage: {tool} ")),
+        ("names every option in its help", f"{tool} --help-all", names([*COMMON, *WORDS[tool]])),
+        ("has help of 80 columns", f"{tool} --help{{|-all}}", is_of_80_columns),
+        ("begins help with usage and an example", f"{tool} --help{{|-all}}",
+         matches(rf"\AUsage: {tool} .*\n( {{7}}{tool} .*\n)?\nExamples?:\n  \w")),
+        ("names rare options in --help-all alone", f"{tool} --help{{|-all}}", shortens),
+        ("has its options in groups", f"{tool} --help", has_groups(GROUPS[tool])),
+        ("has examples in its help", f"{tool} --help-all", has_examples),
+        ("has the version of the project, and reads nothing", f"{tool} --version{{| none.txt}}",
+         matches(rf"\A{tool} \(pipeline\) {VERSION}\n\Z")),
+        ("changes no byte by --timing", f"{line}{file} == {line}--timing {file} 2> time.txt", same),
+        ("writes a line by --timing", line + f"--timing {file} 2>&1 > /dev/null",
+         matches(rf"\A{tool}: 2 triangles in \d+\.\d+ s .*\n\Z")),
+        ("counts one triangle in the singular", line + f"--timing one.{file} 2>&1 > /dev/null",
+         matches(rf"\A{tool}: 1 triangle in \d")),
+    )
+
+
+SETTINGS = {
+    "PATH": f"{BIN}:{os.environ['PATH']}", "CAMERA": CAMERA,
+    "TRIANGLE": "triangle\n1 2 3\n4 5 6\n7 8 10\nend\n"}
+RATIO = "sed 's/1.5 1 100/& ratio/' scene.txt"
+P = "--perspective 60 1.5 1 100"
+LIGHT, MOVED = "light 7 8 9 0.5 0.5 0.5\\n", "translate 1 1 1\\nlight {} 1 0 0.25\\n"
+VERTICES = "1 2 3\\n0 0 0\\n0 0 0\\n\\n"
+# A claim, lines of bash between ==, and who judges their outputs.
+CASES = [
+    *((f"{tool} {claim}", *row) for tool in ALL_TOOLS for claim, *row in claims_of(tool)),
+    ("a decimal comma of the locale changes nothing",
+     "export LC_ALL={C|de_DE.UTF-8}; model scene.txt | view | project | zbuf config.txt", same),
+    ("options may stand behind operands", "model {scene.txt --digits 2|--digits 2 scene.txt}", same),
+    ("options may be joined to their value", "model --digits{=| }exact scene.txt", same),
+    ("behind two dashes there are only operands", "cp scene.txt ./--bare; model {-- --bare|scene.txt}", same),
+    ("the config may be standard input", "zbuf {-|config.txt} stage3.txt < config.txt", same),
+    ("timing says nothing of a failed run", "(model --timing 2>&1 || true)",
+     matches(r"\A(?!.*triangles in)")),
+    *((f"a light more comes behind {place}",
+       f'printf "${{CAMERA}}{own}$TRIANGLE" | model | view --light 1e2 -2 .5 1 0 0.25 == '
+       f'printf "${{CAMERA}}{own}light 100 -2 0.5 1 0 0.25\\n$TRIANGLE" | model | view', same)
+      for place, own in (("none", ""), ("the scene's", LIGHT))),
+    ("a light of the scene moves",
+     f'printf "${{CAMERA}}{LIGHT}{MOVED.format("1 2 3")}$TRIANGLE" | model | view --light-at 1 1e2 -2 .5 == '
+     f'printf "${{CAMERA}}{LIGHT}{MOVED.format("99 -3 -0.5")}$TRIANGLE" | model | view', same),
+    # Options override --scene, and --scene overrides the header, part by part.
+    ("a projection that is replaced loses its aspect rule",
+     f"{RATIO} | model | view {P} | project == {RATIO} | model | view | project {P}", same),
+    ("a header has the projection of options", f"{RATIO} | model | view {P}",
+     matches(r"\Aperspective 60 1.5 1 100\n")),
+    ("an aspect rule is given with a projection", f"{RATIO} | model | view | project{{| {P} --aspect ratio}}",
+     same),
+    ("the aspect rule of a scene replaces the one of the header",
+     f"{RATIO} > c.txt; model scene.txt | view --scene c.txt | project == "
+     f"model scene.txt | view | project --scene c.txt == model c.txt | view | project", same),
+    *((f"an aspect rule changes nothing of {words.split()[0]}",
+       f"project {words}{{| --aspect ratio| --aspect angle}} stage2.txt", same)
+      for words in ("--frustum -1 2 -1 1 1 3", "--ortho -2 2 -3 2 1 3")),
+    ("negative numbers are values and no options",
+     f'printf "{VERTICES}" | view --bare --eye -1 -2 -5 --look -.5 -2 -1e-3 --up -.5 -1 -0 == '
+     f'printf "eye -1 -2 -5\\nlook -0.5 -2 -0.001\\nup -0.5 -1 -0\\n{VERTICES}" | view --bare', same),]
+
+
+class Options(ToolTest):
+    def setUp(self):
+        super().setUp()
+        for name, text in FILES.items():
+            pathlib.Path(name).write_bytes(text)
+
+    def output(self, line):
+        done = subprocess.run(["bash", "-eo", "pipefail", "-c", line], input=b"nonsense", capture_output=True,
+                              env={**os.environ, **SETTINGS}, timeout=60)
+        self.assert_quiet_success(done)
+        return done.stdout.decode()
+
+    def check(self, lines, judge):
+        if "de_DE" in lines and subprocess.run(["locale", "decimal_point"], capture_output=True, env={
+                **os.environ, "LC_ALL": "de_DE.UTF-8"}).stdout != b",\n":
             self.skipTest("the locale de_DE.UTF-8 is not installed")
-        texts = []
-        for name in ("C", "de_DE.UTF-8"):
-            environment = dict(os.environ, LC_ALL=name)
-            texts.append(
-                pipe(["model"], ["view"], ["project"], ["zbuf", "config.txt"], stdin=PLAIN, env=environment))
-        self.assertEqual(*texts)
+        judge(self, *(self.output(way) for line in lines.split(" == ") for way in alternatives(line)))
 
 
-class Operands(ToolTest):
-    def test_the_input_may_be_a_file(self):
-        for tool, text in INPUTS.items():
-            pathlib.Path("input.txt").write_text(text)
-            self.assertEqual(pipe([tool, *OPERANDS[tool], "input.txt"], stdin="nonsense"),
-                             pipe([tool, *OPERANDS[tool]], stdin=text))
-
-    def test_a_dash_is_standard_input(self):
-        for tool, text in INPUTS.items():
-            self.assertEqual(pipe([tool, *OPERANDS[tool], "-"], stdin=text),
-                             pipe([tool, *OPERANDS[tool]], stdin=text))
-
-    def test_options_may_stand_behind_operands(self):
-        self.assertEqual(pipe(["model", "scene.txt", "--digits", "2"]),
-                         pipe(["model", "--digits", "2", "scene.txt"]))
-
-    def test_options_may_be_joined_to_their_value(self):
-        self.assertEqual(pipe(["model", "--digits=exact"]), pipe(["model", "--digits", "exact"]))
-
-    def test_behind_two_dashes_there_are_only_operands(self):
-        pathlib.Path("--bare").write_text(SCENE)
-        self.assertEqual(pipe(["model", "--", "--bare"]), pipe(["model"]))
-
-    def test_the_config_may_be_standard_input(self):
-        pathlib.Path("stage3.txt").write_bytes(stage_texts()[2])
-        self.assertEqual(pipe(["zbuf", "-", "stage3.txt"], stdin="8 8\n"),
-                         pipe(["zbuf", "config.txt", "stage3.txt"]))
-
-
-class Answers(ToolTest):
-    def test_help_goes_to_stdout(self):
-        for tool in ALL_TOOLS:
-            for option in ("--help", "-h"):
-                done = run(tool, option)
-                self.assert_quiet_success(done)
-                self.assertIn(f"Usage: {tool} ".encode(), done.stdout)
-
-    def test_help_names_every_option_of_the_tool(self):
-        common = ["--help", "--version", "--timing"]
-        stage = ["--digits N|exact", "--precision double|extended"]
-        projection = [
-            "--perspective FOVY ASPECT NEAR FAR", "--frustum L R B T N F", "--ortho L R B T N F",
-            "--scene FILE"]
-        words = {
-            "model": stage + ["--bare", "--framed"],
-            "view": stage + projection + ["--bare", "--eye X Y Z", "--look X Y Z", "--up X Y Z"],
-            "project": stage + projection +
-            ["--aspect angle|ratio", "--clip auto|near|frustum|reject|none", "--cull back|front"],
-            "zbuf": [
-                "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--coverage ",
-                "--algorithm ", "--background RRGGBB"],
-            "trace": projection + [
-                "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--background RRGGBB",
-                "--sampling basic|regular|jittered|adaptive", "--samples N", "--threshold N", "--threads N"],}
-        for tool in ALL_TOOLS:
-            text = run(tool, "--help-all").stdout.decode()
-            for word in common + words[tool]:
-                self.assertIn(word, text)
-
-    def test_help_is_of_80_columns_and_begins_with_usage_and_an_example(self):
-        for tool, option in itertools.product(ALL_TOOLS, ("--help", "--help-all")):
-            text = run(tool, option).stdout.decode()
-            wrong = [line for line in text.split("\n") if len(line) > 80 or line != line.rstrip()]
-            self.assertEqual(wrong, [])
-            self.assertRegex(text, rf"\AUsage: {tool} .*\n( {{7}}{tool} .*\n)?\nExamples?:\n  \w")
-
-    def test_help_without_rare_options_names_the_others_in_the_same_words(self):
-        for tool in ALL_TOOLS:
-            common, full = (run(tool, option).stdout.decode() for option in ("--help", "--help-all"))
-            options = [re.findall(r"^  -.*\n(?: {25}.*\n)*", text, re.M) for text in (common, full)]
-            self.assertEqual([option for option in options[1] if option in options[0]], options[0])
-            self.assertLess(len(options[0]), len(options[1]))
-
-    def test_help_has_its_options_in_groups(self):
-        groups = {
-            "model": ["Numbers", "Output"],
-            "view": ["Numbers", "Camera", "Light", "Output"],
-            "project": ["Numbers", "Projection", "Clipping", "Output"],
-            "zbuf": ["Output", "Pixels", "Color and light", "Debugging"],
-            "trace": ["Output", "Projection", "Pixels", "Color and light", "Debugging"],}
-        for tool in ALL_TOOLS:
-            found = re.findall(r"^(\w[\w ]*):$", run(tool, "--help").stdout.decode(), re.M)
-            self.assertEqual(found, ["Example", "Operands", *groups[tool], "General"])
-
-    def test_the_examples_of_help_do_what_they_show(self):
-        path = f"{BIN}:{os.environ['PATH']}"
-        for tool in ALL_TOOLS:
-            examples = re.search(r"^Examples:\n((?:  .*\n)+)",
-                                 run(tool, "--help-all").stdout.decode(), re.M)[1].splitlines()
-            self.assertEqual(len(examples), 2)
-            for example in examples:
-                with self.subTest(example):
-                    for name, text in zip(("stage1.txt", "stage2.txt", "stage3.txt"), stage_texts(PLAIN)):
-                        pathlib.Path(name).write_bytes(text)
-                    pathlib.Path("scene.txt").write_text(PLAIN)
-                    self.assertIn(tool, example)
-                    done = subprocess.run(["bash", "-eo", "pipefail", "-c", example], capture_output=True,
-                                          env={**os.environ, "PATH": path})
-                    self.assert_quiet_success(done)
-                    for result in re.findall(r"(?:>|-o) (\S+)", example):
-                        self.assertGreater(pathlib.Path(result).stat().st_size, 0)
-
-    def test_help_and_version_read_no_input(self):
-        for tool in ALL_TOOLS:
-            for option in ("--help", "--version"):
-                self.assert_quiet_success(run(tool, option, "none.txt"))
-
-    def test_the_version_is_that_of_the_project(self):
-        version = re.search(r"VERSION (\d+\.\d+\.\d+)", (SOURCE / "CMakeLists.txt").read_text()).group(1)
-        for tool in ALL_TOOLS:
-            done = run(tool, "--version")
-            self.assert_quiet_success(done)
-            self.assertEqual(done.stdout.decode(), f"{tool} (pipeline) {version}\n")
-
-    def test_timing_is_one_line_on_stderr_and_changes_no_byte(self):
-        for tool, operands, text in tool_inputs(PLAIN):
-            plain = run(tool, *operands, stdin=text)
-            timed = run(tool, *operands, "--timing", stdin=text)
-            self.assertEqual((timed.returncode, timed.stdout), (0, plain.stdout))
-            self.assertRegex(timed.stderr.decode(), rf"\A{tool}: 2 triangles in \d+\.\d+ s .*\n\Z")
-
-    def test_timing_counts_one_triangle_in_the_singular(self):
-        for tool, operands, text in tool_inputs():
-            self.assertRegex(
-                run(tool, *operands, "--timing", stdin=text).stderr.decode(), rf"\A{tool}: 1 triangle in \d")
-
-    def test_timing_says_nothing_of_a_failed_run(self):
-        self.assertNotIn(b"triangles in", run("model", "--timing", stdin="x").stderr)
-
-
-class OneLightMore(ToolTest):
-    def test_it_comes_behind_those_of_the_scene(self):
-        triangle = "triangle\n1 2 3\n4 5 6\n7 8 9\nend\n"
-        for own in ("", "light 7 8 9 0.5 0.5 0.5\n"):
-            added = pipe(["model"], ["view", "--light", "1e2", "-2", ".5", "1", "0", "0.25"],
-                         stdin=CAMERA + own + triangle)
-            written = pipe(["model"], ["view"], stdin=CAMERA + own + "light 100 -2 0.5 1 0 0.25\n" + triangle)
-            self.assertEqual(added, written)
-
-    def test_one_of_the_scene_moves(self):
-        triangle = "triangle\n1 2 3\n4 5 6\n7 8 9\nend\n"
-        lights = ["light 7 8 9 0.5 0.5 0.5\n", "translate 1 1 1\nlight 1 2 3 1 0 0.25\n"]
-        moved = pipe(["model"], ["view", "--light-at", "1", "1e2", "-2", ".5"],
-                     stdin=CAMERA + "".join(lights) + triangle)
-        lights[1] = "translate 1 1 1\nlight 99 -3 -0.5 1 0 0.25\n"
-        self.assertEqual(moved, pipe(["model"], ["view"], stdin=CAMERA + "".join(lights) + triangle))
-        for header, number, expected in ((HEADER, "0", "a scene with a light"),
-                                         (HEADER + "light 1 2 3 1 1 1\n", "1", "0, the scene's one light"),
-                                         (HEADER + "light 1 2 3 1 1 1\n" * 3, "-1", "a light from 0 to 2")):
-            self.assert_fails(run("view", "--light-at", number, "1", "2", "3", stdin=header), 2,
-                              f"view: --light-at: expected {expected}, found '{number}' (try view --help)")
-
-    def test_it_needs_a_header_and_six_numbers(self):
-        self.assert_fails(run("view", "--bare", "--light-at", "0", "1", "2", "3"), 2,
-                          "view: expected --bare or --light-at, found both (try view --help)")
-        light = ["--light", "1", "2", "3", "1", "1"]
-        self.assert_fails(run("view", "--bare", *light, "1"), 2,
-                          "view: expected --bare or --light, found both (try view --help)")
-        self.assert_fails(
-            run("view", *light, "-1", stdin=HEADER), 2,
-            "view: --light: expected the blue of the light of at least 0, found '-1' "
-            "(try view --help)")
-
-
-class CameraPrecedence(ToolTest):
-    """Options override --scene, and --scene overrides the header, part by part."""
-    def view(self, *options, header=""):
-        return pipe(["view", "--bare", *options],
-                    stdin=header + "1 2 3\n0 0 0\n0 0 0\n\n").decode().splitlines()[0]
-
-    RATIO_SCENE = SCENE.replace("60 1 1 100", "60 1.5 1 100 ratio")
-
-    def test_a_projection_that_is_replaced_loses_its_aspect_rule(self):
-        stage1 = pipe(["model"], stdin=self.RATIO_SCENE)
-        stage2 = pipe(["view", "--perspective", "60", "1.5", "1", "100"], stdin=stage1)
-        self.assertTrue(stage2.startswith(b"perspective 60 1.5 1 100\n"))
-        by_angle = pipe(["project"], stdin=stage2)
-        self.assertEqual(pipe(["view"], ["project", "--perspective", "60", "1.5", "1", "100"], stdin=stage1),
-                         by_angle)
-        self.assertEqual(
-            pipe(["view"], ["project", "--perspective", "60", "1.5", "1", "100", "--aspect", "ratio"],
-                 stdin=stage1), pipe(["view"], ["project"], stdin=stage1))
-
-    def test_the_aspect_rule_of_a_scene_replaces_that_of_the_header(self):
-        pathlib.Path("camera.txt").write_text(self.RATIO_SCENE)
-        stage1 = pipe(["model"], stdin=self.RATIO_SCENE.replace(" ratio", ""))
-        expected = pipe(["model"], ["view"], ["project"], stdin=self.RATIO_SCENE)
-        self.assertEqual(pipe(["view", "--scene", "camera.txt"], ["project"], stdin=stage1), expected)
-        self.assertEqual(pipe(["view"], ["project", "--scene", "camera.txt"], stdin=stage1), expected)
-
-    def test_an_aspect_rule_changes_no_other_projection(self):
-        for words in ("--frustum -1 2 -1 1 1 3", "--ortho -2 2 -3 2 1 3"):
-            for rule in ("ratio", "angle"):
-                self.assertEqual(pipe(["project", *words.split(), "--aspect", rule], stdin=VIEW_SPACE),
-                                 pipe(["project", *words.split()], stdin=VIEW_SPACE))
-
-    def test_negative_numbers_are_values_and_no_options(self):
-        expected = self.view(header="eye -1 -2 -5\nlook -0.5 -2 -0.001\nup -0.5 -1 -0\n")
-        self.assertEqual(
-            self.view("--eye", "-1", "-2", "-5", "--look", "-.5", "-2", "-1e-3", "--up", "-.5", "-1", "-0"),
-            expected)
-
+add_claims(Options, CASES)
 
 if __name__ == "__main__":
     unittest.main()
