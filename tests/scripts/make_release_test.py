@@ -47,6 +47,7 @@ class MakeRelease(unittest.TestCase):
                  "# Log\n\n## 9.8.7 - 2026-11-26\n\n- New.\n\n## 9.8.6 - 2026-11-25\n\n- Old.\n")
         self.put(self.tree / ".gitignore", "/build/\n")
         self.put(self.tree / "build/playground/root/usr/bin/emcmake", "")
+        self.put(self.tree / "build/playground/npm/done", "")
         self.put(self.bin / "bwrap", BWRAP)
         self.put(self.bin / "mmdebstrap", '#!/bin/sh\nfor new; do :; done\nmkdir -p "$new"\n')
         self.put(self.bin / "node", "#!/bin/sh\necho v0\n")
@@ -84,6 +85,7 @@ class MakeRelease(unittest.TestCase):
     def test_makes_a_folder_with_notes_and_checksums(self):
         status, output, messages = self.run_it("9.8.7", "new/")
         self.assertEqual((status, output.splitlines()[-1], messages), (0, "made new/", ""))
+        self.assertRegex(output, "^building 9.8.7 on two processors takes some 30 minutes")
         self.assertEqual(os.listdir(self.out), ["new"])
         new = self.out / "new"
         self.assertEqual((new / "notes.md").read_text(), "- New.\n")
@@ -130,7 +132,7 @@ class MakeRelease(unittest.TestCase):
         done = subprocess.run([self.tree / "scripts/package/make-release", "9.8.7", "new"], cwd=self.out,
                               capture_output=True, text=True, env={"PATH": str(self.bin)})
         self.assertEqual(
-            done.stderr, "make-release: missing: node flock build/playground/root; run "
+            done.stderr, "make-release: missing: node flock build/playground/root build/playground/npm; run "
             "scripts/install-packages --checks and then --playground\n")
 
     def test_version_and_changelog_are_those_of_the_commit(self):
