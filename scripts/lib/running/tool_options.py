@@ -9,6 +9,14 @@ def add_options_of_project(group):
 
 
 def words_of_project(options):
-    """The words of the options of project that were given."""
-    given = {"--aspect": options.aspect, "--clip": options.clip, "--cull": options.cull}
-    return [word for option, value in given.items() if value for word in (option, value)]
+    return given_words(options, ("--aspect", "--clip", "--cull"))
+
+
+def given_words(options, names):
+    """The words of the options with these names that were given."""
+    words = []
+    for name in names:
+        value = getattr(options, name.lstrip("-").replace("-", "_"))
+        if value is not None and value is not False:
+            words += [name, *(() if value is True else value if isinstance(value, list) else [str(value)])]
+    return words

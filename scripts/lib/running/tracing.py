@@ -1,4 +1,5 @@
 """The options of trace that commands pass on, and a check for options that mean nothing to trace."""
+from lib.running.tool_options import given_words
 
 VALUES = {
     "--sampling": ("basic|regular|jittered|adaptive", "where the rays of a pixel go"),
@@ -8,10 +9,6 @@ VALUES = {
 FLAGS = {
     "--no-shadows": "light all that faces a lamp",
     "--no-recursion": "draw mirrors and glass matte and opaque"}
-
-
-def attribute(option):
-    return option.lstrip("-").replace("-", "_")
 
 
 def add_trace_options(parser):
@@ -28,10 +25,7 @@ def trace_words(parser, options, meaningless=(), others=()):
     """The words for trace; `others` are further options of the command for trace alone. Ends the program if
     options for trace are given without --trace, or with --trace an option in `meaningless`, pairs of a given
     option (or None) and the reason why it means nothing to trace."""
-    words = [
-        word for option in (*VALUES, *others) for word in (option, getattr(options, attribute(option)))
-        if getattr(options, attribute(option)) is not None]
-    words += [option for option in FLAGS if getattr(options, attribute(option))]
+    words = given_words(options, (*VALUES, *others, *FLAGS))
     if words and not options.trace:
         parser.error(f"{words[0]} is for trace: it needs --trace")
     if options.trace:
