@@ -1,4 +1,4 @@
-"""Cameras over time: a file of keys, and a curve through them."""
+"""The camera over time: keys in a file, and a curve through them."""
 import math
 from dataclasses import dataclass
 from typing import Optional
@@ -16,21 +16,24 @@ class Camera:
     fov_y: Optional[float] = None  # degrees; None: the scene's
 
 
-@dataclass(frozen=True)
-class Key:
-    time: float  # seconds
-    camera: Camera
+def camera_of(numbers):
+    """The camera of 9 numbers (eye, look, up), or of 10 with a fovY."""
+    return Camera(*(tuple(numbers[i:i + 3]) for i in (0, 3, 6)), *numbers[9:])
 
 
 def is_usable(camera):
-    """True if the camera has a direction, and an up that is not along it."""
+    """True if the camera has a direction, an up that is not along it, and an angle of view."""
     forward = tuple(b - a for a, b in zip(camera.eye, camera.look))
     size = math.hypot(*forward) * math.hypot(*camera.up)
-    return size > 0 and math.hypot(*cross(forward, camera.up)) > 1e-12 * size
+    return size > 0 and math.hypot(*cross(forward, camera.up)) > 1e-12 * size and has_an_angle(camera)
+
+
+def has_an_angle(camera):
+    return camera.fov_y is None or 0 < camera.fov_y < 180
 
 
 def read_path(data, path):
-    """The keys of a file, in the order of their times; at least two."""
+    """The keys of a file, two or more, in order of time: rows of the time and the camera's numbers."""
     keys = []
     for number, line in enumerate(data.decode(errors="replace").splitlines(), 1):
         words = line.partition("#")[0].split()
@@ -45,29 +48,24 @@ def read_path(data, path):
             raise CommandFailure(
                 place + f"expected the time, eye, look and up, and perhaps fovY: 10 or 11 numbers, found "
                 f"'{' '.join(words)[:60]}'")
-        camera = Camera(tuple(numbers[1:4]), tuple(numbers[4:7]), tuple(numbers[7:10]),
-                        numbers[10] if len(numbers) == 11 else None)
-        if camera.fov_y is not None and not 0 < camera.fov_y < 180:
+        camera = camera_of(numbers[1:])
+        if not has_an_angle(camera):
             raise CommandFailure(place + f"expected a fovY above 0 and below 180, found {words[10]}")
         if not is_usable(camera):
             raise CommandFailure(
                 place + "expected an eye apart from the look point, and an up that is not along their line")
-        if keys and numbers[0] <= keys[-1].time:
-            raise CommandFailure(place + f"expected a time after {keys[-1].time:g}, found {words[0]}")
-        if keys and (camera.fov_y is None) != (keys[0].camera.fov_y is None):
+        if keys and numbers[0] <= keys[-1][0]:
+            raise CommandFailure(place + f"expected a time after {keys[-1][0]:g}, found {words[0]}")
+        if keys and len(numbers) != len(keys[0]):
             raise CommandFailure(place + "expected a fovY on every line or on none")
-        keys.append(Key(numbers[0], camera))
+        keys.append(numbers)
     if len(keys) < 2:
         raise CommandFailure(f"{name_of(path)}: expected two cameras or more, found {len(keys)}")
     return keys
 
 
-def numbers_of(camera):
-    return [*camera.eye, *camera.look, *camera.up, *([] if camera.fov_y is None else [camera.fov_y])]
-
-
 def slopes(times, values):
-    """Catmull-Rom: at a key, the slope from its neighbor before to that after; at an end, to its only
+    """The slope at each key (Catmull-Rom): from the key before to the key after; at an end, to its only
     neighbor."""
     last = len(times) - 1
     return [
@@ -76,17 +74,16 @@ def slopes(times, values):
 
 
 def hermite(t, h, a, b, slope_a, slope_b):
-    """The cubic from a to b with these slopes, at the part t of an interval of length h."""
+    """The cubic from a to b with these slopes at its ends, at the fraction t of an interval of length h."""
     return (a * (1 + 2 * t) * (1 - t)**2 + slope_a * h * t * (1 - t)**2 + b * t * t * (3 - 2 * t) +
             slope_b * h * t * t * (t - 1))
 
 
 def cameras_of(keys, fps, linear):
-    """A camera for every frame, from the first key's time to the last's."""
-    times = [key.time for key in keys]
-    curves = list(zip(*(numbers_of(key.camera) for key in keys)))
+    """A camera for every frame, from the first key's time to the last key's."""
+    times, *curves = zip(*keys)
     slopes_of = [slopes(times, values) for values in curves]
-    # The last frame is there in spite of rounding.
+    # Rounding must not cost the last frame.
     count = math.floor((times[-1] - times[0]) * fps + 1e-9) + 1
     cameras, i = [], 0
     for frame in range(count):
@@ -95,19 +92,17 @@ def cameras_of(keys, fps, linear):
             i += 1
         h = times[i + 1] - times[i]
         t = (time - times[i]) / h
-        if abs(t - round(t)) < 1e-9:  # at a key, up to the rounding of times
-            t = round(t)
+        t = round(t) if abs(t - round(t)) < 1e-9 else t  # exactly at a key, though times are rounded
         if linear:
             numbers = [values[i] * (1 - t) + values[i + 1] * t for values in curves]
         else:
             numbers = [
                 hermite(t, h, values[i], values[i + 1], slope[i], slope[i + 1])
                 for values, slope in zip(curves, slopes_of)]
-        camera = Camera(tuple(numbers[0:3]), tuple(numbers[3:6]), tuple(numbers[6:9]),
-                        numbers[9] if len(numbers) == 10 else None)
-        if not is_usable(camera) or not (camera.fov_y is None or 0 < camera.fov_y < 180):
+        camera = camera_of(numbers)
+        if not is_usable(camera):
             raise CommandFailure(
-                f"at {time:g} s the way between the cameras leads through one that shows nothing: add a key "
-                f"there, or take --linear")
+                f"at {time:g} s the path passes through a camera that shows nothing: add a key there, or use "
+                "--linear")
         cameras.append(Camera(camera.eye, camera.look, normalized(camera.up), camera.fov_y))
     return cameras

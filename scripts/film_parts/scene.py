@@ -13,7 +13,7 @@ from lib.text.stage_text import header_of, text_of
 
 
 class Scene:
-    """`world` is the text of model, in world space; `config` the screen's."""
+    """The scene in world space, as model writes it, and the text of the config, both as bytes."""
     def __init__(self, tools, path, config):
         with tempfile.TemporaryDirectory() as folder:
             stats = pathlib.Path(folder, "stats.txt")
@@ -51,7 +51,7 @@ def number(x):
 
 
 def cosine_and_sine(frame, count):
-    """Sine and cosine of a frame's part of a turn; exact at quarters."""
+    """The cosine and sine of the turn up to a frame; exact at quarter turns."""
     quarters, rest = divmod(4 * frame, count)
     angle = math.tau / 4 * rest / count
     cosine, sine = math.cos(angle), math.sin(angle)

@@ -375,8 +375,7 @@ class Refusals(FilmTest):
         pathlib.Path("path.txt").write_text("0 0 0 5 0 0 0 0 1 0\n1 0 0 -5 0 0 0 0 1 0\n")
         done = film("scene.txt", "config.txt", "path.txt", "--linear", "-o", "out", "--fps", "2")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertIn("film: at 0.5 s the way between the cameras leads through one that shows nothing",
-                      done.stderr)
+        self.assertIn("film: at 0.5 s the path passes through a camera that shows nothing", done.stderr)
 
     def test_command_lines(self):
         for words in (["path.txt", "--turn", "3", "-o", "out"], ["-o", "out"], ["path.txt"], [
