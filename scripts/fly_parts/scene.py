@@ -1,5 +1,8 @@
 """A scene's text with another camera, and with its first light moved."""
+import itertools
+
 from lib.rim.command import CommandFailure
+from lib.text.scene import filled_lines
 
 
 def words_of(line):
@@ -22,12 +25,8 @@ def without_first_light(lines):
 def rewritten(scene, camera_lines, light=None):
     """The scene with eye, look and up replaced. `light`, six words, replaces the first light; it goes in
     front of all transforms, since its position is in world space."""
-    lines, places = scene.split("\n"), []
-    for i, line in enumerate(lines):
-        if words_of(line):
-            places.append(i)
-        if len(places) == 4:
-            break
+    lines = scene.split("\n")
+    places = [number - 1 for number, _ in itertools.islice(filled_lines(scene), 4)]
     if len(places) < 4:  # an editor may be writing it
         raise CommandFailure("the scene ends before its projection")
     for place, words in zip(places, camera_lines):
