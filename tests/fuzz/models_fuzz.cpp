@@ -1,6 +1,6 @@
 // mesh2scene on any bytes as an OBJ, PLY, glTF or STL file: a scene that model reads, or one clear message
-// and status 1. The first byte of the input selects the format. The tools run as processes, as mesh2scene
-// opens files.
+// and status 1. The first byte of the input selects the format; after a capital letter, the next bytes select
+// any options that mesh2scene has. The tools run as processes, as mesh2scene opens files.
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -8,12 +8,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "tests/fuzz/any_options.h"
 #include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"
 #include "tests/text/temporary_folder.h"
@@ -63,15 +65,19 @@ std::size_t count_of_failures(const std::string& messages) {
 }
 
 void check(FuzzBytes bytes) {
-  const int first = bytes.byte();
+  static const std::vector<Option> kOptions = options_in(run({MESH2SCENE, "--help-all"}).output);
+  const int letter = bytes.byte(), first = std::tolower(letter);
+  std::vector<std::string> words = {MESH2SCENE};
+  if (first != letter) add_any(kOptions, words, bytes);
   const std::string suffix = first == 'o' ? "obj" : first == 'p' ? "ply" : first == 'g' ? "gltf" : "stl";
   const TemporaryFolder folder;
   folder.write("model." + suffix, std::string(bytes.rest()));
-  const Run done = run({MESH2SCENE, folder.path("model." + suffix)});
-  require(WIFEXITED(done.status) && WEXITSTATUS(done.status) <= 1,
+  words.push_back(folder.path("model." + suffix));
+  const Run done = run(words);
+  require(WIFEXITED(done.status) && WEXITSTATUS(done.status) <= (words.size() > 2 ? 2 : 1),
           "what is in a file ends no tool by a signal");
   if (count_of_failures(done.messages) > 1) std::fputs(done.messages.c_str(), stderr);
-  const bool failed = WEXITSTATUS(done.status) == 1;
+  const bool failed = WEXITSTATUS(done.status) != 0;
   require(count_of_failures(done.messages) == (failed ? 1U : 0U), "a failure is one line, success is quiet");
   if (failed) {
     require(done.output.empty(), "a failed run writes no scene");

@@ -6,14 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
-#include <iterator>
 #include <map>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tests/fuzz/any_options.h"
 #include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"
 #include "tests/text/text_input.h"
@@ -153,51 +151,13 @@ void check_rays(const Run& viewed) {
   require(lit.second == on_threads.second, "threads change nothing");
 }
 
-/// An option of a tool, with the kinds of its values.
-using Option = std::vector<std::string>;
-
-/// What --help-all lists, so that a new option is tried from its first day on; --timing reports more than a
-/// reason.
-std::vector<Option> options_of(int (*tool)(int, char**), const std::string& name) {
-  std::istringstream help(run(tool, {name, "--help-all"}, "").output);
-  std::vector<Option> options;
-  for (std::string line; std::getline(help, line);) {
-    if (!line.starts_with("  -")) continue;
-    std::istringstream words(line.substr(line.find("--"), line.find("  ", 2) - line.find("--")));
-    Option option{std::istream_iterator<std::string>(words), {}};
-    if (option[0] != "--help" && option[0] != "--version" && option[0] != "--timing")
-      options.push_back(option);
-  }
-  require(options.size() > 5, "--help-all lists the options");
-  return options;
-}
-
-/// A value of a kind: one of `a|b`, or what its name in --help stands for.
-std::string value_of(const std::string& kind, FuzzBytes& bytes) {
-  static const std::map<std::string, std::string> kFixed = {
-      {"FILE", "/dev/null"}, {"WIDTHxHEIGHT", "5x4"}, {"RRGGBB[AA]", "12345678"},
-      {"COLUMN,ROW", "2,3"}, {"A:B", "1:3"},          {"[all]", "all"}};
-  static const std::vector<std::string> kNumbers = {"2", "0", "1", "0.5", "3", "7", "-1", "1e155", "1e-200"};
-  if (const auto fixed = kFixed.find(kind); fixed != kFixed.end()) return fixed->second;
-  std::vector<std::string> choices;
-  std::istringstream words(kind);
-  for (std::string word; std::getline(words, word, '|');) choices.push_back(word);
-  const std::string& choice = choices[static_cast<std::size_t>(bytes.whole(int(choices.size()) - 1))];
-  const bool is_word = std::islower(static_cast<unsigned char>(choice[0])) != 0;
-  return is_word ? choice : kNumbers[static_cast<std::size_t>(bytes.whole(int(kNumbers.size()) - 1))];
-}
-
 /// A tool under up to three of its options; such a command line may be a misuse.
 Run run_with_any(int (*tool)(int, char**), const std::string& name, const std::string& input,
                  FuzzBytes& bytes) {
   static std::map<std::string, std::vector<Option>> known;
-  if (known[name].empty()) known[name] = options_of(tool, name);
+  if (known[name].empty()) known[name] = options_in(run(tool, {name, "--help-all"}, "").output);
   std::vector<std::string> words = {name};
-  for (int count = bytes.whole(3); count > 0; --count) {
-    const Option& option = known[name][static_cast<std::size_t>(bytes.whole(int(known[name].size()) - 1))];
-    words.push_back(option[0]);
-    for (std::size_t i = 1; i < option.size(); ++i) words.push_back(value_of(option[i], bytes));
-  }
+  add_any(known[name], words, bytes);
   const bool draws = name == "zbuf" || name == "trace";
   Run done = draws ? draw(tool, words, input, false).first : run(tool, words, input);
   require(done.status >= 0 && done.status <= 2, "a run ends with 0, 1 or 2");
