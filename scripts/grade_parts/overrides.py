@@ -26,32 +26,21 @@ def read_overrides(path, hand_ins, tests):
         numbers.setdefault(name, []).append(hand_in.number)
     names = {test.name for test in tests}
     text = read_input(path).decode("utf-8-sig", errors="replace")
-    rows = csv.reader(io.StringIO(text, newline=""), strict=True)
-    found, lines = {}, whole(rows, path)
-    expect(next(lines, None) == COLUMNS, f"expected the columns {','.join(COLUMNS)}")
-    for row in lines:
-        if not row:
-            continue
-        expect(len(row) == len(COLUMNS), f"expected {len(COLUMNS)} columns, found {len(row)}")
-        name, test, points, comment = map(str.strip, row)
-        expect(name in numbers, f"expected the name of a hand-in, found '{shown(name)}'")
-        expect(len(numbers[name]) == 1, f"{len(numbers[name])} hand-ins have the name '{shown(name)}'")
-        expect(test in names or not test and not points,
-               f"expected the name of a test, found '{shown(test)}'")
-        try:
-            value = amount(points) if points else None
-        except ValueError as error:
-            expect(False, shown(str(error)))
-        found.setdefault(numbers[name][0], []).append((test, value, shown(comment)))
-    return found
-
-
-def whole(rows, path):
-    """The rows of a CSV; a CommandFailure for what is none."""
+    rows, found = csv.reader(io.StringIO(text, newline=""), strict=True), {}
     try:
-        yield from rows
-    except csv.Error as error:
-        raise CommandFailure(f"{shown(path)}:{rows.line_num}: {error}") from None
+        expect(next(rows, None) == COLUMNS, f"expected the columns {','.join(COLUMNS)}")
+        for row in filter(None, rows):
+            expect(len(row) == len(COLUMNS), f"expected {len(COLUMNS)} columns, found {len(row)}")
+            name, test, points, comment = map(str.strip, row)
+            expect(name in numbers, f"expected the name of a hand-in, found '{shown(name)}'")
+            expect(len(numbers[name]) == 1, f"{len(numbers[name])} hand-ins have the name '{shown(name)}'")
+            expect(test in names or not test and not points,
+                   f"expected the name of a test, found '{shown(test)}'")
+            line = test, amount(points) if points else None, shown(comment)
+            found.setdefault(numbers[name][0], []).append(line)
+    except (csv.Error, ValueError) as error:
+        expect(False, shown(str(error)))
+    return found
 
 
 def override(result, lines, tests):
