@@ -106,18 +106,17 @@ def file_of(contents, paths, fitting, kind, limit):
     if not fitting:
         return File(KINDS[kind][0])
     name, *others = fitting
-    others = [shown(other)[:LONGEST_LABEL] for other in others[:5]]
-    shown_name = shown(paths[name][-1])[:LONGEST_LABEL]
+    file = File(
+        shown(paths[name][-1])[:LONGEST_LABEL], others=tuple(
+            shown(other)[:LONGEST_LABEL] for other in others[:5]))
     try:
-        return File(shown_name, contents.data(paths[name], limit), None, tuple(others))
+        return dataclasses.replace(file, data=contents.data(paths[name], limit))
     except MemoryError:
         raise
     except ContentsError as error:
-        return File(shown_name, None, InputError(shown_name, str(error)), tuple(others))
+        reason = str(error)
     except OSError as error:
-        return File(shown_name, None, InputError(shown_name, error.strerror or "it cannot be read"),
-                    tuple(others))
+        reason = error.strerror or "it cannot be read"
     except Exception as error:  # a member whose bytes are not what the archive says
-        return File(shown_name, None, InputError(shown_name,
-                                                 f"it cannot be unpacked ({type(error).__name__})"),
-                    tuple(others))
+        reason = f"it cannot be unpacked ({type(error).__name__})"
+    return dataclasses.replace(file, error=InputError(file.name, reason))
