@@ -24,8 +24,7 @@ class Scene:
         header = header_of(self.world)
         if self.stats.get("triangles") == "0" or not {"eye", "look", "up"} <= set(header):
             raise CommandFailure(f"expected a scene with triangles, found none in {name_of(path)}")
-        eye, look, up = (tuple(map(float, header[name])) for name in ("eye", "look", "up"))
-        self.camera = Camera(eye, look, up)
+        self.camera = Camera(*(tuple(map(float, header[name])) for name in ("eye", "look", "up")))
         self.perspective = header.get("perspective")
         self.square_note = note_on_squares(line_of(header.get), text_of(config, "CONFIG"))
 

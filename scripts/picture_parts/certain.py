@@ -4,6 +4,7 @@ import argparse
 import array
 import dataclasses
 import os
+import pathlib
 import re
 import sys
 import tempfile
@@ -91,7 +92,7 @@ class CertainPicture:
                 self.with_options(output=image, bounds=["--bounds"], digits=["--digits", digits], certify=[
                     "--certify", report, *["--triangle-array", owners] * is_last]))
             self.expect_unchanged()
-            picture = content(image)
+            picture = pathlib.Path(image).read_bytes()
             certainty = Certainty(report, size_of(picture)[0])
             return Run(digits, notes, certainty, picture, owners_in(owners) if is_last else None)
 
@@ -123,7 +124,7 @@ class CertainPicture:
 
     def config(self):
         if self.options.config:
-            return content(self.options.config).decode("utf-8-sig", "replace")
+            return read_input(self.options.config).decode("utf-8-sig", "replace")
         return self.options.size.replace("x", " ")
 
     def draw_text(self, text):
@@ -132,12 +133,7 @@ class CertainPicture:
             image, owners = os.path.join(folder, f"image.{self.kind}"), os.path.join(folder, "owners.npy")
             *_, words = self.commands(self.with_options(output=image, certify=["--triangle-array", owners]))
             self.tools.run(*words, stdin=text)
-            return content(image), owners_in(owners)
-
-
-def content(path):
-    with open(path, "rb") as file:
-        return file.read()
+            return pathlib.Path(image).read_bytes(), owners_in(owners)
 
 
 def draw_for_certain(options, *tools_and_calls):

@@ -71,11 +71,8 @@ def digest(path):
 
 def is_same_stream(a, b):
     """True if two paths name the same pipe, which can be read only once."""
-    def status(path):
-        return os.fstat(0) if path == "-" else os.stat(path)
-
     try:
-        a, b = status(a), status(b)
+        a, b = (os.fstat(0) if path == "-" else os.stat(path) for path in (a, b))
     except OSError:
         return False
     return os.path.samestat(a, b) and (stat.S_ISFIFO(a.st_mode) or stat.S_ISSOCK(a.st_mode))
