@@ -11,11 +11,14 @@ import re
 import subprocess
 import unittest
 
-from toolbox import BIN, CONFIG, SCENE, ToolTest, add_claims, alternatives, pseudo_terminal, run, stage_texts
+from toolbox import (BIN, CONFIG, SCENE, TRIANGLE, ToolTest, add_claims, alternatives, pseudo_terminal, run,
+                     stage_texts)
 
-WORLD, VIEW, NDC = stage_texts()
+# The second triangle is hidden.
+TWO = SCENE.replace("end\n", "translate 0.2 0.2 -1\nscale 0.1 0.1 1\n" + TRIANGLE + "end\n")
+WORLD, VIEW, NDC = stage_texts(TWO)
 TEXTS = {
-    "scene": SCENE.encode(), "world": WORLD, "view": VIEW, "ndc": NDC,
+    "scene": TWO.encode(), "world": WORLD, "view": VIEW, "ndc": NDC,
     "config": CONFIG.encode(), "tent": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "seen": run(
         "zbuf", "--size", "8x8", "--seen", "-", stdin=NDC).stdout}
 SUFFIXES = {"--image": ".bmp", "--depth-image": ".pgm"}
@@ -92,6 +95,7 @@ CASES = [
      ""),
     ("standard error may be where standard output goes", "",
      'Z --stats /dev/stderr > both 2>&1 && [ "$(wc -l < both)" -gt 8 ]', ""),
+    ("fewer triangles are seen than there are", "", "! cmp -s ndc.txt seen.txt", ""),
     ("nothing is read before", "mkfifo waits", "exec zbuf none.txt --z-buffer out.bmp <> waits",
      same("--image 'out.bmp'", "--z-buffer 'out.bmp'")),]
 

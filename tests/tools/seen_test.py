@@ -221,19 +221,6 @@ class Outputs(Seen):
                   stdin=WALL.format(0.5))
         self.assertEqual(self.files(), ["a.png", "config.txt", "d.pgm", "scene.txt", "seen.txt", "z.txt"])
 
-    REFUSED = (
-        ("--seen - --z-buffer -",
-         "--z-buffer: expected a file or none, as --seen is standard output, found '-'"),
-        ("--seen - -o -", "--image: expected a file, as --seen is standard output, found '-'"),
-        ("--seen a -o a.ppm --wireframe all",
-         "--seen: expected no --wireframe all, which shows hidden triangles, too, found 'a'"),
-    )
-
-    def test_some_cannot_be_had_together(self):
-        for words, message in self.REFUSED:
-            self.assert_fails(run("zbuf", "config.txt", *words.split()), 2,
-                              f"zbuf: {message} (try zbuf --help)")
-
     def test_the_image_may_be_standard_output(self):
         wall = WALL.format(0.5)
         self.zbuf("-o", "a.ppm", stdin=wall)
@@ -245,11 +232,6 @@ class Outputs(Seen):
         self.assertEqual(self.zbuf("--seen", "-", stdin=""), b"")
         done = run("zbuf", "config.txt", "--seen", "-", "-o", "a.ppm", stdin="")
         self.assertEqual((done.stdout, done.stderr.decode(), done.returncode), (b"", NO_TRIANGLE, 0))
-
-    def test_a_text_may_be_replaced_by_what_is_seen_of_it(self):
-        pathlib.Path("stage3.txt").write_text(WALL.format(0.5) + WALL.format(0.75))
-        self.assert_quiet_success(run("zbuf", "config.txt", "stage3.txt", "--seen", "stage3.txt"))
-        self.assertEqual(pathlib.Path("stage3.txt").read_text(), WALL.format(0.5))
 
 
 if __name__ == "__main__":
