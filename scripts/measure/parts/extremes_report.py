@@ -88,8 +88,8 @@ def certainty(results):
 def promise(results):
     """The findings of the check of single digits."""
     counts = counts_of(results, "wrong_without_note")
-    found = f"{sum(counts)} runs" if any(counts) else "none"
-    return (f"Of {3 * len(counts)} runs of a stage, {found} printed, without a note, a wrong digit for the "
+    found = f"{sum(counts)}" if any(counts) else "None"
+    return (f"{found} of {3 * len(counts)} runs of a stage printed, without a note, a digit wrong for the "
             "numbers it had read.")
 
 
