@@ -21,7 +21,10 @@ using namespace pipeline;
 
 namespace {
 
-constexpr Vec3 kX = {1, 0, 0}, kY = {0, 1, 0}, kZ = {0, 0, 1};
+constexpr Vec3 kY = {0, 1, 0}, kZ = {0, 0, 1};
+const std::vector<std::pair<std::string, std::optional<Vec3>>> kAxes = {
+    {"x", {{1, 0, 0}}},   {"y", kY},           {"z", kZ}, {"-x", {{-1, 0, 0}}},
+    {"-y", {{0, -1, 0}}}, {"-z", {{0, 0, -1}}}};
 
 struct Options {
   std::string size = "800x600";
@@ -48,14 +51,8 @@ void add_options(CommandLine& options, Options& chosen) {
   options.add_number(
       "--fov", "DEGREES", chosen.view.fov_y_degrees, [](double value) { return value >= 1 && value <= 120; },
       "1 to 120", "The angle of view from the picture's bottom to its top");
-  options.add_choice<std::optional<Vec3>>("--up-axis", chosen.up,
-                                          {{"x", kX},
-                                           {"y", kY},
-                                           {"z", kZ},
-                                           {"-x", scaled(kX, -1)},
-                                           {"-y", scaled(kY, -1)},
-                                           {"-z", scaled(kZ, -1)}},
-                                          "The axis that is up in the picture (default: z for STL, else y)");
+  options.add_choice("--up-axis", chosen.up, kAxes,
+                     "The axis that is up in the picture (default: z for STL, else y)");
   options.add_words("--at", 3, "X Y Z", chosen.at,
                     "Look at this point, in the model's coordinates, in place of its middle");
   options.add_number(
@@ -76,12 +73,10 @@ void add_options(CommandLine& options, Options& chosen) {
 
 /// One of the numbers of an option that takes several.
 double number_from(const std::string& option, const std::string& word, double least, double most) {
+  const std::string range = "a number from " + shortest_text(least) + " to " + shortest_text(most);
   const ParsedNumber number = parse_number(word);
   if (number.error != NumberError::none || !(number.value >= least && number.value <= most))
-    throw UsageError(
-        option + ": " +
-        expected_but_found("a number from " + shortest_text(least) + " to " + shortest_text(most),
-                           pipeline::quoted(word)));
+    throw UsageError(option + ": " + expected_but_found(range, pipeline::quoted(word)));
   return number.value;
 }
 

@@ -115,21 +115,17 @@ class VertexLines {
   std::vector<Line> lines_ = std::vector<Line>(kPlaces);
 };
 
-/// Rounds values to the decimals with which a length has five digits.
-class Rounding {
- public:
-  explicit Rounding(double length) : decimals_(4 - static_cast<int>(std::floor(std::log10(length)))) {}
+/// The value rounded to the decimals with which a length has five digits.
+double rounded(double value, double length) {
+  const int decimals = 4 - static_cast<int>(std::floor(std::log10(length)));
+  if (decimals < 0 || decimals > kMaxDecimals) return value;
+  const double units = std::pow(10, decimals);
+  return std::round(value * units) / units + 0.0;
+}
 
-  [[nodiscard]] double operator()(double value) const {
-    if (decimals_ < 0 || decimals_ > kMaxDecimals) return value;
-    const double units = std::pow(10, decimals_);
-    return std::round(value * units) / units + 0.0;
-  }
-  [[nodiscard]] Vec3 operator()(const Vec3& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
-
- private:
-  int decimals_;
-};
+Vec3 rounded(const Vec3& v, double length) {
+  return {rounded(v.x, length), rounded(v.y, length), rounded(v.z, length)};
+}
 
 /// The value rounded to whole 1 / units, if the difference is within the noise of the file's floats.
 double without_noise(double value, double units, double noise) {
@@ -148,19 +144,19 @@ struct SceneWriter {
     for (const std::string& comment : setting_.comments) line("# " + on_one_line(comment));
     const ModelCamera& camera = setting_.camera;
     const double scale = setting_.scale, near = scale * camera.near, far = scale * camera.far;
-    const Rounding round(scale * camera.distance);
-    const auto rounded = [&](const Vec3& p) { return round(scaled(p, scale)); };
-    line(text_of(rounded(camera.eye)));
-    line(text_of(rounded(camera.look)));
-    line(text_of(Rounding(1)(camera.up)));
+    const double length = scale * camera.distance;
+    const auto place = [&](const Vec3& p) { return text_of(rounded(scaled(p, scale), length)); };
+    line(place(camera.eye));
+    line(place(camera.look));
+    line(text_of(rounded(camera.up, 1)));
     line(shortest_text(camera.fov_y_degrees) + " " + shortest_text(setting_.aspect) + " " +
-         shortest_text(Rounding(near)(near)) + " " + shortest_text(Rounding(far)(far)) + " ratio");
+         shortest_text(rounded(near, near)) + " " + shortest_text(rounded(far, far)) + " ratio");
     line("background " + text_of(setting_.background));
     line(has_color_columns_ ? "attributes color normal" : "attributes normal");
     for (const std::string& material : materials_.lines) line(material);
     if (setting_.ambient != Vec3{}) line("ambient " + text_of(setting_.ambient));
     for (const ModelLight& light : setting_.lights)
-      line("light " + text_of(rounded(light.position)) + " " + text_of(Rounding(0.1)(light.intensity)));
+      line("light " + place(light.position) + " " + text_of(rounded(light.intensity, 0.1)));
     if (const std::string factor = shortest_text(scale); scale != 1)
       line("scale " + factor + " " + factor + " " + factor);
   }
@@ -211,7 +207,8 @@ struct SceneWriter {
     color_ = color;
     // The winding of a mirror image is reversed.
     const std::array<std::size_t, 3> order = {0, is_mirrored ? 2U : 1U, is_mirrored ? 1U : 2U};
-    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) write_triangle(i, order);
+    const std::size_t corner_count = placed.mesh->corners.size();
+    for (std::size_t i = 0; i < corner_count; i += 3) write_triangle(i, order);
   }
 
   /// The normal at a corner of the mesh; its triangle's own normal if it has no usable one.
@@ -220,13 +217,11 @@ struct SceneWriter {
     const Vec3 in_mesh = {x, y, z};
     const Vec3 in_model =
         placed_->is_in_place ? in_mesh : unit_vector(placed_->model_from_mesh.normal(in_mesh));
-    return is_direction(in_model) ? in_model : face_normal(placed_->mesh->corners.data() + corner / 3 * 3);
-  }
-
-  /// The normal of a triangle; any for one without area, which is not visible.
-  [[nodiscard]] Vec3 face_normal(const std::uint32_t* indices) const {
-    const Vec3 n = unit_vector(pipeline::face_normal(
-        {placed_->position(indices[0]), placed_->position(indices[1]), placed_->position(indices[2])}));
+    if (is_direction(in_model)) return in_model;
+    const std::uint32_t* const i = placed_->mesh->corners.data() + corner / 3 * 3;
+    const Vec3 n =
+        unit_vector(face_normal({placed_->position(i[0]), placed_->position(i[1]), placed_->position(i[2])}));
+    // A triangle without area, which is not visible, gets any normal.
     return !is_direction(n) ? setting_.camera.up : placed_->model_from_mesh.mirrors() ? scaled(n, -1) : n;
   }
 

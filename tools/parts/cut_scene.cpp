@@ -96,8 +96,7 @@ void cut(Tool& tool, const std::string& scene_path, std::uint64_t part_count, co
 int main(int argc, char** argv) {
   Tool tool({"cut-scene",
              "Cuts a scene into scenes of about the same size, to be drawn side by side. Prints the file of "
-             "each and "
-             "the number of its first triangle, for model --first.",
+             "each and the number of its first triangle, for model --first.",
              "The scene",
              {"cut-scene scene.txt 2", "cut-scene scene.txt 8 -o parts > list.txt"}},
             OutputKind::other_text);

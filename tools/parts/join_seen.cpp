@@ -57,8 +57,7 @@ class JoinedText {
 int main(int argc, char** argv) {
   Tool tool({"join-seen",
              "Joins the stage texts of the parts of a scene, or of their visible triangles (zbuf --seen), "
-             "into the text "
-             "of the whole: the header, which is the same in all, and all triangles.",
+             "into the text of the whole: the header, which is the same in all, and all triangles.",
              "The texts",
              {"join-seen stage1.txt stage1.txt > twice.txt",
               "join-seen --expect-framed seen1.txt seen2.txt | zbuf config.txt > z_buffer.txt"}},

@@ -47,8 +47,7 @@ void PictureOptions::add_outputs(CommandLine& options, bool has_seen) {
       "-o,--image", "FILE", image_path,
       "The image, a " + listed(image_extensions()) +
           " file, or png:FILE for any name; - (PPM) and png:- go to standard output, without depths "
-          "(default: "
-          "out.bmp" +
+          "(default: out.bmp" +
           (has_seen ? "; none with --seen)" : ")"),
       [](const std::string& name) { return wrong_with_name(check_image_name)(named_standard_output(name)); });
   options.add_word(
@@ -83,8 +82,7 @@ void PictureOptions::add_shading(CommandLine& options) {
 void PictureOptions::add_background(CommandLine& options) {
   options.add_word("--background", "RRGGBB[AA]", background,
                    "The color of pixels without a triangle, in hexadecimal digits, in place of the scene's "
-                   "(default: black). AA "
-                   "is its alpha, 00 (invisible) to ff (opaque), below ff for PNG only",
+                   "(default: black). AA is its alpha, 00 (invisible) to ff (opaque), below ff for PNG only",
                    expects("RRGGBB or RRGGBBAA, hexadecimal digits", parse_color));
 }
 

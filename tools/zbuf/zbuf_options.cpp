@@ -32,8 +32,7 @@ ZbufOptions::ZbufOptions(CommandLine& options) : PictureOptions(options, "zbuf",
       expects("A:B, such as 0:100", [](const std::string& word) { return !word.empty(); }));
   options.add_word("--seen", "FILE", seen_path,
                    "Write the visible triangles, as text from which zbuf draws the same picture; - is "
-                   "standard output. Image and "
-                   "depths are then written only if asked for");
+                   "standard output. Image and depths are then written only if asked for");
   options.add_word(
       "--certify", "FILE", certainty_path,
       "Write how many pixels certainly show what exact arithmetic shows, and the row and column "
