@@ -18,30 +18,29 @@ namespace {
 
 constexpr auto kNone = static_cast<std::uint32_t>(-1);
 
-/// Lists, by position, of the corners of triangles (3 t to 3 t + 2 for triangle t), in the slots of a hash
-/// table with linear probing.
-struct CornersByPosition {
-  std::vector<std::uint32_t> first, next;  // of a slot; after a corner
+std::size_t hash(const Vec3& p) {
+  // Adding 0 removes a zero's sign, as both zeros are equal.
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
+  std::uint64_t mixed = (bits(p.x) ^ std::rotl(bits(p.y), 32)) * 0x9e3779b97f4a7c15;
+  mixed = (mixed ^ mixed >> 32 ^ bits(p.z)) * 0xbf58476d1ce4e5b9;
+  return static_cast<std::size_t>(mixed ^ mixed >> 29);
+}
 
-  CornersByPosition(const std::vector<std::uint32_t>& corners, const std::vector<Vec3>& points)
-      : first(std::bit_ceil(corners.size() + 1), kNone), next(corners.size()) {
-    const std::size_t mask = first.size() - 1;
-    for (auto corner = static_cast<std::uint32_t>(next.size()); corner-- > 0;) {
-      const Vec3& p = points[corners[corner]];
-      std::size_t slot = hash(p) & mask;
-      while (first[slot] != kNone && points[corners[first[slot]]] != p) slot = (slot + 1) & mask;
-      next[corner] = std::exchange(first[slot], corner);
-    }
+/// The next corner at the same position, for each corner of triangles (3 t to 3 t + 2 for triangle t); after
+/// the last, the first. Found by a hash table with linear probing.
+std::vector<std::uint32_t> next_at_position(const std::vector<std::uint32_t>& corners,
+                                            const std::vector<Vec3>& points) {
+  std::vector<std::uint32_t> next(corners.size()), last(std::bit_ceil(corners.size() + 1), kNone);
+  const std::size_t mask = last.size() - 1;
+  for (std::uint32_t corner = 0; corner < next.size(); ++corner) {
+    const Vec3& p = points[corners[corner]];
+    std::size_t slot = hash(p) & mask;
+    while (last[slot] != kNone && points[corners[last[slot]]] != p) slot = (slot + 1) & mask;
+    const std::uint32_t before = std::exchange(last[slot], corner);
+    next[corner] = before == kNone ? corner : std::exchange(next[before], corner);
   }
-
-  static std::size_t hash(const Vec3& p) {
-    // Adding 0 removes a zero's sign, as both zeros are equal.
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
-    std::uint64_t mixed = (bits(p.x) ^ std::rotl(bits(p.y), 32)) * 0x9e3779b97f4a7c15;
-    mixed = (mixed ^ mixed >> 32 ^ bits(p.z)) * 0xbf58476d1ce4e5b9;
-    return static_cast<std::size_t>(mixed ^ mixed >> 29);
-  }
-};
+  return next;
+}
 
 /// A triangle at one of its corners.
 struct Share {
@@ -145,22 +144,25 @@ struct Smoothing {
 
 std::vector<Floats> smooth_normals(const std::vector<std::uint32_t>& all_corners,
                                    const std::vector<Vec3>& points, double crease_degrees) {
-  const CornersByPosition by_position(all_corners, points);
-  const std::size_t slot_count = by_position.first.size();
+  const std::vector<std::uint32_t> next = next_at_position(all_corners, points);
   std::vector<Floats> normals(all_corners.size());
-  constexpr std::size_t kSlotsAtOnce = 1 << 14;
-  const std::size_t task_count = slot_count / kSlotsAtOnce + 1;
+  constexpr std::size_t kAtOnce = 3 << 14;
+  const std::size_t task_count = normals.size() / kAtOnce + 1;
   ThreadPool pool(task_count < 4 ? 1
                                  : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)));
   pool.start(static_cast<int>(task_count), [&](int task, int) {
     Smoothing smoothing = {all_corners, points, cosine(crease_degrees), cosine(crease_degrees / 2), normals};
     std::vector<std::uint32_t> corners;
-    const std::size_t begin = static_cast<std::size_t>(task) * kSlotsAtOnce;
-    for (std::size_t slot = begin; slot < std::min(begin + kSlotsAtOnce, slot_count); ++slot) {
+    const std::size_t begin = static_cast<std::size_t>(task) * kAtOnce,
+                      end = std::min(begin + kAtOnce, next.size());
+    // In the file's order, in which neighbors mostly stand together, so that memory is near.
+    for (std::size_t last = begin; last < end; ++last) {
+      if (next[last] > last) continue;
       corners.clear();
-      for (std::uint32_t corner = by_position.first[slot]; corner != kNone; corner = by_position.next[corner])
-        corners.push_back(corner);
-      if (!corners.empty()) smoothing.smooth(corners);
+      auto corner = static_cast<std::uint32_t>(last);
+      do corners.push_back(corner = next[corner]);
+      while (corner != last);
+      smoothing.smooth(corners);
     }
   });
   pool.finish();
