@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "libpipeline/numbers/vec_math.h"
+#include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_printer.h"
 
@@ -132,7 +133,10 @@ void complete(Model& model) {
   for (const ModelLight& light : model.lights) brightest = std::max(brightest, largest_in(light.intensity));
   for (ModelLight& light : model.lights) light.intensity = scaled(light.intensity, 1 / brightest);
   place(model, model.root, {});
-  if (model.placed.empty()) model.fail("a model with triangles", "none");
+  const auto& parts = model.unheld;
+  if (model.placed.empty())
+    model.fail("a model with triangles",
+               parts.empty() ? "none" : "none, but " + listed({parts.begin(), parts.end()}));
   constexpr std::uint64_t kMost = 1'000'000'000;  // nested nodes may double it endlessly
   if (model.triangle_count() > kMost)
     model.fail("at most " + counted(kMost, "triangle"), std::to_string(model.triangle_count()));

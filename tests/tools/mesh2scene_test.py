@@ -604,7 +604,7 @@ class Refusals(ToolTest):
                                ("empty.obj", "empty.obj: expected a model with triangles, found none"),
                                ("noise.stl",
                                 "noise.stl: expected 1397903696 triangles in a binary STL file, found 203"),
-                               ("lines.obj", "lines.obj: expected a model with triangles, found none"),
+                               ("lines.obj", "model with triangles, found none, but points and lines"),
                                ("point.obj", "point.obj: expected a model with an extent"),
                                ("picture.png", f"picture.png{OTHER}a PNG picture"),
                                ("infinite.stl", "infinite.stl: expected finite coordinates")):
@@ -896,6 +896,8 @@ class Readers(ToolTest):
         ("a.stl", stl(1, 0x7C00), 1, "", USUAL),
         ("a.ply", PLY % ("tristrips", "", "4 0 1 2 3"), 2),
         ("a.ply", PLY % ("tristrips", "", "7 0 1 2 -1 1 3 2"), 2),
+        ("a.ply", PLY % ("trianglestrips", "", "4 0 1 2 3"), 0,
+         ": expected a model with triangles, found none, but element 'trianglestrips'"),
         ("a.ply", PLY % ("face", RGB, "4 0 1 3 2 250 20 10"), 2, "", "250 20 10"),
         ("a.ply", PLY % ("face", "element edge 1\nproperty int vertex1\n", "3 0 1 2\n0"), 1,
          ": no scene can hold its points and lines"),
@@ -1024,6 +1026,9 @@ class Readers(ToolTest):
         self.expect(
             "a.gltf", json.dumps(document), 0, ": expected at most 4 million numbers, and 16 for each "
             "byte of its files, found more in accessors[0]")
+        hidden = {"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}}
+        self.expect("a.gltf", json.dumps(changed(nodes=[hidden])), 0,
+                    ": expected a model with triangles, found none, but hidden nodes")
         document = changed()
         document["buffers"].append({"byteLength": 36, "uri": "c.bin"})
         pathlib.Path("c.bin").write_bytes(struct.pack("<9f", 2.5, 0, 0, 2.5, 0, 0, 2.5, 0, 0))

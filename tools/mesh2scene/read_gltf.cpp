@@ -292,7 +292,10 @@ class GltfReader {
     if (depth > kDeepest || ++node_count_ > kMostNodes)
       model_.fail("nodes without a cycle, at most 1,000 deep and 1,000,000 in all", "others");
     const Json visible = json["extensions"]["KHR_node_visibility"]["visible"];
-    if (visible.is_there() && !visible.is_true()) return;
+    if (visible.is_there() && !visible.is_true()) {
+      model_.unheld.insert("hidden nodes");
+      return;
+    }
     ModelNode node;
     set_matrix(json, node);
     const NodeMatrix model_from_node = product(model_from_parent, node.parent_from_node);

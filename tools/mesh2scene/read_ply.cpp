@@ -105,7 +105,10 @@ class PlyReader {
         if (is_list) property.count_type = type_of(text_.word());
         property.type = type_of(is_list ? text_.word() : type);
         property.slot = slot_of(text_.word(), is_list);
+        const std::string_view name = elements_.back().name;
         elements_.back().properties.push_back(property);
+        if (property.slot == kIndices && name != "face" && name != "tristrips" && name != "edge")
+          model_.unheld.insert("element " + pipeline::quoted(name));
       } else if (word == "comment" || word == "obj_info") {
         if (text_.rest_of_line().starts_with("TextureFile")) model_.unheld.insert("textures");
       } else if (word != "end_header" && word != "ply" && !word.empty()) {
