@@ -34,14 +34,14 @@ void note_coarse_coordinates(Model& model) {
 void place(Model& model, const ModelNode& node, const NodeMatrix& model_from_parent) {
   const NodeMatrix model_from_node = product(model_from_parent, node.parent_from_node);
   for (const std::size_t index : node.meshes)
-    if (const ModelMesh& mesh = model.meshes[index]; !mesh.corners.empty())
-      model.placed.push_back({&mesh, model.points.data(), model_from_node});
+    if (const PlacedMesh placed = model.placed_mesh(index, model_from_node); !placed.shape->corners.empty())
+      model.placed.push_back(placed);
   for (const ModelNode& child : node.children) place(model, child, model_from_node);
 }
 
 void check_positions(const Model& model) {
   for (const PlacedMesh& placed : model.placed)
-    for (const std::uint32_t index : placed.mesh->corners)
+    for (const std::uint32_t index : placed.shape->corners)
       if (!are_floats(placed.position(index)))
         model.fail("finite coordinates", "others in mesh " + pipeline::quoted(placed.mesh->name));
 }
@@ -78,7 +78,7 @@ ModelMesh& Model::add_mesh(const std::string& mesh_name) {
 
 std::uint64_t Model::triangle_count() const {
   std::uint64_t count = 0;
-  for (const PlacedMesh& mesh : placed) count += mesh.mesh->corners.size() / 3;
+  for (const PlacedMesh& mesh : placed) count += mesh.shape->corners.size() / 3;
   return count;
 }
 
@@ -89,7 +89,7 @@ bool Model::has_vertex_colors() const {
 bool Model::is_black() const {
   return std::ranges::all_of(placed, [&](const PlacedMesh& shown) {
     if (!shown.mesh->has_colors) return material(*shown.mesh).color == Vec3{};
-    return std::ranges::all_of(shown.mesh->corners, [&](auto i) { return color(i) == Floats{}; });
+    return std::ranges::all_of(shown.shape->corners, [&](auto i) { return color(i) == Floats{}; });
   });
 }
 

@@ -55,6 +55,7 @@ struct ModelMesh {
   std::string name;
   std::vector<std::uint32_t> corners{};  // three points of the model for each triangle
   std::vector<Floats> normals{};         // for each corner; empty where the file gives none
+  std::optional<std::size_t> shape{};    // the mesh that has the corners and normals, if another one
   std::optional<std::size_t> material{};
   bool has_colors = false;  // in the model's colors
   std::size_t surface = 1;  // meshes of one number are smoothed together; 0 stays flat
@@ -94,6 +95,7 @@ struct ModelLight {
 /// A mesh, and its place in the model.
 struct PlacedMesh {
   const ModelMesh* mesh;
+  const ModelMesh* shape;  // has the corners and normals
   const Vec3* points;
   NodeMatrix model_from_mesh;
   bool is_in_place = model_from_mesh.is_identity();
@@ -127,6 +129,9 @@ struct Model {
   /// Adds an empty mesh to the root node.
   ModelMesh& add_mesh(const std::string& mesh_name);
 
+  [[nodiscard]] PlacedMesh placed_mesh(std::size_t index, const NodeMatrix& model_from_mesh) const {
+    return {&meshes[index], &meshes[meshes[index].shape.value_or(index)], points.data(), model_from_mesh};
+  }
   [[nodiscard]] std::uint64_t triangle_count() const;
   [[nodiscard]] Floats color(std::size_t point) const {
     return point < colors.size() ? colors[point] : kNoColor;
@@ -141,7 +146,7 @@ struct Model {
   template <typename Visit>
   void for_each_corner(const Visit& visit) const {
     for (const PlacedMesh& mesh : placed)
-      for (const std::uint32_t index : mesh.mesh->corners) visit(mesh.position(index));
+      for (const std::uint32_t index : mesh.shape->corners) visit(mesh.position(index));
   }
 };
 

@@ -1029,6 +1029,19 @@ class Readers(ToolTest):
         hidden = {"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}}
         self.expect("a.gltf", json.dumps(changed(nodes=[hidden])), 0,
                     ": expected a model with triangles, found none, but hidden nodes")
+        # Primitives that differ in their materials are read once.
+        paints = [{"pbrMetallicRoughness": {"baseColorFactor": [1, m % 2, 0]}} for m in range(5)]
+        document = changed(materials=paints, nodes=[{"mesh": 0}, {"mesh": 1}], scenes=[{"nodes": [0, 1]}])
+        shape = document["meshes"][0]["primitives"][0]
+        document["accessors"].append({
+            **document["accessors"][0], "type": "SCALAR", "count": 1000000, "sparse": {
+                "count": 0, "indices": none, "values": none}})
+        del document["accessors"][-1]["bufferView"]
+        empty = {**shape, "mode": 5, "indices": len(document["accessors"]) - 1}
+        drawn = [[{**empty, "material": n} for n in range(5)] + [{**shape, "material": m}] for m in (0, 1)]
+        document["meshes"] = [{"primitives": primitives} for primitives in drawn]
+        for color in ("255 0 0", "255 255 0"):
+            self.expect("a.gltf", json.dumps(document), 2, "", color)
         document = changed()
         document["buffers"].append({"byteLength": 36, "uri": "c.bin"})
         pathlib.Path("c.bin").write_bytes(struct.pack("<9f", 2.5, 0, 0, 2.5, 0, 0, 2.5, 0, 0))

@@ -246,9 +246,10 @@ class GltfReader {
     const Json base = gloss.is_there() ? gloss : rough["baseColorFactor"];
     const Vec3 color = vec(base, 1);
     // A material that only emits light has the color of that light.
-    linear_colors_.push_back(color == Vec3{} ? vec(json["emissiveFactor"], 0) : color);
+    const Vec3& shown = linear_colors_.emplace_back(color == Vec3{} ? vec(json["emissiveFactor"], 0) : color);
+    const auto channel = [&](double c) { return scene_channel(c, is_linear_); };
     ModelMaterial& material = model_.materials.emplace_back();
-    material.color = screen_color(linear_colors_.back());
+    material.color = Vec3{channel(shown.x), channel(shown.y), channel(shown.z)};
     // docs/models.md has the formulas and their sources.
     const double metal = fraction(rough["metallicFactor"].number(gloss.is_there() ? 0 : 1)),
                  a = std::pow(fraction(rough["roughnessFactor"].number(1)), 2);
@@ -260,10 +261,6 @@ class GltfReader {
         (base[3].number(1) < 1 && mode.size() > 0 && mode != "OPAQUE") ||
         json["extensions"]["KHR_materials_transmission"]["transmissionFactor"].number() > 0)
       model_.unheld.insert("transparency");
-  }
-
-  [[nodiscard]] Vec3 screen_color(const Vec3& c) const {
-    return {scene_channel(c.x, is_linear_), scene_channel(c.y, is_linear_), scene_channel(c.z, is_linear_)};
   }
 
   static void set_matrix(Json json, ModelNode& node) {
@@ -357,26 +354,41 @@ class GltfReader {
     if (json["targets"][0].is_there()) model_.unheld.insert("morph targets");
     if (mode < 4 || mode > 6 || !attributes["POSITION"].is_there()) return false;
     if (material.is_there()) item("materials", material);
-    const auto [base, size] = points_of(attributes, material);
+    ModelMesh mesh = {.name = name, .has_colors = attributes["COLOR_0"].is_there(), .surface = surface};
+    // assimp gives a material of this name to meshes without a material.
+    if (material.is_there() &&
+        (is_linear_ || item("materials", material)["name"].text() != "DefaultMaterial"))
+      mesh.material = static_cast<std::size_t>(material.number());
+    // Corners and normals do not depend on the material, but colors do; and without normals, the primitives
+    // of a mesh are smoothed together.
+    nlohmann::json key = *json.value;
+    if (!mesh.has_colors) key.erase("material");
+    if (!attributes["NORMAL"].is_there() && document_["meshes"][surface - 1]["primitives"][1].is_there())
+      key["mesh"] = surface;
+    const auto [known, is_new] = shapes_.try_emplace(std::move(key), model_.meshes.size());
+    if (is_new) read_shape(json, mesh);
+    if (!is_new) mesh.shape = known->second;
+    model_.meshes.push_back(std::move(mesh));
+    return true;
+  }
+
+  void read_shape(Json json, ModelMesh& mesh) {
+    const Json attributes = json["attributes"];
+    const auto [base, size] = points_of(attributes, json["material"]);
     std::vector<std::uint32_t> indices(json["indices"].is_there() ? 0 : size);
     std::iota(indices.begin(), indices.end(), base);
     if (json["indices"].is_there())
       for (const double i : numbers(json["indices"], 1)) {
         if (!(i >= 0 && i < size) || i != std::floor(i))
-          model_.fail("whole indices below " + std::to_string(size) + " in " + name, shortest_text(i));
+          model_.fail("whole indices below " + std::to_string(size) + " in " + mesh.name, shortest_text(i));
         indices.push_back(base + static_cast<std::uint32_t>(i));
       }
-    ModelMesh mesh = {.name = name, .surface = surface};
-    // assimp gives a material of this name to meshes without a material.
-    if (material.is_there() &&
-        (is_linear_ || item("materials", material)["name"].text() != "DefaultMaterial"))
-      mesh.material = static_cast<std::size_t>(material.number());
-    mesh.has_colors = attributes["COLOR_0"].is_there();
+    const double mode = json["mode"].number(4);
     if (mode == 4)
       mesh.corners.assign(indices.begin(), indices.end() - static_cast<std::ptrdiff_t>(indices.size() % 3));
     else
       append_strip(indices, mode == 6, mesh.corners);
-    take(mesh.corners.size(), name);
+    take(mesh.corners.size(), mesh.name);
     if (const Json normals = attributes["NORMAL"]; normals.number(-1) != normals_index_)
       normals_ = normals.is_there() ? numbers(normals, 3) : std::vector<double>();
     normals_index_ = attributes["NORMAL"].number(-1);
@@ -385,8 +397,6 @@ class GltfReader {
         const double* const n = normals_.data() + std::size_t{3} * (corner - base);
         mesh.normals.push_back(floats({n[0], n[1], n[2]}));
       }
-    model_.meshes.push_back(std::move(mesh));
-    return true;
   }
 
   /// The index in the model of a primitive's first point, and the count of its points.
@@ -425,6 +435,7 @@ class GltfReader {
   bool is_linear_ = !document_["asset"]["generator"].text().starts_with("Open Asset Import Library");
   std::vector<Vec3> linear_colors_;  // of materials
   std::map<std::size_t, std::vector<std::size_t>> meshes_;
+  std::map<nlohmann::json, std::size_t> shapes_;  // the first mesh of primitives that differ in materials
   std::map<std::array<double, 3>, std::pair<std::uint32_t, std::uint32_t>> points_;
   std::vector<double> normals_;  // of the last accessor
   double normals_index_ = -1;

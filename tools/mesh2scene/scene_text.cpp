@@ -182,8 +182,8 @@ struct SceneWriter {
       if (scaling != Vec3{1, 1, 1}) line("scale " + float_text(scaling));
     }
     for (const std::size_t index : node.meshes)
-      if (const ModelMesh& mesh = model_.meshes[index]; !mesh.corners.empty())
-        write({&mesh, model_.points.data(), pending}, is_mirrored);
+      if (const PlacedMesh placed = model_.placed_mesh(index, pending); !placed.shape->corners.empty())
+        write(placed, is_mirrored);
     for (const ModelNode& child : node.children) write_node(child, pending, is_mirrored);
     if (is_in_commands) line("pop");
   }
@@ -207,18 +207,18 @@ struct SceneWriter {
     color_ = color;
     // The winding of a mirror image is reversed.
     const std::array<std::size_t, 3> order = {0, is_mirrored ? 2U : 1U, is_mirrored ? 1U : 2U};
-    const std::size_t corner_count = placed.mesh->corners.size();
+    const std::size_t corner_count = placed.shape->corners.size();
     for (std::size_t i = 0; i < corner_count; i += 3) write_triangle(i, order);
   }
 
   /// The normal at a corner of the mesh; its triangle's own normal if it has no usable one.
   [[nodiscard]] Vec3 normal(std::size_t corner) const {
-    const auto& [x, y, z] = placed_->mesh->normals[corner];
+    const auto& [x, y, z] = placed_->shape->normals[corner];
     const Vec3 in_mesh = {x, y, z};
     const Vec3 in_model =
         placed_->is_in_place ? in_mesh : unit_vector(placed_->model_from_mesh.normal(in_mesh));
     if (is_direction(in_model)) return in_model;
-    const std::uint32_t* const i = placed_->mesh->corners.data() + corner / 3 * 3;
+    const std::uint32_t* const i = placed_->shape->corners.data() + corner / 3 * 3;
     const Vec3 n =
         unit_vector(face_normal({placed_->position(i[0]), placed_->position(i[1]), placed_->position(i[2])}));
     // A triangle without area, which is not visible, gets any normal.
@@ -237,7 +237,7 @@ struct SceneWriter {
     p = std::copy(kKeyword.begin(), kKeyword.end(), p);
     for (const std::size_t i : order) {
       const std::size_t corner = first_corner + i;
-      const std::uint32_t index = placed_->mesh->corners[corner];
+      const std::uint32_t index = placed_->shape->corners[corner];
       VertexNumbers vertex;
       vertex.add(placed_->position(index));
       if (has_color_columns_) vertex.add(color_of(index));

@@ -174,7 +174,7 @@ std::vector<Floats> smooth_normals(const std::vector<std::uint32_t>& all_corners
 void add_normals(Model& model, double crease_degrees) {
   std::map<std::size_t, std::vector<ModelMesh*>> surfaces;
   for (ModelMesh& mesh : model.meshes)
-    if (mesh.normals.empty()) surfaces[mesh.surface].push_back(&mesh);
+    if (mesh.normals.empty() && !mesh.shape) surfaces[mesh.surface].push_back(&mesh);
   for (const auto& [surface, meshes] : surfaces) {
     std::vector<std::uint32_t> corners;
     for (const ModelMesh* mesh : meshes)
