@@ -344,6 +344,7 @@ class GltfReader {
       if (add_primitive(primitives[i], primitives.size() > 1 ? name + "-" + std::to_string(i) : name,
                         index + 1))
         known->second.push_back(model_.meshes.size() - 1);
+    take(16 * known->second.size(), name);  // the memory that a mesh in a node takes
     node.meshes.insert(node.meshes.end(), known->second.begin(), known->second.end());
   }
 
@@ -383,11 +384,10 @@ class GltfReader {
           model_.fail("whole indices below " + std::to_string(size) + " in " + mesh.name, shortest_text(i));
         indices.push_back(base + static_cast<std::uint32_t>(i));
       }
-    const double mode = json["mode"].number(4);
-    if (mode == 4)
+    if (json["mode"].number(4) == 4)
       mesh.corners.assign(indices.begin(), indices.end() - static_cast<std::ptrdiff_t>(indices.size() % 3));
     else
-      append_strip(indices, mode == 6, mesh.corners);
+      append_strip(indices, json["mode"].number() == 6, mesh.corners);
     take(mesh.corners.size(), mesh.name);
     if (const Json normals = attributes["NORMAL"]; normals.number(-1) != normals_index_)
       normals_ = normals.is_there() ? numbers(normals, 3) : std::vector<double>();
