@@ -15,6 +15,7 @@ import struct
 import subprocess
 import time
 import unittest
+import unittest.mock
 import zlib
 
 from lib.showing.pictures import png_chunks, read_picture, unfiltered
@@ -170,6 +171,18 @@ class Local(FarmTest):
         self.assertEqual(self.farm([], "--parts", "5", "--keep").returncode, 0)
         self.assertNotEqual(pathlib.Path("farm.txt").read_bytes(), self.expected[0])
         self.bin = BIN
+        self.check([], "--parts", "5", "--keep")
+        # After a kill at the removal of a text: at the end, and for other settings.
+        pathlib.Path("sitecustomize.py").write_text(
+            "import os\nreal = os.unlink\ndef unlink(path):\n    real(path)\n"
+            "    if 'seen-' in str(path): os.kill(os.getpid(), 9)\nos.unlink = unlink\n")
+        for settings in ([], ["--cull", "back"]):
+            with unittest.mock.patch.dict(os.environ, PYTHONPATH="."):
+                self.assertEqual(self.farm(settings, "--parts", "5").returncode, -signal.SIGKILL)
+            self.check([], "--parts", "5", "--keep")
+        # A text that the disk has cut short is made anew.
+        path = max(pathlib.Path("farm.ppm.farm").glob("seen*"), key=os.path.getsize)
+        os.truncate(path, path.stat().st_size // 2)
         self.check([], "--parts", "5")
 
 
