@@ -140,6 +140,16 @@ class Local(FarmTest):
                     self.assertEqual(self.check(settings, *cut), "")
                     self.assertFalse(pathlib.Path("farm.ppm.farm").exists())
 
+    def test_notes_of_bands_are_about_the_whole_picture(self):
+        camera = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n"
+        for triangle, note in (("0 1 0\n1 2 0\n-1 2 0\nend\n", ""),
+                               ("0 9 0\n1 9 0\n-1 9 0\nend\n",
+                                "zbuf: note: the picture is empty: no triangle came\n")):
+            pathlib.Path("scene.txt").write_text(camera + triangle)
+            done = self.farm(["--bands", "2"], "--z-buffer", "none")
+            self.assertEqual((done.returncode, done.stderr), (0, note))
+            self.assertFalse(os.path.exists("none"))
+
     def test_a_killed_worker(self):
         self.expect([], True)
         self.bin = tools_with("model", HOLD.format(pathlib.Path.cwd()))
