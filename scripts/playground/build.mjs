@@ -47,9 +47,9 @@ const data = {tools: packed(wasm), mesh2scene: packed(importer), worker: packed(
 
 const inner = inPage(await bundled("main.js", false));
 const frame = hashOf((await import("./sandbox.js")).FRAME);  // of the page's only other script
-const single = pageOf(`script-src ${hashOf(inner)} ${frame} 'wasm-unsafe-eval'; worker-src blob:`, style,
+const single = pageOf(`script-src ${hashOf(inner)} ${frame} blob: 'wasm-unsafe-eval'; worker-src blob:`, style,
   [...Object.entries(data).map(([name, bytes]) => `<script type="application/octet-stream" id="${name}-data">${bytes.toString("base64")}</script>`), `<script type="module">${inner}</script>`].join("\n"));
-const folder = pageOf(`script-src 'self' ${frame} 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'`, style, '<script type="module" src="main.js"></script>');
+const folder = pageOf(`script-src 'self' ${frame} blob: 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'`, style, '<script type="module" src="main.js"></script>');
 
 // In the single page, the licenses are a comment.
 const licenses = `${read(root, "LICENSE")}\n${read(licensesFile)}`, page = `${single}\n<!--\n${licenses.replaceAll("-->", "->")}-->\n`;

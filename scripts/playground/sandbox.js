@@ -1,5 +1,6 @@
 // Runs the reader's JavaScript where it can harm nothing: in a worker, in a frame with its own origin, under policies of page and frame
-// that let it load nothing, and for a limited time. FRAME is the frame's script; its hash is in the page's policy (build.mjs).
+// that let it load nothing but its own blobs, and for a limited time. FRAME is the frame's script; its hash is in the page's policy
+// (build.mjs).
 
 const LONGEST = 5000;   // milliseconds
 const MOST_OUT = 1 << 26;  // characters
@@ -23,7 +24,8 @@ const CALL = `{
 }`;
 
 export const FRAME = `onmessage = ({data: {code}, ports: [port]}) => {
-  const worker = new Worker(URL.createObjectURL(new Blob(["function stage(input, config) {\\n" + code + "\\n}\\n" + ${JSON.stringify(CALL)}], {type: "text/javascript"})));
+  const addressOf = script => URL.createObjectURL(new Blob([script], {type: "text/javascript"}));
+  const address = addressOf("function stage(input, config) {\\n" + code + "\\n}\\n" + ${JSON.stringify(CALL)}), worker = new Worker(address);
   let count = 0;
   const answer = data => {
     worker.onmessage = worker.onerror = null;
@@ -31,7 +33,9 @@ export const FRAME = `onmessage = ({data: {code}, ports: [port]}) => {
     const {text, error, line, column} = data || {};
     port.postMessage(typeof text === "string" ? {text} : typeof error === "string" ? {error: error.slice(0, 300), line, column} : {error: "it calls postMessage"});
   };
-  worker.onerror = event => answer({error: event.message || "the code cannot be read", line: event.lineno - 1, column: event.colno});
+  const fail = event => answer({error: event.message || "the code cannot be read", line: event.lineno - 1, column: event.colno});
+  // Firefox names a syntax error only where a worker imports the script.
+  worker.onerror = event => { if (event.message) fail(event); else new Worker(addressOf("importScripts('" + address + "')")).onerror = fail; };
   worker.onmessage = ({data}) => {
     if (data && typeof data.printed === "string" && ++count <= ${MOST_PRINTED}) port.postMessage({printed: data.printed.slice(0, ${MOST_PRINTED})}); else if (!data || data.printed === undefined) answer(data);
   };
@@ -44,7 +48,7 @@ export function runCode(code, inputs, print) {
   const frame = document.createElement("iframe");
   frame.setAttribute("sandbox", "allow-scripts");
   frame.hidden = true;
-  frame.srcdoc = `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; worker-src blob:"><script>${FRAME}</script>`;
+  frame.srcdoc = `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline' blob:; worker-src blob:"><script>${FRAME}</script>`;
   let timer = 0;
   return new Promise((resolve, reject) => {
     const {port1, port2} = new MessageChannel();
