@@ -738,7 +738,8 @@ def to_view_space(p, w, volume):  # L2: P3, solved for the point
 def weights_at(clip, x, y):  # L3
     a, b, c = ((p[0] - x * p[2], p[1] - y * p[2]) for p in clip)
     areas = [q[0] * r[1] - q[1] * r[0] for q, r in ((b, c), (c, a), (a, b))]
-    areas = [max(0, area if sum(areas) >= 0 else -area) for area in areas]
+    is_turned = sum(areas) < -max(map(abs, areas)) * Decimal(2) ** -120  # a sum nearer to 0 is rounding's
+    areas = [max(0, -area if is_turned else area) for area in areas]
     return times(1 / sum(areas), areas) if any(areas) else (1, 0, 0)
 
 def lit(p, normal, color, lighting):  # L5

@@ -6,6 +6,7 @@ usage: samples_test.py SOURCE_DIR [LARGEST]
 Calculates scenes of at most LARGEST bytes, by default 10,000, and pictures of at most ten times as many
 pixels: larger ones take seconds to minutes.
 """
+import hashlib
 import pathlib
 import subprocess
 import sys
@@ -17,6 +18,7 @@ import reference
 
 largest = int(sys.argv.pop()) if len(sys.argv) > 2 and sys.argv[-1].isdigit() else 10_000
 source = pathlib.Path(sys.argv.pop()).resolve()
+sums = (source / "samples/SHA256SUMS").read_text().splitlines()
 samples = sorted(scene.parent for scene in source.glob("samples/*/scene.txt"))
 lit_samples = [sample for sample in samples if "\nlight " in (sample / "scene.txt").read_text()]
 
@@ -35,13 +37,19 @@ class Samples(unittest.TestCase):
                 continue
             with self.subTest(sample=sample.name):
                 files = {path.name: path.read_bytes() for path in sample.glob("*.*")}
+
+                def is_committed(name, text):
+                    """Large texts are committed as checksums."""
+                    if name in files:
+                        return text == files[name]
+                    return f"{hashlib.sha256(text).hexdigest()}  {sample.name}/{name}" in sums
+
                 stage1 = stage("model", files["scene.txt"], "--digits", "exact")
                 stage2 = stage("view", stage1, "--digits", "exact")
                 stage3 = stage("project", stage2)
-                self.assertTrue(
-                    stage("model", files["scene.txt"], "--bare") == files["stage1.txt"], "stage1.txt differs")
-                self.assertTrue(stage("view", stage1, "--bare") == files["stage2.txt"], "stage2.txt differs")
-                given = files["stage3.txt"]
+                self.assertTrue(is_committed("stage1.txt", stage("model", files["scene.txt"], "--bare")))
+                self.assertTrue(is_committed("stage2.txt", stage("view", stage1, "--bare")))
+                given = files.get("stage3.txt", stage3)  # a checksum would not know which digits are open
                 leeway.expect_same_text(self, given, stage3,
                                         lambda: stage("project", stage2, "--digits", "17"), stage2)
                 text, config = reference.Stage(given, "zbuf"), reference.read_config(
