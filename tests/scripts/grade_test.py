@@ -683,10 +683,10 @@ class Hostile(ClassTest):
                 reader, writer = os.pipe()  # which the judge inherits
                 self.addCleanup(os.close, reader)
                 with open("told", "w") as told:
-                    grade = subprocess.Popen([SOURCE / "scripts/grade", "hand-ins", "tests"], stderr=told,
-                                             stdout=subprocess.DEVNULL, pass_fds=[
-                                                 writer], preexec_fn=heed_signals,
-                                             env={**os.environ, "BIN": str(tools), "TMPDIR": temporary})
+                    grade = subprocess.Popen(
+                        [SOURCE / "scripts/grade", "hand-ins", "tests", "-o", f"{number.name}/graded"],
+                        stderr=told, stdout=subprocess.DEVNULL, pass_fds=[writer], preexec_fn=heed_signals,
+                        env={**os.environ, "BIN": str(tools), "TMPDIR": temporary})
                 os.close(writer)
                 with open("held", "rb") as tool:  # once a judge's tool has opened it
                     end_by_signal(grade, number)
@@ -697,7 +697,7 @@ class Hostile(ClassTest):
                 name = signal.Signals(number).name
                 self.assertRegex(pathlib.Path("told").read_text(), rf"\A(grade: ended by {name}\n)?\Z")
                 if number != signal.SIGKILL:
-                    self.assertEqual(os.listdir(temporary), [])
+                    self.assertEqual((os.listdir(temporary), os.path.exists(name)), ([], False))
 
     def test_archives_that_swell(self):
         with zipfile.ZipFile("hand-ins/zip.zip", "w", zipfile.ZIP_DEFLATED) as archive:
