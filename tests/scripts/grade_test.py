@@ -34,6 +34,7 @@ from toolbox import (BIN, SOURCE, ToolTest, end_by_signal, heed_signals, pseudo_
 
 SAMPLE = SOURCE / "samples/worked-example"
 FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
+ANONYMOUS = ".pipeline-grade", "grades.csv", "mistakes.md", "numbers.csv", "1/page.html", "1/results.json"
 SECRET = "77.7777777"  # in a file that no hand-in may reach
 DIVIDE = "The coordinates are not divided by w"
 DIVIDE_FIX = "Divide x, y and z by w after the product."
@@ -81,6 +82,10 @@ class ClassTest(ToolTest):
 
     def scores(self):
         return {row["hand-in"]: float(row["score"]) for row in self.rows()}
+
+    def files(self):
+        paths = [path for path in pathlib.Path("graded").rglob("*") if path.is_file()]
+        return {str(path.relative_to("graded")) for path in paths}
 
     def page(self, number):
         return next(pathlib.Path("graded").glob(f"{number}*/page.html")).read_text()
@@ -222,17 +227,23 @@ class Results(ClassTest):
         self.assertEqual(self.scores(), {"anna": 1.0})
 
     def test_results_of_an_earlier_run_go(self):
-        """Else the pages with names would stay beside those without."""
+        """Else the pages with names would stay beside those without. Files of others stay."""
         self.add("ada")
         self.grade()
-        for path in ("graded/1-ada/comment.txt", "graded/1-mine", "graded/mine.csv"):
-            pathlib.Path(path).write_text("mine")
+        mine = ["1-ada/comment.txt", "1-mine", "mine.csv", "1999", "2-ben/page.html", "1-a.old/results.json"]
+        os.symlink("../tests/square/scene.txt", "graded/1999")
+        for path in (pathlib.Path("graded", name) for name in (*mine[:3], *mine[4:], "numbers.csv")):
+            path.parent.mkdir(exist_ok=True)
+            path.write_text("mine")
+        self.assertEqual(
+            self.grade("--anonymous", status=2).stderr,
+            "grade: expected no file of others in place of a result, found graded/numbers.csv, which "
+            ".pipeline-grade does not list\n")
+        os.unlink("graded/numbers.csv")
         self.grade("--anonymous")
-        files = [path for path in pathlib.Path("graded").rglob("*") if path.is_file()]
-        self.assertEqual({str(path.relative_to("graded"))
-                          for path in files}, {
-                              ".pipeline-grade", "1-ada/comment.txt", "1-mine", "mine.csv", "grades.csv",
-                              "mistakes.md", "numbers.csv", "1/page.html", "1/results.json"})
+        self.assertEqual(self.files(), {*mine, *ANONYMOUS})
+        self.grade()
+        self.assertEqual(self.files(), {*mine, "1-ada/page.html", "1-ada/results.json", *ANONYMOUS[:3]})
 
     def test_links_in_out_are_not_followed(self):
         self.add("ada")

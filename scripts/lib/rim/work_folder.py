@@ -12,7 +12,7 @@ OURS = ".pipeline-"  # so begin a mark, and what a tool that was killed may leav
 
 
 class WorkFolder:
-    """The mark is an empty file that names the command, and the `use` of a folder that is no output. It stays
+    """The mark is a file that names the command, and the `use` of a folder that is no output. It stays
     for a retry, and goes with the folder."""
     def __init__(self, path, command, use=""):
         self.path, self.command, self.use = pathlib.Path(path), command, use
