@@ -13,6 +13,7 @@ import select
 import shutil
 import signal
 import subprocess
+import sys
 import tarfile
 import tempfile
 import time
@@ -244,6 +245,21 @@ class Results(ClassTest):
         self.assertEqual(self.files(), {*mine, *ANONYMOUS})
         self.grade()
         self.assertEqual(self.files(), {*mine, "1-ada/page.html", "1-ada/results.json", *ANONYMOUS[:3]})
+
+    def test_names_in_what_a_killed_run_leaves_go(self):
+        self.add("ada")
+        for count in range(3):  # of files in their places
+            code = (f"import os, runpy\nreplace, counted = os.replace, iter(range({count}))\n"
+                    "def replaced(a, b):\n  counted.__length_hint__() or os.kill(os.getpid(), 9)\n"
+                    "  replace(a, b), next(counted)\nos.replace = replaced\n"
+                    f"runpy.run_path('{SOURCE}/scripts/grade', run_name='__main__')")
+            words = [sys.executable, "-c", code, "hand-ins", "tests"]
+            done = subprocess.run(words,
+                                  env={**os.environ, "BIN": str(BIN), "PYTHONPATH": f"{SOURCE}/scripts"})
+            self.assertEqual((done.returncode, os.path.exists("graded/1-ada")), (-signal.SIGKILL, True))
+            self.grade("--anonymous")
+            self.assertEqual((self.files(), os.path.exists("graded/1-ada")), ({*ANONYMOUS}, False))
+            shutil.rmtree("graded")
 
     def test_links_in_out_are_not_followed(self):
         self.add("ada")
