@@ -24,10 +24,8 @@ from ssh_server import SshServer
 from toolbox import BIN, SOURCE, ToolTest, pipe, run, run_script, tools_with
 
 FARM = SOURCE / "scripts/farm"
-SETTINGS = ([], ["--coverage", "center", "--samples", "2"], [
-    "--wireframe", "--clip", "frustum", "--depth", "f32"])
-OF_PROJECT = ("--clip", "--cull", "--aspect")
-
+# Options of project and of zbuf.
+SETTINGS = ("", ""), ("", "--coverage center --samples 2"), ("--clip frustum", "--wireframe --depth f32")
 SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12)) * 2  # fewer with sanitizers, see CMakeLists.txt
 PATIENCE = 240  # seconds, far more than anything here takes
 # A model that waits, so that a job can be killed in its midst, however fast or slow the machine is. It leaves
@@ -81,20 +79,27 @@ class FarmTest(ToolTest):
     def setUp(self):
         super().setUp()
         pathlib.Path("config.txt").write_text("50 40\n")
-        self.bin = BIN
+        self.bin, self.settings = BIN, []
 
-    def words(self, settings, *more):
-        return [FARM, "scene.txt", "config.txt", *settings, "-o", "farm.ppm", "--z-buffer", "farm.txt", *more]
+    def expect(self, is_lit, project="", zbuf=""):
+        """The files of one pipe, with which those of farm are compared."""
+        pathlib.Path("scene.txt").write_text(scene(is_lit))
+        self.settings = [*project.split(), *zbuf.split()]
+        depths = pipe(["model", "scene.txt"], ["view"], ["project", *project.split()],
+                      ["zbuf", "config.txt", *zbuf.split(), "-o", "one.ppm"])
+        self.expected = depths, pathlib.Path("one.ppm").read_bytes()
 
-    def farm(self, settings, *more):
-        return subprocess.run(self.words(settings, *more), capture_output=True, text=True, timeout=PATIENCE,
-                              env={**os.environ, "BIN": str(self.bin)})
+    def start(self, *words):
+        words = [*self.settings, "-o", "farm.ppm", "--z-buffer", "farm.txt", *words]
+        return subprocess.Popen([FARM, "scene.txt", "config.txt", *words], stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, env={**os.environ, "BIN": str(self.bin)})
 
-    def start(self, settings, *more):
-        pathlib.Path("go").unlink(missing_ok=True)
-        shutil.rmtree("farm.ppm.farm", ignore_errors=True)
-        return subprocess.Popen(self.words(settings, *more), env={**os.environ, "BIN": str(self.bin)},
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def farm(self, *words):
+        """The exit status and stderr of a run, which prints nothing."""
+        process = self.start(*words)
+        printed, said = process.communicate(timeout=PATIENCE)
+        self.assertEqual(printed, "")
+        return process.returncode, said
 
     def end(self, process, killed):
         """Ends the wait of the slow tools after some jobs were killed."""
@@ -108,36 +113,31 @@ class FarmTest(ToolTest):
                 logged("farm.ppm.farm", output)[1], time_of_death,
                 "the job was not in its midst, or was not started again")
 
-    def expect(self, settings, is_lit):
-        """The files of one pipe, with which those of farm are compared."""
-        pathlib.Path("scene.txt").write_text(scene(is_lit))
-        at = next((i for i, word in enumerate(settings) if word in OF_PROJECT), len(settings))
-        depths = pipe(["model"], ["view"], ["project", *settings[at:at + 2]],
-                      ["zbuf", "config.txt", *settings[:at], *settings[at + 2:], "-o", "one.ppm"],
-                      stdin=pathlib.Path("scene.txt").read_text())
-        self.expected = depths, pathlib.Path("one.ppm").read_bytes()
-
     def assert_as_expected(self):
         self.assertTrue(pathlib.Path("farm.txt").read_bytes() == self.expected[0], "the depths differ")
         self.assertTrue(pathlib.Path("farm.ppm").read_bytes() == self.expected[1], "the images differ")
 
-    def check(self, settings, *more):
+    def check(self, *words):
         for name in ("farm.ppm", "farm.txt"):
             pathlib.Path(name).unlink(missing_ok=True)
-        done = self.farm(settings, *more)
-        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        self.assertEqual(self.farm(*words), (0, ""))
         self.assert_as_expected()
-        return done.stderr
+
+    def refuse(self, message, *words, status=1):
+        found, said = self.farm(*words)
+        self.assertRegex(said, rf"\Afarm: {message}\n\Z")
+        self.assertEqual(found, status)
+        self.assertFalse(pathlib.Path("farm.ppm").exists() or pathlib.Path("farm.txt").exists())
 
 
 class Local(FarmTest):
     def test_parts_and_bands(self):
         cuts = (["--parts", "20"], ["--parts", "3", "--bands", "3"], ["--parts", "1", "--bands", "4"])
         for is_lit, settings in itertools.product((False, True), SETTINGS):
-            self.expect(settings, is_lit)
+            self.expect(is_lit, *settings)
             for cut in cuts:
                 with self.subTest(is_lit=is_lit, settings=settings, cut=cut):
-                    self.assertEqual(self.check(settings, *cut), "")
+                    self.check(*cut)
                     self.assertFalse(pathlib.Path("farm.ppm.farm").exists())
 
     def test_notes_of_bands_are_about_the_whole_picture(self):
@@ -146,54 +146,49 @@ class Local(FarmTest):
                                ("0 9 0\n1 9 0\n-1 9 0\nend\n",
                                 "zbuf: note: the picture is empty: no triangle came\n")):
             pathlib.Path("scene.txt").write_text(camera + triangle)
-            done = self.farm(["--bands", "2"], "--z-buffer", "none")
-            self.assertEqual((done.returncode, done.stderr), (0, note))
+            self.assertEqual(self.farm("--bands", "2", "--z-buffer", "none"), (0, note))
             self.assertFalse(os.path.exists("none"))
 
     def test_a_killed_worker(self):
-        self.expect([], True)
+        self.expect(True)
         self.bin = tools_with("model", HOLD.format(pathlib.Path.cwd()))
-        process = self.start([], "--parts", "4", "--keep", "--", "--jobs", "2")
+        process = self.start("--parts", "4", "--keep", "--", "--jobs", "2")
         output, worker = begun(process, 2).popitem()
         os.kill(worker, signal.SIGKILL)
         self.end(process, [output])
 
     def test_a_second_run_does_what_is_left(self):
-        self.expect([], True)
+        self.expect(True)
         self.bin = tools_with(
             "model", f'case "$*" in *parts/3.txt) [ -e {pathlib.Path.cwd()}/mended ] || exit 3 ;; esac\n'
             'exec $real "$@"')
-        done = self.farm([], "--parts", "5", "--", "--jobs", "1")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("farm: no picture: 1 of 5 parts are missing: seen-0-3.txt: model: exit status 3; ",
-                      done.stderr)
-        self.assertFalse(pathlib.Path("farm.ppm").exists() or pathlib.Path("farm.txt").exists())
-        before = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("farm.ppm.farm").glob("seen*")}
+        self.refuse("no picture: 1 of 5 parts are missing: seen-0-3.txt: model: exit status 3; .*", "--parts",
+                    "5", "--", "--jobs", "1")
+        before = {path: path.stat().st_mtime_ns for path in pathlib.Path("farm.ppm.farm").glob("seen*")}
         self.assertEqual(len(before), 4)
         pathlib.Path("mended").touch()
-        self.check([], "--parts", "5", "--keep")
-        after = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("farm.ppm.farm").glob("seen*")}
-        self.assertEqual({name: after[name] for name in before}, before)
+        self.check("--parts", "5", "--keep")
+        self.assertEqual({path: path.stat().st_mtime_ns for path in before}, before)
         # Another scene is drawn anew, and the same one by other tools.
-        self.expect([], False)
-        self.check([], "--parts", "5", "--keep")
+        self.expect(False)
+        self.check("--parts", "5", "--keep")
         self.bin = tools_with("project", 'exec $real --cull front "$@"')
-        self.assertEqual(self.farm([], "--parts", "5", "--keep").returncode, 0)
+        self.assertEqual(self.farm("--parts", "5", "--keep")[0], 0)
         self.assertNotEqual(pathlib.Path("farm.txt").read_bytes(), self.expected[0])
         self.bin = BIN
-        self.check([], "--parts", "5", "--keep")
+        self.check("--parts", "5", "--keep")
         # After a kill at the removal of a text: at the end, and for other settings.
         pathlib.Path("sitecustomize.py").write_text(
             "import os\nreal = os.unlink\ndef unlink(path):\n    real(path)\n"
             "    if 'seen-' in str(path): os.kill(os.getpid(), 9)\nos.unlink = unlink\n")
         for settings in ([], ["--cull", "back"]):
             with unittest.mock.patch.dict(os.environ, PYTHONPATH="."):
-                self.assertEqual(self.farm(settings, "--parts", "5").returncode, -signal.SIGKILL)
-            self.check([], "--parts", "5", "--keep")
+                self.assertEqual(self.farm(*settings, "--parts", "5")[0], -signal.SIGKILL)
+            self.check("--parts", "5", "--keep")
         # A text that the disk has cut short is made anew.
         path = max(pathlib.Path("farm.ppm.farm").glob("seen*"), key=os.path.getsize)
         os.truncate(path, path.stat().st_size // 2)
-        self.check([], "--parts", "5")
+        self.check("--parts", "5")
 
 
 class AnyCut(ToolTest):
@@ -206,9 +201,8 @@ class AnyCut(ToolTest):
 
     def seen_of_parts(self, rng, project, zbuf):
         """The texts of the parts, which are drawn in any order."""
-        done = run("cut-scene", "scene.txt", str(rng.choice((2, 3, 7, 40))), "-o", "parts")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        parts = [line.split() for line in done.stdout.decode().splitlines()]
+        listed = pipe(["cut-scene", "scene.txt", rng.choice((2, 3, 7, 40)), "-o", "parts"])
+        parts = [line.split() for line in listed.decode().splitlines()]
         texts = [f"seen{i}.txt" for i in range(len(parts))]
         for i in rng.sample(range(len(parts)), len(parts)):
             part, first = parts[i]
@@ -234,15 +228,12 @@ class AnyCut(ToolTest):
                 while len(texts) > 1 and rng.random() < 0.8:
                     at = rng.randrange(len(texts) - 1)
                     end = rng.randrange(at + 2, len(texts) + 1)
-                    joined = run("join-seen", "--expect-framed", *texts[at:end])
-                    self.assertEqual(joined.returncode, 0, joined.stderr)
-                    pipe(["zbuf", "config.txt", *zbuf, "--seen", texts[at]], stdin=joined.stdout)
+                    pipe(["join-seen", "--expect-framed", *texts[at:end]],
+                         ["zbuf", "config.txt", *zbuf, "--seen", texts[at]])
                     texts[at + 1:end] = []
-                joined = run("join-seen", "--expect-framed", *texts)
-                self.assertEqual(joined.returncode, 0, joined.stderr)
-                fewer += joined.stdout.count(b"\n\n") < whole.count(b"\n\n")
-                self.assertEqual(pipe(["zbuf", "config.txt", *zbuf, "-o", "many.ppm"], stdin=joined.stdout),
-                                 depths)
+                joined = pipe(["join-seen", "--expect-framed", *texts])
+                fewer += joined.count(b"\n\n") < whole.count(b"\n\n")
+                self.assertEqual(pipe(["zbuf", "config.txt", *zbuf, "-o", "many.ppm"], stdin=joined), depths)
                 self.assertEqual(pathlib.Path("many.ppm").read_bytes(), pathlib.Path("one.ppm").read_bytes())
         # Else there would be nothing to prove: pictures of several parts with something in them, and
         # triangles that were left out.
@@ -258,9 +249,9 @@ class OtherMachines(FarmTest):
         server = SshServer(self, ["w1", "w2", "w3", "w4"], full="w3", silent={
             "w4": listener.getsockname()[1]})
         hosts = ["--", *server.words, "--sshlogin", "1/w1,1/w2,1/w3,1/w4"]
-        self.expect(SETTINGS[1], True)
+        self.expect(True, *SETTINGS[1])
         self.bin = tools_with("model", HOLD.format(pathlib.Path.cwd()))
-        process = self.start(SETTINGS[1], "--parts", "4", "--keep", *hosts)
+        process = self.start("--parts", "4", "--keep", *hosts)
         (one, first), (two, second), *_ = begun(process, 2, ("w1", "w2")).items()
         connection = next(i for i, name in ancestors(first) if name.startswith("sshd"))
         self.assertNotEqual(connection, server.process.pid)
@@ -289,41 +280,31 @@ class Refusals(FarmTest):
     )
 
     def test_what_cannot_be_distributed(self):
-        self.expect([], False)
+        self.expect(False)
         for words, reason in self.LINES:
-            done = self.farm(words.split())
-            self.assertEqual((done.returncode, done.stdout), (2, ""), words)
-            self.assertIn(reason, done.stderr)
-
-    def refuse(self, message, *words, status=1):
-        done = self.farm(words)
-        self.assertEqual(done.returncode, status)
-        self.assertRegex(done.stderr, rf"\Afarm: {message}\n\Z")
-        self.assertFalse(pathlib.Path("farm.ppm").exists())
+            status, said = self.farm(*words.split())
+            self.assertEqual(status, 2, words)
+            self.assertIn(reason, said)
 
     def test_what_the_tools_refuse(self):
-        self.expect([], False)
+        self.expect(False)
         self.refuse(r"zbuf: --samples: expected a whole number from 1 to 16, found '99' \(try zbuf --help\)",
                     "--samples", "99", status=2)
         pathlib.Path("scene.txt").write_text("0 0 5\n")
         self.refuse(r"cut-scene: \S*scene.txt:2:1: expected the four lines of the camera, found the end of "
                     "the input")
         text = scene(False)
+        pathlib.Path("scene.txt").write_text(text.replace("end\n", "triangle\n0 0 0\n1 0 0\n0 x 0\nend\n"))
+        # cut-scene reads no numbers, so model finds a wrong one.
+        self.refuse(
+            r"no picture: 1 of 3 parts are missing: seen-0-3.txt: model: parts/3.txt:\d+:3: expected "
+            "the y of vertex 3 of 3, found 'x'; .*", "--parts", "3")
         pathlib.Path("scene.txt").write_text(text.replace("end\n", "sphere 0 0 0 1\nend\n"))
         line = text.count("\n")
         self.refuse(f"model: scene.txt:{line}:1: expected triangles alone, found a sphere: .*")
         pathlib.Path("scene.txt").unlink()
         os.symlink("/dev/zero", "scene.txt")
         self.refuse("expected a regular file, whose size tells where to cut, found scene.txt")
-
-    def test_what_a_part_refuses(self):
-        pathlib.Path("scene.txt").write_text(
-            scene(False).replace("end\n", "triangle\n0 0 0\n1 0 0\n0 x 0\nend\n"))
-        done = self.farm([], "--parts", "3")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("farm: no picture: 1 of 3 parts are missing: seen-0-3.txt: model: parts/3.txt:",
-                      done.stderr)
-        self.assertFalse(pathlib.Path("farm.ppm").exists())
 
 
 class JoinImages(FarmTest):
