@@ -12,13 +12,11 @@ import unittest
 from streaming_test import LiveTool
 from toolbox import NO_TRIANGLE, SOURCE, ToolTest, pipe, run
 
-FULL_SCENE_COUNT = 12
-SCENE_COUNT = int(os.environ.get("TOOLS_SCENES",
-                                 FULL_SCENE_COUNT))  # fewer with sanitizers, see CMakeLists.txt
+SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12))  # fewer with sanitizers, see CMakeLists.txt
 SAMPLES = sorted(path.parent for path in SOURCE.glob("samples/*/scene.txt"))
 SETTINGS = ("", "--coverage center", "--wireframe", "--shading flat", "--shading gouraud", "--samples 3",
             "--depth u24", "--depth f32 --wireframe")
-STEP = FULL_SCENE_COUNT // SCENE_COUNT  # of these settings, every STEP-th
+STEP = 12 // SCENE_COUNT  # of these settings, every STEP-th
 CLIPS = ("auto", "near", "frustum", "frustum --clip-inset 0.2")
 WALL = "-9 -9 {0}\n9 -9 {0}\n0 9 {0}\n\n"
 
@@ -87,11 +85,10 @@ class Owners(Seen):
         kept = (re.fullmatch(r"(\S+): triangle (\d+), depth \S+: kept", line) for line in lines)
         return [(found[1], int(found[2])) for found in kept if found]
 
-    def text(self, seed, count=300):
+    def text(self, seed):
         rng = random.Random(seed)
-        vertex = (lambda:
-                  f"{rng.uniform(-1.5, 1.5):.7f} {rng.uniform(-1.5, 1.5):.7f} {rng.uniform(-1.2, 1.2):.7f}\n")
-        return "".join("".join(vertex() for _ in range(3)) + "\n" for _ in range(count))
+        vertex = lambda: " ".join(f"{rng.uniform(-limit, limit):.7f}" for limit in (1.5, 1.5, 1.2)) + "\n"
+        return "".join(vertex() + vertex() + vertex() + "\n" for _ in range(300))
 
     def test_they_are_those_of_the_last_fragments_kept(self):
         pathlib.Path("config.txt").write_text("25 20\n")
@@ -181,10 +178,6 @@ class Text(Seen):
         ("nothing is nothing", "", None),
     )
 
-    def setUp(self):
-        super().setUp()
-        pathlib.Path("config.txt").write_text("4 4\n")
-
     def test_what_is_written(self):
         for claim, text, expected in self.CASES:
             with self.subTest(claim):
@@ -194,7 +187,6 @@ class Text(Seen):
         text = " -9 -9 0.5\t\r\n9  -9 0.5\n0 9 0.5 \n\n" + WALL.format(
             "0.2500000") + "-9 -9 0.1\r\n9 -9 0.1\r\n0\t9 0.1\r\n"
         expected = "triangle 2\n-9 -9 0.1\n9 -9 0.1\n0\t9 0.1\n\n"
-        self.assertEqual(self.seen(text).decode(), expected)
         with LiveTool("zbuf", "config.txt", "--seen", "-") as live:
             for letter in text:
                 live.send(letter)
@@ -206,31 +198,18 @@ class Text(Seen):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stdout.decode(),
                          "error zbuf: <stdin>:1:5: expected the z of vertex 1 of 3, found 'three'\n")
-        done = run("zbuf", "config.txt", "--seen", "seen.txt", stdin="1 2 three\n")
-        self.assertEqual((done.returncode, done.stdout, os.path.exists("seen.txt")), (1, b"", False))
 
 
 class Outputs(Seen):
-    def test_with_it_there_is_no_image_and_no_depth_unless_asked_for(self):
-        self.assertEqual(self.zbuf("--seen", "seen.txt", stdin=WALL.format(0.5)), b"")
-        self.assertEqual(self.files(), ["config.txt", "scene.txt", "seen.txt"])
-        self.assertEqual(
-            self.zbuf("--seen", "seen.txt", "--z-buffer", "-", stdin=WALL.format(0.5)).count(b"\n"), 8)
-        self.assertFalse(os.path.exists("out.bmp"))
-        self.zbuf("--seen", "-", "--image", "a.png", "--z-buffer", "z.txt", "--depth-image", "d.pgm",
-                  stdin=WALL.format(0.5))
-        self.assertEqual(self.files(), ["a.png", "config.txt", "d.pgm", "scene.txt", "seen.txt", "z.txt"])
-
-    def test_the_image_may_be_standard_output(self):
+    def test_an_image_is_drawn_only_if_asked_for(self):
         wall = WALL.format(0.5)
+        self.assertEqual(self.zbuf("--seen", "seen.txt", stdin=wall), b"")
+        self.assertEqual(self.files(), ["config.txt", "scene.txt", "seen.txt"])
         self.zbuf("-o", "a.ppm", stdin=wall)
         self.assertEqual(self.zbuf("--seen", "seen.txt", "-o", "-", stdin=wall),
                          pathlib.Path("a.ppm").read_bytes())
         self.assertEqual(pathlib.Path("seen.txt").read_text(), wall)
-
-    def test_why_a_picture_is_empty_is_noted_where_there_is_one(self):
-        self.assertEqual(self.zbuf("--seen", "-", stdin=""), b"")
-        done = run("zbuf", "config.txt", "--seen", "-", "-o", "a.ppm", stdin="")
+        done = run("zbuf", "config.txt", "--seen", "-", "-o", "a.ppm")
         self.assertEqual((done.stdout, done.stderr.decode(), done.returncode), (b"", NO_TRIANGLE, 0))
 
 
