@@ -23,7 +23,7 @@ using Linear = UncertainTriangle::Linear;
 
 constexpr double kInfinity = UncertainTriangle::kInfinity;
 constexpr double kLost = 0x1p-48;      // more than sums and products here lose, relative to their |terms|
-constexpr double kUnderflow = 1e-280;  // more than products too small for a double lose
+constexpr double kUnderflow = 1e-280;  // exceeds what products lose by underflow
 constexpr double kMost = 1e60;         // a limit for numbers whose products must be finite
 constexpr double kUp = ErrorBound::kRoundUp;
 
@@ -145,7 +145,7 @@ UncertainView::Corners UncertainView::corners(const TriangleBatch& p_ndc, std::s
   c.largest = std::max({c.largest, largest_on_screen, error});
   if (!is_perspective_) return c;
   c.by_w = error * kUp;
-  c.printed = sum(c.printed, scaled(c.printed_per_w, error));  // their own w is larger by as much
+  c.printed = sum(c.printed, scaled(c.printed_per_w, error));  // printed w: up to `error` larger
   const auto [least, greatest] = std::ranges::minmax(c.distances);
   c.nearest_w = least - error;
   c.farthest_w = greatest + error;
@@ -177,7 +177,7 @@ double UncertainView::place_on_screen(Corners& c, double printed_in_clip, double
 /// Narrows the columns and rows, and makes the corners' positions count from the first ones.
 void UncertainView::set_box(UncertainTriangle& triangle, Corners& corners) const {
   for (const Axis& axis : axes_) {
-    if (!(corners.nearest_w > 1 / kMost)) break;  // otherwise some have no place on the screen
+    if (!(corners.nearest_w > 1 / kMost)) break;  // some have no place on the screen
     double low = kInfinity, high = -kInfinity;
     for (const Vec3& p : corners.p) {
       const double position = p.*axis.of / p.z;

@@ -31,9 +31,9 @@ SpanDepth depth_along(const DepthPlane& plane, int row, int first_column, int la
 
 /// The coverage rule `center` for one triangle: the pixels whose centers lie inside it. A center on an edge
 /// belongs to the triangle only if that edge is a top or a left edge, so triangles that share edges own every
-/// pixel once. Both windings are drawn alike; a triangle without area covers nothing.
-/// Decided exactly, for any finite coordinates: in 64 bits where they suffice (nearly always), else in 128,
-/// or in as many as needed. The depth is TriangleDepth's, within 2^-50 of the triangle's largest |z|.
+/// pixel once. Both windings are drawn alike; a triangle without area covers nothing. Decided exactly, for
+/// any finite coordinates: in 64 bits where they suffice (nearly always), else in 128, or in as many as
+/// needed. The depth is TriangleDepth's or DepthPlane's, within 2^-50 of the triangle's largest |z|.
 class CenterRows {
  public:
   CenterRows(const ExactGrid& grid, const ExactTriangle& triangle);

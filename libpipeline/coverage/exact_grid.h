@@ -83,9 +83,9 @@ struct AxisInDoubles {
   double largest = -1;
 };
 
-/// One direction of the grid. In units of half_step / 2^k, pixel centers are at (2 i + 1 - count) * half_step
-/// from the middle of the window and the coordinate n / 10^7 at n * vertex_factor; both are whole for every
-/// number n / (10^7 * 2^k).
+/// One direction of the grid. With half_step units to half a pixel, pixel centers are at (2 i + 1 - count) *
+/// half_step from the window's middle and n / 10^7 at n * vertex_factor; units finer by 2^k make both whole
+/// for all n / (10^7 * 2^k).
 struct GridAxis {
   /// `limit` is the window's left or bottom limit, negative, in the same notation as an ExactTriangle's
   /// coordinates.

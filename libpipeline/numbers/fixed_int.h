@@ -48,7 +48,7 @@ class FixedInt {
     // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the type has 128 bits
     limbs_[1] = static_cast<std::uint64_t>(value >> 64);
   }
-  /// The number of `other` in fewer limbs, if it fits.
+  /// The number of `other` in this count of limbs, if it fits.
   template <std::size_t OtherLimbs>
   explicit FixedInt(const FixedInt<OtherLimbs>& other) {
     for (std::size_t i = 0; i < Limbs; ++i) limbs_[i] = other.limb(i);

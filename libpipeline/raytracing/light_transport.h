@@ -30,7 +30,7 @@ struct LightTransportSetup {
 /// 1980):
 ///   alpha ((1 - R) local + R mirror) + (1 - alpha) (F mirror + (1 - F) refracted)
 /// with the material's reflectance R, and F by Fresnel's equations. `local` is lit_color with the part of
-/// each light that arrives on a straight line: nothing passes an opaque surface; a clear one passes (1 -
+/// each light that arrives on a straight line: an opaque surface passes nothing; a clear one passes (1 -
 /// alpha) (1 - F), and its inside exp(-absorption times length). A ray that hits the back of a surface came
 /// through its material, which weakens it in the same way. Colors are linear sums of channels from 0 to 255,
 /// not clamped.

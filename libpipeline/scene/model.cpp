@@ -13,7 +13,7 @@
 namespace pipeline {
 namespace {
 
-/// Notes a model so far from the origin that the steps between floats, its scene's coordinates, show.
+/// Notes if a model is so far from the origin that the steps of its scene's float coordinates show.
 void note_coarse_coordinates(Model& model) {
   constexpr double kFineEnough = 1e-4;  // of the model's extent: a tenth of a pixel if it has 1000
   BoundingBox box;

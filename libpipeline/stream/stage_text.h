@@ -47,7 +47,7 @@ struct StageHeader {
   Appearance appearance = {};
   std::optional<Located<Projection>> projected = {};  // by `project`: a Frustum or an Orthographic
   std::optional<Located<Bounds>> bounds = {};
-  std::vector<Located<std::string>> camera_lines = {};  // the keywords that set these two
+  std::vector<Located<std::string>> camera_lines = {};  // the keywords that set `camera` and `projected`
 };
 
 /// The last line of a failed stage's output: "error tool: message".

@@ -28,7 +28,7 @@ PrintableNumber round_wide_to_shortest(const Ball& ball, double input_size);
 
 /// round_to_text in the shortest form.
 inline PrintableNumber round_to_shortest(const Ball& ball, double input_size = 1) {
-  // Both ends of most balls round to the midpoint's double; this shows without its neighbors. The bound is
+  // Both ends of most balls round to the midpoint's double; this test needs no neighbors. The bound is
   // enlarged by more than the sums lose.
   const auto [hi, lo] = ball.value();
   const double error = ball.error() + (ball.error() + std::fabs(lo)) * 0x1p-50;

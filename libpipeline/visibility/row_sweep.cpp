@@ -171,7 +171,7 @@ RowPolygon<Depth>* RowSweep<Depth>::nearest_at(int column) {
   return nearest;
 }
 
-/// The first column in [column, end], as far as both reach, where `front` may not be nearer than `back`.
+/// The first column in [column, end], while both reach, where `front` is not surely nearer than `back`.
 template <typename Depth>
 int RowSweep<Depth>::end_of_nearer(const Polygon& front, const Polygon& back, int column, int end) const {
   const int last = std::min({end - 1, front.last_column, back.last_column});

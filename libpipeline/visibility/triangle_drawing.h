@@ -79,9 +79,9 @@ class RowBands {
 };
 
 /// Draws a picture band by band: for several batches, all triangles that reach one band are drawn before the
-/// next band's, so that the band's pixels stay in the cache. With several threads, one of them draws each
-/// band while the caller reads on. A pixel belongs to one band, and a band's triangles are drawn in the order
-/// of the stream, so the result does not depend on the number of threads. `Visible` has a class
+/// next band's, so that the band's pixels stay in the cache. With several threads, each band is drawn by one
+/// of them while the caller reads on. A pixel belongs to one band, and a band's triangles are drawn in the
+/// order of the stream, so the result does not depend on the number of threads. `Visible` has a class
 /// Drawer(visible, rows) with draw(triangle, tag) and finish(), which touch only these rows.
 ///
 /// Source: "sort-middle" in S. Molnar, M. Cox, D. Ellsworth, H. Fuchs, "A sorting classification of parallel

@@ -73,7 +73,7 @@ class Camera:
                                    words=None)
 
     def turned(self, right, up):
-        """The camera turned on the spot, by the given numbers of turns."""
+        """The camera turned on the spot, by multiples of TURN."""
         def turn(a, b, angle):
             c, s = math.cos(angle), math.sin(angle)
             return normalized(tuple(c * x + s * y for x, y in zip(a, b))), normalized(

@@ -21,7 +21,7 @@ from lib.judging.verdict import UNDECIDED, WRONG, Cause, FileVerdict, Verdict
 from lib.rim.command import CommandFailure, shown
 from lib.rim.places import place
 
-FIRST_USER, USERS = 61184, 4336  # numbers that no package gives to a user, and a container has
+FIRST_USER, USERS = 61184, 4336  # numbers that a container has, and that no package gives to a user
 LOCAL = ("ext4", "xfs", "btrfs", "zfs", "overlay", "tmpfs", "devtmpfs", "mqueue", "f2fs")  # file systems
 DEPTH = 6  # of the search for folders that all may write
 MOST_BYTES, MOST_FILES = 64 << 20, 500  # of a hand-in that is built
@@ -161,7 +161,7 @@ def unpack(contents, folder):
             target.chmod(0o755)
         except MemoryError:
             raise
-        except Exception as error:  # whatever an archive raises that is none
+        except Exception as error:  # what is no archive may raise anything
             raise ProgramError(f"{shown('/'.join(path))} cannot be unpacked "
                                f"({type(error).__name__})") from None
         left -= len(data)

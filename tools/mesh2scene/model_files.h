@@ -26,7 +26,7 @@ class ModelFiles {
   /// The bytes of another file; nothing if it is not opened. If the path leads nowhere, its last part is
   /// tried in the model's folder. A UsageError if it is an output.
   std::optional<std::string_view> read(const std::string& file);
-  /// Names the first file that may not belong to the model, and so was not opened; empty if there is none.
+  /// Names the first file not opened because the model must not use it; empty if there is none.
   [[nodiscard]] std::string refusal() const;
 
  private:

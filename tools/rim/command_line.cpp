@@ -305,7 +305,7 @@ void CommandLine::add_choice_of_words(const std::string& name, const std::vector
   std::string type_name;
   for (const std::string& word : words) {
     type_name += (type_name.empty() ? "" : "|") + word;
-    if (word.starts_with('-')) flag_words_.emplace_back(name, word);  // not an option, as CLI11 thinks
+    if (word.starts_with('-')) flag_words_.emplace_back(name, word);  // CLI11 takes it for an option
   }
   const auto choose = [name, words, take](const std::string& found) {
     const auto word = std::find(words.begin(), words.end(), found);

@@ -42,7 +42,7 @@ WordCheck wrong_with_name(F check) {
   };
 }
 
-/// A check that describes a word without `is_fine` as "expected `expected`, found ...".
+/// A check that reports a word that fails `is_fine` as "expected `expected`, found ...".
 template <typename F>
 WordCheck expects(const char* expected, F is_fine) {
   return [=](const std::string& word) {

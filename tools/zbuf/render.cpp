@@ -56,8 +56,8 @@ struct Reports {
 };
 
 /// For each triangle: is it nearer than all before it at some pixel or sample? With a depth epsilon, the text
-/// of `--seen` needs no other triangle: only a fragment nearer than c by more than epsilon is drawn over one
-/// of depth c, and it is the first.
+/// of `--seen` needs no other triangle: over depth c, the first fragment nearer by more than epsilon is
+/// drawn, so it is the nearest so far.
 class NearestSoFar {
  public:
   NearestSoFar(PixelRules rules, const Viewport& of_centers, int sample_count) {

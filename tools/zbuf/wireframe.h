@@ -28,8 +28,8 @@ class Wireframe {
   /// `screen` has pixels or samples.
   Wireframe(const PixelRules& rules, const Viewport& screen, const Setup& setup);
 
-  /// Takes the next triangle, with its id, the count so far. Its edges are drawn at the next call of any
-  /// function, as the next triangle may be a piece that shares one.
+  /// Takes the next triangle, with its id, the count so far. Its edges are drawn at the next `add` or `row`,
+  /// as the next triangle may be a piece that shares one.
   void add(const TriangleBatch& p_ndc, std::size_t index, PixelTag id);
   /// The ids shown in a row whose visible surfaces are these; to be called after the last triangle.
   std::span<const PixelTag> row(int row, const VisibleRow& surfaces);

@@ -79,7 +79,7 @@ class BorderRule:
         return [(t, *self.plane(t)[2][0]) for t in sorted(set().union(*rows))]
 
     def near(self, row, column):
-        """The triangles on this row or beside it that come within a pixel of the column."""
+        """The triangles on this row or beside it that come within REACH of the column."""
         boxes = self.boxes(row)
         spend(self.drawing.work, len(boxes))
         return [t for t, left, right in boxes if left - REACH <= column <= right + REACH]

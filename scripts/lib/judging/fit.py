@@ -15,7 +15,7 @@ MOST_POINTS = 60
 TRIALS = 3
 WORST_SPREAD = 0.01  # of an element, against the largest one
 LEAST_DIFFERENCE = 1e-4  # of an element, against 1 and its own size
-# of a number that a matrix gives: against 1 and its own size, and of its last digit
+# of an image's coordinate: relative to its size or to 1, and in its last digit
 MISFIT, MISFIT_IN_UNITS = 1e-3, 20
 DECIMALS = 5
 

@@ -174,9 +174,9 @@ def by_most_pixels(context, rows, best):
 
 
 def without_triangles(context, best, limit):
-    """The Finding if the pixels of some triangles, all of them, are as if those were not there, and that
-    leaves no more than `limit`. A pixel of one that is missing shows nothing, or another triangle, whose
-    color then seems to be its own, too."""
+    """The Finding that some triangles are missing, if all their pixels look as if they were, and at most
+    `limit` others differ. A missing triangle's pixel shows nothing, or another triangle, whose color then
+    seems to be the missing one's, too."""
     counts = collections.Counter(best.owners.values())
     lost = {t for t, count in counts.items() if count >= LOST * best.areas[t]}
     in_another = {t for t in counts if len(best.by_color.get(best.colors.get(t), ())) > 1}

@@ -80,7 +80,7 @@ def sentence(verdict):
 
 
 def next_command(verdict, theirs, scene, config):
-    """The command that shows more of the first file that is wrong; None if there is no such."""
+    """The command that shows more of the first file that is wrong; None if there is none."""
     wrong = next((file for file in verdict.files if file.verdict == WRONG), None)
     if wrong is None or not all(map(os.path.isfile, (scene, config))):
         return None

@@ -50,8 +50,8 @@ class Scene:
             for habit in model_habits.MODEL_MISTAKES[name])
 
     def command_before(self, triangle):
-        """The last command before a triangle that is none itself: the line after which it comes. None if
-        there is none."""
+        """The last command before a triangle, triangles aside: the line it comes after. None if there is
+        none."""
         line = self.triangle_lines[triangle]
         before = itertools.takewhile(lambda command: command.line < line, self.commands)
         return next((command for command in reversed(list(before)) if command.keyword != "triangle"), None)

@@ -67,7 +67,7 @@ def whole(least, most=math.inf):
 
 
 def number(is_zero_fine=False, most=math.inf):
-    """The same of a number that is greater than 0, or 0, too."""
+    """Likewise for a number greater than 0, or of at least 0."""
     limits = ("of at least 0" if is_zero_fine else "greater than 0") + f", at most {most}" * (most < math.inf)
 
     def read(word):

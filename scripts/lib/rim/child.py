@@ -23,8 +23,7 @@ def cpu_seconds(usage):
 
 
 def adopt_orphans():
-    """Makes the children of a child that has ended children of this process, on Linux, so that end_children
-    finds it."""
+    """On Linux, makes this process adopt the orphans of its children, so that end_children finds them."""
     with contextlib.suppress(AttributeError):
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 

@@ -28,11 +28,9 @@ def columns(jobs, files_of, first):
 
 
 def run_parallel(folder, jobs, name, common=(), options=()):
-    """Runs the jobs in the folder; what they print on stdout from a form feed on. `common` are files that all
-    jobs read, `name` is the command's.
-
-    Another machine works in a folder of its own, which is removed afterwards: files are sent there, and those
-    of a job come back."""
+    """Runs the jobs in the folder; returns their stdout from a form feed on. `common` are files that all
+    jobs read, `name` is the command's. Another machine works in a folder of its own, which is removed
+    afterwards: files are sent there, and those of a job come back."""
     words = ["parallel", "--will-cite"]
     if os.access("/dev/shm", os.W_OK):  # what jobs print is kept in memory: the disk may be full
         words += ["--tmpdir", "/dev/shm"]

@@ -8,7 +8,7 @@ import stat
 from lib.rim.command import CommandFailure, shown
 from lib.rim.output_file import OutputError, make_folders, write_file
 
-OURS = ".pipeline-"  # so begin a mark, and what a tool that was killed may leave
+OURS = ".pipeline-"  # how a mark begins, and what a killed tool may leave
 
 
 class WorkFolder:
@@ -24,8 +24,8 @@ class WorkFolder:
 
     @contextlib.contextmanager
     def taken(self, is_own=lambda _: False):
-        """Takes the folder for a block. If that fails, the folder goes if it holds nothing but the mark; and,
-        with the files that are its own, if it was new and an output cannot be written."""
+        """Takes the folder for a block. If the block fails, removes the folder if it holds nothing but the
+        mark; and, with its own files, if it was new and an output cannot be written."""
         self.take()
         try:
             yield
