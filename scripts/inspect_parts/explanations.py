@@ -1,7 +1,7 @@
 """The reports of explain on each triangle."""
 from inspect_parts.stage_lines import StageLines
 from lib.explaining.report import triangle_report
-from lib.explaining.stages import Settings, words_of
+from lib.explaining.stages import Settings, words_of, words_of_triangle
 from lib.maths.window import Window
 from lib.text.scene import find_triangles
 
@@ -14,21 +14,19 @@ class StagesOfPage:
     def __init__(self, inspection, lossless, number):
         self.settings, self.count = Settings(), inspection.count
         self.header = inspection.header
-        self.world, self.world_lossless = (words_in(text, number)[0]
-                                           for text in (inspection.lines["model"], lossless["model"]))
-        self.view, self.view_lossless = (words_in(text, number)[0]
-                                         for text in (inspection.lines["view"], lossless["view"]))
-        self.ndc = words_in(inspection.lines["project"], number)
+        self.world, self.world_lossless, self.view, self.view_lossless = (words_of_triangle(
+            sum(lines_in(texts[tool], number), []), tool,
+            number) for tool in ("model", "view") for texts in (inspection.lines, lossless))
+        self.ndc = [*map(words_of, lines_in(inspection.lines["project"], number))]
 
     def camera(self):
         return self.header
 
 
-def words_in(text, number):
-    """The words of each piece of a triangle in a text, a StageLines."""
+def lines_in(text, number):
+    """The vertex lines of each piece of a triangle in a text, a StageLines."""
     return [
-        words_of(text.lines[line - 1:line + 2]) for name, line in zip(text.names, text.first_lines)
-        if name == number]
+        text.lines[line - 1:line + 2] for name, line in zip(text.names, text.first_lines) if name == number]
 
 
 def explanations(inspection, scene_text, config_text):

@@ -5,6 +5,7 @@ at hand.
 usage: explain_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import math
+import os
 import pathlib
 import random
 import unittest
@@ -17,14 +18,14 @@ from lib.maths.window import PixelOfTriangle, Window
 from lib.running.pipe_tools import Tools
 from lib.text.scene import find_triangle
 from sample_files import sample_file
-from toolbox import BIN, CAMERA, SOURCE, ToolTest, run, run_script
+from toolbox import BIN, CAMERA, SOURCE, ToolTest, run, run_script, tools_with
 
 SAMPLES = sorted(scene.parent for scene in SOURCE.glob("samples/*/scene.txt"))
 MAX_LINES = 60
 
 
-def explain(*words, stdin=None):
-    return run_script("explain", *words, input=stdin)
+def explain(*words, stdin=None, **settings):
+    return run_script("explain", *words, input=stdin, **settings)
 
 
 def coordinates(report, section):
@@ -328,9 +329,15 @@ class Messages(ToolTest):
         self.assert_fails_with(
             "explain: zbuf: config.txt:1:3: expected the height in pixels, a whole number from 1 to 65535, "
             "found '0'\n")
+        pathlib.Path("config.txt").write_text("8 8\n")
+        for tool, lines, message in (("view", 2, "expected three vertex lines of triangle 0, found fewer"),
+                                     ("view", 0, "expected three vertex lines of triangle 0, found fewer"),
+                                     ("project", 2, "expected three vertices a triangle, found 2 in all")):
+            tools = tools_with(tool, f'$real "$@" | head -n {lines}')
+            self.assert_fails_with(f"explain: {tool}: {message}\n", env={**os.environ, "BIN": str(tools)})
 
-    def assert_fails_with(self, message):
-        done = explain("scene.txt", "config.txt", "--triangle", 0)
+    def assert_fails_with(self, message, **settings):
+        done = explain("scene.txt", "config.txt", "--triangle", 0, **settings)
         self.assertEqual((done.returncode, done.stderr, done.stdout), (1, message, ""))
 
     def test_a_sphere_names_the_ways_to_draw_it(self):

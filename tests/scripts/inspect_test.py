@@ -16,7 +16,7 @@ import unittest
 from unittest import mock
 
 from browser import MISSING, Browser
-from toolbox import BIN, SOURCE, ToolTest, pipe, pseudo_terminal, run, run_script, stage_texts
+from toolbox import BIN, SOURCE, ToolTest, pipe, pseudo_terminal, run, run_script, stage_texts, tools_with
 
 TAB, ESCAPE, LEFT, UP, RIGHT, DOWN, HOME, SHIFT = ("\ue004", "\ue00c", "\ue012", "\ue013", "\ue014", "\ue015",
                                                    "\ue011", "\ue008")
@@ -47,6 +47,14 @@ class Messages(ToolTest):
             done = inspect("scene.txt", "config.txt", "-o", "page.html")
             self.assertEqual((done.returncode, self.files()), (1, ["config.txt", "scene.txt"]))
             self.assertRegex(done.stderr, rf"\Ainspect: {message}\n\Z")
+
+    def test_a_stage_that_leaves_out_a_triangle_is_named(self):
+        pathlib.Path("scene.txt").write_text(SCENE)
+        for tool in ("model", "view"):
+            tools = tools_with(tool, '$real "$@" | head -n -4')
+            done = inspect("scene.txt", "config.txt", env={**os.environ, "BIN": str(tools)})
+            self.assertEqual(done.stderr,
+                             f"inspect: {tool}: expected three vertex lines of triangle 2, found fewer\n")
 
     def test_per_cent_on_a_terminal(self):
         pathlib.Path("scene.txt").write_text(SCENE)

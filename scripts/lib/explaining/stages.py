@@ -9,6 +9,7 @@ import tempfile
 
 from lib.maths.exact import double
 from lib.maths.window import Window
+from lib.rim.command import CommandFailure
 from lib.rim.input_file import read_input
 from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.running.tool_options import words_of_project
@@ -59,14 +60,14 @@ class Stages:
         """Sends triangle `number` through the stages: its text after each, lossless and as printed."""
         digits = ("--digits", self.settings.digits)
         printed = self.tools.output("model", "--bare", *digits, self.scene).decode().split("\n")
-        self.world = words_of(printed[4 * number:4 * number + 3])
+        self.world = words_of_triangle(printed[4 * number:4 * number + 3], "model", number)
         vertices = self.body[4 * number:4 * number + 3]
-        self.world_lossless = words_of(vertices)
+        self.world_lossless = words_of_triangle(vertices, "model", number)
         alone = "\n".join([*self.header, f"triangle {number}", *vertices, "", ""]).encode()
-        self.view = words_of(
-            self.tools.output("view", "--bare", *digits, stdin=alone).decode().split("\n")[:3])
-        in_view = self.tools.output("view", *EXACT, stdin=alone)
-        self.view_lossless = words_of(vertex_lines(in_view)[0])
+        in_view, bare = (self.tools.output("view", *words, stdin=alone)
+                         for words in (EXACT, ["--bare", *digits]))
+        self.view_lossless, self.view = (words_of_triangle(header_and_body(text)[1][:3], "view", number)
+                                         for text in (in_view, bare))
         self.projected = self.tools.output("project", *digits, *self.settings.of_project, stdin=in_view)
         self.ndc = [words_of(lines) for lines in vertex_lines(self.projected)]
 
@@ -113,10 +114,18 @@ def words_of(lines):
     return [line.split()[:3] for line in lines]
 
 
+def words_of_triangle(lines, tool, number):
+    """The same of a whole triangle; an error if a tool that did not fail has left out a part."""
+    words = words_of(lines)
+    if [len(vertex) for vertex in words] != [3, 3, 3]:
+        raise CommandFailure(f"{tool}: expected three vertex lines of triangle {number}, found fewer")
+    return words
+
+
 def vertex_lines(data):
-    """The three vertex lines of each triangle of a stage text, without the whole triangles of its `clipped`
-    blocks."""
+    """The three vertex lines of each triangle of a text of project, without the whole triangles of its
+    `clipped` blocks."""
     text = data.decode()
     lines = text.split("\n")
     return [[lines[vertex.line - 1] for vertex in triangle]
-            for triangle in parse_stage_text(text, "stage text").triangles]
+            for triangle in parse_stage_text(text, "project").triangles]
