@@ -206,16 +206,18 @@ class Picture(ToolTest):
             for more in ([], ["--stages", "kept"]):
                 with self.subTest(words + more):
                     done = picture(*words, *more, "-o", "one.png")
-                    self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1),
+                    status = 2 if "(try mesh2scene --help)" in done.stderr else 1
+                    self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (status, "", 1),
                                      done.stderr)
                     self.assertTrue(done.stderr.startswith(reason), done.stderr)
                     self.assertFalse(pathlib.Path("one.png").exists())
                     self.assertFalse(pathlib.Path("kept").exists())
-        for output, reason in (("one.gif", "picture: zbuf: "),
-                               ("nowhere/one.png",
-                                "picture: zbuf: cannot open nowhere/one.png: No such file")):
+        for output, status, reason in (("one.gif", 2, "picture: zbuf: "),
+                                       ("nowhere/one.png", 1,
+                                        "picture: zbuf: cannot open nowhere/one.png: No such file")):
             done = picture("vase.obj", "-o", output)
-            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (status, "", 1),
+                             done.stderr)
             self.assertTrue(done.stderr.startswith(reason), done.stderr)
 
     def test_a_scene_is_drawn_with_its_own_camera(self):

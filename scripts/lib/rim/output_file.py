@@ -175,7 +175,8 @@ def replaced_at_end(*paths):
             text = str(failure)
             for path, temporary in beside.items():
                 text = text.replace(shown(temporary), shown(path))
-            raise CommandFailure(text) from None
+            failure.args = (text,)
+            raise
         for path in beside:
             files[path].expect_something()
         for path in beside:
