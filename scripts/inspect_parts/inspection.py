@@ -1,5 +1,6 @@
 """The data of the inspector's page: a scene sent through the real pipe, and the output of every stage."""
 import base64
+import io
 import itertools
 import math
 import pathlib
@@ -10,7 +11,7 @@ from inspect_parts.explanations import explanations
 from inspect_parts.packing import packed
 from inspect_parts.stage_lines import NUMBER_BEGINS, StageLines
 from lib.rim.input_file import read_input
-from lib.running.pipe_tools import ToolFailure, opaque_background
+from lib.running.pipe_tools import FRAMING, ToolFailure, bare_blocks, of_bare_text, opaque_background
 from lib.showing.pictures import read_picture
 from lib.text.projection import line_of
 from lib.text.square import note_on_squares
@@ -67,9 +68,11 @@ class Inspection:
             if tool == "project":
                 data = self.faceted(data)
             # Timed without counting.
-            done = texts[tool] = self.first_run(tool, data)
-            self.lossless[tool] = data = self.tools.output(tool, "--digits", "exact", "--stats",
-                                                           folder / tool, stdin=data)
+            framed = FRAMING.get(tool, [])
+            done = texts[tool] = self.first_run(tool, data, *framed)
+            data = self.tools.output(tool, *framed, "--digits", "exact", "--stats", folder / tool, stdin=data)
+            done.stdout, self.lossless[tool] = (b"".join(bare_blocks(tool, io.BytesIO(text)))
+                                                for text in (done.stdout, data))
             self.statistics[tool] = statistics(folder / tool)
             self.lines[tool] = StageLines.of(done.stdout.decode())
             self.progress.reach(SHARES[tool])
@@ -101,11 +104,11 @@ class Inspection:
         self.notes.append(
             f"project and zbuf have {4 * belts * (belts - 1)} facets in place of each sphere, and count those"
         )
-        return self.tools.through(["model", "--digits", "exact", "--facets", belts],
+        return self.tools.through(["model", "--framed", "--digits", "exact", "--facets", belts],
                                   ["view", "--digits", "exact"], stdin=self.scene_data)
 
     def stage(self, tool, title, done):
-        read, stderr = self.lines[tool], done.stderr.decode(errors="replace")
+        read, stderr = self.lines[tool], of_bare_text(done.stderr).decode(errors="replace")
         self.notes += notes_told(stderr)
         lines = self.thinned(read) if self.step > 1 else [(0, line) for line in read.lines]
         return {

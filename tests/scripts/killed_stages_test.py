@@ -40,12 +40,13 @@ COMMANDS = {
 # What is there before: all that one of them replaces.
 OLDER = ("x.gif", "x.png", "z.txt", "x.html", "x.svg",
          *(f"kept/{name}" for name in ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")))
+FRAMED = ("film", "farm", "picture", "stages", "inspect")  # which expect all of a text, whoever ends well
 # Folders of the test, and of what can be gone on with.
 KEPT = ("bin", "x.gif.frames", "x.png.farm", "film/.pipeline-film-work")
 KILLED, FAILED = "ended by SIGKILL", "exit status 3"
 KILLS = {"at once": KILLED, "in the middle": KILLED, "after all": KILLED, "fails": FAILED}
 # A tool that is killed: at once, or with half of its text out, or in, or with all and a note; or fails then;
-# or does not end.
+# or does not end; or ends well with a part.
 TOOL = f'''#!{sys.executable} -I
 import os, signal, subprocess, sys
 words = ["{BIN}/TOOL", *sys.argv[1:]]
@@ -63,6 +64,10 @@ if "MOMENT" == "in the middle" and "TOOL" in ("zbuf", "trace"):
 elif "MOMENT" == "in the middle":
     text = subprocess.run(words, stdout=subprocess.PIPE).stdout
     os.write(1, text[:len(text) // 2 + 7])
+elif "MOMENT" == "ends well":
+    if "TOOL" in ("model", "view", "project"):  # without the last triangle, and the frame
+        os.write(1, subprocess.run(words, stdout=subprocess.PIPE).stdout.rsplit(b"\\n\\n", 2)[0] + b"\\n\\n")
+    sys.exit()
 elif "MOMENT" in ("after all", "fails"):
     status = subprocess.run(words).returncode
     if "MOMENT" == "after all": print("TOOL: note: a\\n\\nzbuf: status 7\\n", file=sys.stderr)
@@ -94,6 +99,11 @@ class KilledStages(ToolTest):
             with self.subTest(stage=stage, moment=moment):
                 self.make_tools(stage, moment)
                 self.kill(f"{stage}: {KILLS[moment]}", *command.split(), *words.split())
+                self.assertEqual(self.contents(), before)
+        for stage in stages if command.split()[0] in FRAMED else ():
+            with self.subTest(stage=stage, moment="ends well"):
+                self.make_tools(stage, "ends well")
+                self.kill(r"\S.*", *command.split(), *words.split())
                 self.assertEqual(self.contents(), before)
         number = list(COMMANDS).index(command)
         with self.subTest(signal=signals[number % 3], stage=stages[number % len(stages)]):
@@ -168,7 +178,7 @@ class KilledStages(ToolTest):
     def kill(self, expected, name, *words):
         done = run_script(name, *words, env=self.places())
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn(expected, done.stderr)
+        self.assertRegex(done.stderr, expected)
         if name != "grade":  # which tells who has no points
             pattern = f"(.*: )?{expected}(; .*)?" if name in ("film", "farm") else expected  # how to go on
             self.assertRegex(done.stderr, rf"\A{name}: {pattern}\n\Z")

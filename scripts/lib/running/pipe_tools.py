@@ -64,6 +64,27 @@ def with_opaque_background(text):
     return TRANSPARENT.sub(rb"\1", text, count=1) if opaque_background(text) else text
 
 
+def bare_blocks(tool, file):
+    """The blocks of the text in a tool's file, without its frame, as users keep it; the file is at its begin
+    then. An error if a part is missing, though the tool has ended well."""
+    first, last = (b"", b"") if tool == "mesh2scene" else (b"framed\n", b"end\n")
+    left = file.seek(0, os.SEEK_END) - len(first + last)
+    file.seek(max(left + len(first) - 1, 0))
+    is_whole = file.read() == b"\n" + last
+    file.seek(0)
+    if not is_whole or file.read(len(first)) != first:
+        raise ToolCrash(f"{tool}: has not written all of its text, though it ended well")
+    while left > 0 and (block := file.read(min(left, 1 << 20))):
+        left -= len(block)
+        yield block
+    file.seek(0)
+
+
+def of_bare_text(stderr):
+    """A tool's messages on a framed text, with the lines of the text without the frame."""
+    return FRAMED_LINE.sub(lambda found: b"%s%d" % (found[1], max(int(found[2]) - 1, 1)), stderr)
+
+
 PIPE = ("model", "view", "project", "zbuf", "trace")
 # The options that make a tool refuse a text that is cut short because a tool before it was killed.
 FRAMING = {"model": ["--framed"], **dict.fromkeys(("join-seen", "zbuf", "trace"), ["--expect-framed"])}
@@ -89,6 +110,8 @@ fail() {
   rm -f "$1"
 }
 '''
+# Where a tool names a line of its framed input.
+FRAMED_LINE = re.compile(rb"^((?:view|project|zbuf|trace): .*?<stdin>:)(\d+)", re.M)
 STATUS = r"^(\w+): status (-?\d+)$"
 # Lines of --timing, of trace's --probe, and of stages in sh.
 NO_REASON = re.compile(r": note: |^\w+: \d+ triangles? in |^\d+,\d+: |" + STATUS)
@@ -173,14 +196,16 @@ class Tools:
     def output(self, tool, *words, stdin=b""):
         return self.run(tool, *words, stdin=stdin).stdout
 
-    def pipe(self, *calls, stdin=subprocess.DEVNULL, stdout=None, tee=lambda source: source, cwd=None):
+    def pipe(self, *calls, stdin=subprocess.DEVNULL, stdout=None, tee=lambda source: source, cwd=None,
+             is_kept=False):
         """Runs tools at once, each a list of its name and its words; each reads the output of the one before
-        it, by way of `tee`. Returns them as Done, with CPU `seconds`. Several tools frame their text."""
+        it, by way of `tee`. Returns them as Done, with CPU `seconds`. Several tools frame their text, and so
+        does one whose text `is_kept` by bare_blocks."""
         self.expect(*(tool for tool, *_ in calls))
         with contextlib.ExitStack() as stack:
             runs, source = [], stdin
             for tool, *words in calls:
-                framing = FRAMING.get(tool, []) if len(calls) > 1 else []
+                framing = FRAMING.get(tool, []) if len(calls) > 1 or is_kept else []
                 is_last = len(runs) == len(calls) - 1
                 # In memory: the disk may be full.
                 errors = stack.enter_context(os.fdopen(os.memfd_create("stderr"), "w+b"))
@@ -196,7 +221,8 @@ class Tools:
             for (process, errors), (tool, *_) in zip(runs, calls):
                 seconds = cpu_seconds(finished(process))
                 errors.seek(0)
-                done.append(Done(tool, process.returncode, errors.read()))
+                said = of_bare_text(errors.read()) if is_kept else errors.read()
+                done.append(Done(tool, process.returncode, said))
                 done[-1].seconds = seconds
         expect_success(*done)
         return done
