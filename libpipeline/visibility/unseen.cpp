@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace pipeline {
 namespace {
@@ -20,6 +21,21 @@ double depth_reach(const Triangle& p, const BoundingBox& extent, double dx) {
   if (!(area > 0x1p-20 * (std::fabs(forward) + std::fabs(backward)))) return kInfinity;
   // Twice the distance, and more than all rounding errors.
   return std::fabs(rise) / area * dx + 0x1p-20 * (std::fabs(extent.low.z) + std::fabs(extent.high.z));
+}
+
+/// The side of the window on which a triangle lies that misses it past a corner, if it does: all of the
+/// window is then beyond one of its edges.
+std::optional<UnseenPlace> side_past_corner(const Triangle& p, const Viewport& screen) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3];
+    // The edge's normal, toward the third corner.
+    double x = a.y - b.y, y = b.x - a.x;
+    if (x * (c.x - a.x) + y * (c.y - a.y) < 0) x = -x, y = -y;
+    if (!(std::fabs(x) * -screen.left + std::fabs(y) * -screen.bottom < x * a.x + y * a.y)) continue;
+    if (std::fabs(x) > std::fabs(y)) return x > 0 ? UnseenPlace::right : UnseenPlace::left;
+    return y > 0 ? UnseenPlace::above : UnseenPlace::below;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -60,7 +76,7 @@ UnseenPlace unseen_place(const Triangle& p_ndc, const BoundingBox& extent, const
   if (fragments.visible || !has_area(p_ndc)) return UnseenPlace::without_area;
   if (fragments.before_front) return UnseenPlace::near;
   if (fragments.beyond_rear) return UnseenPlace::far;
-  return UnseenPlace::between_centers;
+  return side_past_corner(p_ndc, screen).value_or(UnseenPlace::between_centers);
 }
 
 }  // namespace pipeline

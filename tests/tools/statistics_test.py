@@ -222,6 +222,14 @@ def reason(triangle, fragments, config):
                                             for _, _, depth in fragments)), ("outside_far", bool(fragments))):
         if holds:
             return key
+    for i in range(3):  # past a corner of the window: all of it is beyond an edge
+        (ax, ay, _), (bx, by, _), (cx, cy, _) = corners[i:] + corners[:i]
+        x, y = ay - by, bx - ax
+        if x * (cx - ax) + y * (cy - ay) < 0:
+            x, y = -x, -y
+        if max(x * u + y * v for u in (left, -left) for v in (bottom, -bottom)) < x * ax + y * ay:
+            side = ("right" if x > 0 else "left") if abs(x) > abs(y) else "above" if y > 0 else "below"
+            return f"outside_{side}"
     return "between_centers"
 
 

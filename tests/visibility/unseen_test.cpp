@@ -52,6 +52,13 @@ TEST(EmptyPicture, ATriangleHasOneReason) {
   EXPECT_EQ(reason_of(corner_at(0.3, 0.3, 1, 0.1)), UnseenPlace::between_centers);
 }
 
+TEST(EmptyPicture, ATrianglePastACornerIsOutside) {
+  EXPECT_EQ(reason_of({Vec3{0.5, 3, 1}, Vec3{3, 0.5, 1}, Vec3{3, 3, 1}}), UnseenPlace::above);
+  EXPECT_EQ(reason_of({Vec3{0.5, 5, 1}, Vec3{5, 5, 1}, Vec3{2, 0.5, 1}}), UnseenPlace::right);
+  EXPECT_EQ(reason_of({Vec3{-0.5, -5, 1}, Vec3{-2, -0.5, 1}, Vec3{-5, -5, 1}}), UnseenPlace::left);
+  EXPECT_EQ(reason_of({Vec3{-5, -0.5, 1}, Vec3{-0.5, -2, 1}, Vec3{-5, -5, 1}}), UnseenPlace::below);
+}
+
 TEST(EmptyPicture, OfSeveralReasonsTheFirstCounts) {
   EXPECT_EQ(reason_of(corner_at(3, 3, 5)), UnseenPlace::far);
   EXPECT_EQ(reason_of(corner_at(3, 3, 1, 0)), UnseenPlace::right);

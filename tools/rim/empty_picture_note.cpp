@@ -50,10 +50,6 @@ std::string beside(UnseenPlace place, const std::string& what) {
   return kSides[side] + (" the " + what);
 }
 
-std::string window(double limit) {
-  return "the window from " + rounded(limit) + " to " + rounded(-limit);
-}
-
 /// "(z is 0.6, the limit of the config is 0.5)"; or, if the limit is a plane of the camera, "(z is 0.6, the
 /// limit is 0.5, the camera's near)".
 std::string beside_limit(double low, double high, double limit, bool is_plane, const char* plane,
@@ -64,13 +60,14 @@ std::string beside_limit(double low, double high, double limit, bool is_plane, c
 
 /// "left of the window (x from -3 to -1.5, the window from -1 to 1)"
 std::string beside_window(UnseenPlace place, const BoundingBox& extent, const Viewport& screen) {
-  const auto& [low, high] = extent;
   const bool is_low = place == UnseenPlace::left || place == UnseenPlace::below;
   const bool is_x = place == UnseenPlace::left || place == UnseenPlace::right;
   const double limit = is_x ? screen.left : screen.bottom, side = is_low ? limit : -limit;
-  return beside(place, "window") + " (" +
-         (is_x ? range('x', low.x, high.x, side) : range('y', low.y, high.y, side)) + ", " + window(limit) +
-         ")";
+  const double low = is_x ? extent.low.x : extent.low.y, high = is_x ? extent.high.x : extent.high.y;
+  const bool is_past_corner = is_low ? high >= side : low <= side;
+  return beside(place, "window") + (is_past_corner ? ", past a corner of it" : "") + " (" +
+         range(is_x ? 'x' : 'y', low, high, side) + ", the window from " + rounded(limit) + " to " +
+         rounded(-limit) + ")";
 }
 
 std::string where_on_screen(UnseenPlace place, const BoundingBox& extent, const Viewport& screen) {
