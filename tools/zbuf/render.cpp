@@ -190,7 +190,7 @@ void note_odd_picture(const Tool& tool, const ZbufOptions& chosen, const Drawing
     note =
         "one triangle fills the picture, and no edge is in view: it is too large or too near, or fovY too "
         "small";
-  if (!note && shader && is_whole && !chosen.wireframe && shown.first && !shown.is_varied &&
+  if (!note && shader && is_whole && !is_known && !chosen.wireframe && shown.first && !shown.is_varied &&
       !shader->is_plane())
     note = "all that is drawn has one color, so only its outline shows: " +
            std::string(shader->is_lit() ? "does a light reach the side that is seen?"
