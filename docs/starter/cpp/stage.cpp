@@ -53,10 +53,10 @@ Point to_ndc(double fov_y, double aspect, double near, double far, Point p) {
   return p;
 }
 
-// The next line that is not empty; false at the end.
+// The next line that is not empty, without its comment; false at the end.
 bool next_line(std::string& line) {
   while (std::getline(std::cin, line))
-    if (line.find_first_not_of(" \t\r") != std::string::npos) return true;
+    if ((line = line.substr(0, line.find('#'))).find_first_not_of(" \t\r") != std::string::npos) return true;
   return false;
 }
 
@@ -69,7 +69,7 @@ Point point(const std::vector<double>& numbers) {
   return {numbers.at(0), numbers.at(1), numbers.at(2)};
 }
 
-// Writes a vertex, and a blank line behind every third.
+// Writes a vertex, and a blank line after every third.
 void write(Point p) {
   static int count = 0;
   std::printf("%.7f %.7f %.7f\n%s", p[0], p[1], p[2], ++count % 3 ? "" : "\n");
@@ -80,11 +80,11 @@ void model() {
   std::string line;
   for (const char* name : {"eye", "look", "up", "perspective"})
     if (next_line(line)) std::printf("%s %s\n", name, line.c_str());
-  Matrix matrix{};
-  for (int i = 0; i < 4; ++i) matrix[i][i] = 1;
+  Matrix matrix{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
   std::stack<Matrix> saved;
   for (std::string command; next_line(line);) {
-    std::istringstream(line) >> command;
+    std::istringstream words(line);
+    std::getline(words >> command, line);  // the numbers, or nothing: then they have the next line
     if (command == "end") return;
     if (command == "push")
       saved.push(matrix);
@@ -92,12 +92,12 @@ void model() {
       matrix = saved.top(), saved.pop();
     else if (command == "triangle")
       for (int i = 0; i < 3 && next_line(line); ++i) write(to_world(matrix, point(numbers_of(line))));
-    else if (next_line(line))
+    else if (!numbers_of(line).empty() || next_line(line))
       matrix = transformed(matrix, command, numbers_of(line));
   }
 }
 
-// Reads vertices behind a header of words and numbers, and passes on the lines it does not use up.
+// Reads a header of words and numbers, then vertices. View passes the perspective on.
 void later_stage(bool is_view) {
   std::map<std::string, std::vector<double>> header;
   for (std::string line, word; next_line(line);) {

@@ -46,13 +46,14 @@ public class Stage {
 
     static int count = 0;
 
-    // Writes a vertex, and a blank line behind every third.
+    // Writes a vertex, and a blank line after every third.
     static void write(double[] p) {
         System.out.printf(Locale.ROOT, "%.7f %.7f %.7f\n%s", p[0], p[1], p[2], ++count % 3 == 0 ? "\n" : "");
     }
 
     static double[] numbers(String text) {
-        return Arrays.stream(text.trim().split("\\s+")).mapToDouble(Double::parseDouble).toArray();
+        return Arrays.stream(text.split("\\s+")).filter(word -> word.matches("[-+.\\d].*"))
+            .mapToDouble(Double::parseDouble).toArray();
     }
 
     // Reads a scene: four lines of the camera, then commands.
@@ -62,16 +63,18 @@ public class Stage {
         double[][] matrix = new double[4][4];
         for (int i = 0; i < 4; i++) matrix[i][i] = 1;
         Deque<double[][]> saved = new ArrayDeque<>();
-        for (String command = lines.next(); !command.equals("end"); command = lines.next()) {
+        for (String line = lines.next(); !line.equals("end"); line = lines.next()) {
+            String command = line.split("\\s+")[0];
+            double[] given = numbers(line);  // or none: then they have the next line
             if (command.equals("push")) saved.push(matrix);
             else if (command.equals("pop")) matrix = saved.pop();
             else if (command.equals("triangle"))
                 for (int i = 0; i < 3; i++) write(toWorld(matrix, numbers(lines.next())));
-            else matrix = transformed(matrix, command, numbers(lines.next()));
+            else matrix = transformed(matrix, command, given.length > 0 ? given : numbers(lines.next()));
         }
     }
 
-    // Reads vertices behind a header of words and numbers, and passes on the lines it does not use up.
+    // Reads a header of words and numbers, then vertices. View passes the perspective on.
     static void laterStage(boolean isView, Iterator<String> lines) {
         Map<String, double[]> header = new HashMap<>();
         while (lines.hasNext()) {
@@ -92,7 +95,7 @@ public class Stage {
         BufferedReader in = new BufferedReader(new InputStreamReader(System.in));
         OutputStream out = new FileOutputStream(FileDescriptor.out);
         System.setOut(new PrintStream(new BufferedOutputStream(out), false));
-        Iterator<String> lines = in.lines().map(String::trim).filter(s -> !s.isEmpty())
+        Iterator<String> lines = in.lines().map(s -> s.split("#", 2)[0].trim()).filter(s -> !s.isEmpty())
             .collect(Collectors.toList()).iterator();
         if (words[0].equals("model")) model(lines);
         else laterStage(words[0].equals("view"), lines);

@@ -48,7 +48,7 @@ def to_ndc(fov_y, aspect, near, far, p):
 
 
 def write(p, count):
-    """Writes a vertex, and a blank line behind every third."""
+    """Writes a vertex, and a blank line after every third."""
     print("%.7f %.7f %.7f" % tuple(p), end="\n\n" if count % 3 == 2 else "\n")
 
 
@@ -59,7 +59,8 @@ def model(lines):
         print(name, line)
     matrix, stack, count, i = [[float(r == c) for c in range(4)] for r in range(4)], [], 0, 4
     while lines[i] != "end":
-        command, i = lines[i], i + 1
+        command, *words = lines[i].split()
+        i += 1
         if command == "push":
             stack.append(matrix)
         elif command == "pop":
@@ -70,16 +71,18 @@ def model(lines):
                 count += 1
             i += 3
         else:
-            matrix, i = transformed(matrix, command, list(map(float, lines[i].split()))), i + 1
+            if not words:  # the numbers have a line of their own
+                words, i = lines[i].split(), i + 1
+            matrix = transformed(matrix, command, list(map(float, words)))
 
 
 def later_stage(stage, lines):
-    """Reads vertices behind a header of words and numbers, and passes on the lines it does not use up."""
+    """Reads a header of words and numbers, then vertices. View passes the perspective on."""
     header, count = {}, 0
     for line in filter(None, lines):
         word, *rest = line.split()
         if word[0].isalpha():
-            header[word] = list(map(float, rest))
+            header[word] = [float(x) for x in rest if not x.isalpha()]
             if stage == "view" and word == "perspective":
                 print(line)
             continue
@@ -95,5 +98,5 @@ def later_stage(stage, lines):
 if __name__ == "__main__":
     for number, text in enumerate(sys.stdin.read().split("==\n")):  # one text, or many from conform --batch
         print("==\n" * (number > 0), end="")
-        lines = [line.strip() for line in text.splitlines()]
+        lines = [line.partition("#")[0].strip() for line in text.splitlines()]
         model(lines) if sys.argv[1] == "model" else later_stage(sys.argv[1], lines)
