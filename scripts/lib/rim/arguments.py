@@ -95,7 +95,7 @@ class CommandParser(argparse.ArgumentParser):
     """Reports a mistake in one line, as the tools do. --help begins with the usage, the first example and the
     first paragraph of the description; the options follow, without rare ones, then the other paragraphs."""
     def __init__(self, **settings):
-        super().__init__(formatter_class=HelpFormatter, add_help=False, **settings)
+        super().__init__(formatter_class=HelpFormatter, add_help=False, allow_abbrev=False, **settings)
         self._positionals.title, self._optionals.title = "Operands", "Options"
         for *names, text in (("-h", "--help", "print this help and exit; --help-all: all of it"),
                              ("--help-all", argparse.SUPPRESS)):

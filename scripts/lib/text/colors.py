@@ -1,4 +1,7 @@
 """Colors as CSS writes them (CSS Color Module Level 4), in place of the tools' RRGGBB."""
+import argparse
+import re
+
 NAMES = dict(
     pair.split("=") for pair in """
 aliceblue=f0f8ff antiquewhite=faebd7 aqua=00ffff aquamarine=7fffd4 azure=f0ffff beige=f5f5dc bisque=ffe4c4
@@ -30,9 +33,11 @@ whitesmoke=f5f5f5 yellow=ffff00 yellowgreen=9acd32
 
 
 def tools_color(word):
-    """The hexadecimal digits of a name, or of #rgb, #rgba, #rrggbb or #rrggbbaa; other words unchanged."""
-    known = word.lower().replace("grey", "gray")
-    if word.startswith("#"):
-        digits = word[1:]
-        return "".join(2 * digit for digit in digits) if len(digits) in (3, 4) else digits
-    return NAMES.get(known, word)
+    """The hexadecimal digits of a name, or of #rgb, #rgba, #rrggbb or #rrggbbaa, or the word if it is such
+    digits."""
+    found = NAMES.get(word.lower().replace("grey", "gray"), word.removeprefix("#"))
+    if word.startswith("#") and len(found) in (3, 4):
+        found = "".join(2 * digit for digit in found)
+    if re.fullmatch("([0-9a-fA-F]{2}){3,4}", found):
+        return found
+    raise argparse.ArgumentTypeError(f"expected RRGGBB[AA], a CSS color, or transparent, found '{word}'")
