@@ -238,7 +238,7 @@ class Results(ClassTest):
             path.write_text("mine")
         self.assertEqual(
             self.grade("--anonymous", status=2).stderr,
-            "grade: expected no file of others in place of a result, found graded/numbers.csv, which "
+            "grade: expected no foreign file in place of a result, found graded/numbers.csv, which "
             ".pipeline-grade does not list\n")
         os.unlink("graded/numbers.csv")
         self.grade("--anonymous")

@@ -65,7 +65,7 @@ std::string beside_window(UnseenPlace place, const BoundingBox& extent, const Vi
   const double limit = is_x ? screen.left : screen.bottom, side = is_low ? limit : -limit;
   const double low = is_x ? extent.low.x : extent.low.y, high = is_x ? extent.high.x : extent.high.y;
   const bool is_past_corner = is_low ? high >= side : low <= side;
-  return beside(place, "window") + (is_past_corner ? ", past a corner of it" : "") + " (" +
+  return beside(place, "window") + (is_past_corner ? ", past its corner" : "") + " (" +
          range(is_x ? 'x' : 'y', low, high, side) + ", the window from " + rounded(limit) + " to " +
          rounded(-limit) + ")";
 }

@@ -65,8 +65,8 @@ def with_opaque_background(text):
 
 
 def bare_blocks(tool, file):
-    """The blocks of the text in a tool's file, without its frame, as users keep it; the file is at its begin
-    then. An error if a part is missing, though the tool has ended well."""
+    """The blocks of the text in a tool's file, without its frame, as users keep it; leaves the file at its
+    beginning. An error if a part is missing, though the tool has ended well."""
     first, last = (b"", b"") if tool == "mesh2scene" else (b"framed\n", b"end\n")
     left = file.seek(0, os.SEEK_END) - len(first + last)
     file.seek(max(left + len(first) - 1, 0))
