@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
 """The conformance pack is complete and in good order, and our stages and trace pass it.
 
-usage: pack_test.py BIN_DIR SOURCE_DIR
+usage: pack_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
-import pathlib
 import re
 import subprocess
 import sys
 import unittest
 from types import SimpleNamespace
 
-SOURCE = pathlib.Path(sys.argv.pop()).resolve()
-BIN = pathlib.Path(sys.argv.pop()).resolve()
+from toolbox import BIN, SOURCE
+
 PACK = SOURCE / "tests/conformance"
 sys.path.insert(0, str(PACK))
 from conform_parts.cases import NEEDS, RULES, STAGES, read_cases, read_mistakes  # noqa: E402

@@ -290,6 +290,10 @@ class Picture(ToolTest):
                            "40x30", "-o", f"{color}.png")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(len({path.read_bytes() for path in pathlib.Path().glob("*.png")}), 1)
+        for option, color in (("--background", "blu"), ("--color", "#ff"), ("--color", "255,0,0")):
+            self.assertEqual(
+                picture("vase.obj", option, color, "-o", "a.png").stderr, f"picture: argument {option}: "
+                f"expected RRGGBB[AA], a CSS color, or transparent, found '{color}' (try picture --help)\n")
 
     def test_what_is_asked_for_elsewhere_is_named(self):
         self.assertIn("(--trace draws them)", picture("vase.obj", "--shadows", "-o", "a.png").stderr)
@@ -310,6 +314,10 @@ class Picture(ToolTest):
         self.assertEqual(
             done.stderr, "picture: unrecognized arguments: --bakground 00000000 (did you mean "
             "--background?) (try picture --help)\n")
+        # Not --eye-from.
+        self.assertEqual(
+            picture("vase.obj", "--eye", "30", "15", "-o", "one.png").stderr,
+            "picture: unrecognized arguments: --eye 30 15 (try picture --help)\n")
 
 
 if __name__ == "__main__":

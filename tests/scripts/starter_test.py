@@ -10,10 +10,11 @@ import subprocess
 import unittest
 
 from toolbox import BIN, SOURCE, ToolTest
+from toolbox import run as run_tool
 
 # For a camera that looks down -z, view only subtracts the eye: a line that stands where each says what to do.
-SCENE = ("1 2 5\n1 2 0\n0 1 0\n60 1 1 100\ntriangle\n0 0 0\n1 0 0.5\n0 1 0\ntriangle\n1 1 1\n2 1 1\n1 3 -1\n"
-         "end\n")
+SCENE = ("# eye, look, up\n1 2 5\n1 2 0\n0 1 0\n60 1 1 100 ratio\ntranslate 0 0 0\ntriangle  # one\n0 0 0\n"
+         "1 0 0.5\n0 1 0\nscale\n1 1 1\ntriangle\n1 1 1\n2 1 1\n1 3 -1\nend\n")
 PYTHON = "    return [x - e for x, e in zip(p, eye)]\n"
 CPP = "  return {p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]};\n"
 JAVA = "        p = new double[] {p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]};\n"
@@ -31,6 +32,10 @@ class Starters(ToolTest):
             self.assertEqual((done.returncode, done.stderr), (1, ""), done.stdout)
             first = done.stdout.partition("to do: ")[2].lower().replace("_", "")
             self.assertTrue(first.startswith(f"{to_do.lower().replace('_', '')}() in {name.lower()}"), first)
+        world = subprocess.run([*run, "model"], input=SCENE, text=True, capture_output=True).stdout
+        self.assertEqual(
+            [line.split() for line in world.splitlines()],
+            [line.split() for line in run_tool("model", stdin=SCENE).stdout.decode().splitlines()])
         at = text.rindex("\n", 0, text.index(f"{method}() in")) + 1
         pathlib.Path(name).write_text(text[:at] + line + text[text.index("\n", at) + 1:])
         subprocess.run(build, check=True)

@@ -109,6 +109,11 @@ NOTES = [
         "if this is a color"),
     claim("a bright light", "light 0 0 5 16 8 4\n" + TRIANGLE,
           "zbuf: note: the picture is white: the light is too bright (1 is full; several lights add up)"),
+    claim(
+        "too much light that shows no edge",
+        "light 0 0 5 255 255 255\n" + TRIANGLE + "translate -1.5 0 -1\n" + TRIANGLE,
+        "model: note: <stdin>:5:7: a light of 255 is 255 times full light: 1 is full, so divide by 255 if "
+        "this is a color"),
     claim("a bright light that fades", "attenuation 0 0 1\nlight 0 0 5 100 100 100\n" + TRIANGLE),
     claim("a telescope", TRIANGLE, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n"),
     # Noted by zbuf.
@@ -120,6 +125,8 @@ NOTES = [
           EMPTY + "the triangle is above the window (y from 34.64 to 34.99, " + WINDOW),
     claim("below the window", "translate 0 -100 0\n" + TRIANGLE,
           EMPTY + "the triangle is below the window (y from -34.64 to -34.29, " + WINDOW),
+    claim("past the window's corner", "triangle\n1.6 9 0\n9 1.6 0\n9 9 0\n",
+          EMPTY + "the triangle is above the window, past its corner (y from 0.5543 to 3.118, " + WINDOW),
     claim("before the front limit", "translate 0 0 4.5\n" + TRIANGLE,
           EMPTY + "the triangle is before the front limit (z is -3.02, the limit is -1, the camera's near)"),
     claim("beyond the rear limit", "translate 0 0 -200\n" + TRIANGLE,
