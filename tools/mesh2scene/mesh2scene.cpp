@@ -129,7 +129,7 @@ void note_what_hides(const Model& model, const SceneSetting& setting, bool is_fi
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int mesh2scene_main(int argc, char** argv) {
   Tool tool({"mesh2scene",
              "Turns a model file into a scene: camera, lights, and triangles with normals. Reads OBJ, STL, "
              "PLY and glTF.",

@@ -93,7 +93,7 @@ void cut(Tool& tool, const std::string& scene_path, std::uint64_t part_count, co
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int cut_scene_main(int argc, char** argv) {
   Tool tool({"cut-scene",
              "Cuts a scene into scenes of about the same size, to be drawn side by side. Prints the file of "
              "each and the number of its first triangle, for model --first.",

@@ -54,7 +54,7 @@ class JoinedText {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int join_seen_main(int argc, char** argv) {
   Tool tool({"join-seen",
              "Joins the stage texts of the parts of a scene, or of their visible triangles (zbuf --seen), "
              "into the text of the whole: the header, which is the same in all, and all triangles.",

@@ -16,6 +16,14 @@ using namespace pipeline;
 
 namespace {
 
+constexpr ToolDescription kModelDescription = {
+    "model",
+    "Reads a scene and writes its triangles in world space, with the camera in the header.",
+    "The scene (scene.txt)",
+    {"model scene.txt | view | project | zbuf config.txt > z_buffer.txt",
+     "model --bare scene.txt > stage1.txt"},
+    "--precision --bounds --first --facets"};
+
 struct ModelOptions {
   bool bare = false;
   bool framed = false;
@@ -69,14 +77,8 @@ void note_odd_scene(const Tool& tool, const ModelStage& stage, const ModelOption
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  Tool tool({"model",
-             "Reads a scene and writes its triangles in world space, with the camera in the header.",
-             "The scene (scene.txt)",
-             {"model scene.txt | view | project | zbuf config.txt > z_buffer.txt",
-              "model --bare scene.txt > stage1.txt"},
-             "--precision --bounds --first --facets"},
-            OutputKind::stage_text);
+int model_main(int argc, char** argv) {
+  Tool tool(kModelDescription, OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   ModelOptions chosen;
   add_options(tool.options(), chosen);

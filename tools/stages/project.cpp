@@ -134,7 +134,7 @@ void project(Tool& tool, const ProjectOptions& chosen, Statistics& statistics) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int project_main(int argc, char** argv) {
   Tool tool({"project",
              "Reads triangles in view space and writes them in normalized device coordinates (stage3.txt).",
              "The output of view (or stage2.txt)",

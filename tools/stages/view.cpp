@@ -70,7 +70,7 @@ Appearance in_view_space(Appearance appearance, const LightOption& lights, const
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int view_main(int argc, char** argv) {
   Tool tool(kDescription, OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   CameraOptions cameras(tool.options(), CameraOptions::Parts::position_and_projection);

@@ -7,8 +7,8 @@
 
 #include "tools/rim/tool.h"
 
-// CMakeLists.txt defines ALL_TOOLS, an ENTRY for each tool that is built, and renames their mains.
-#define ENTRY(tool) int tool##_entry(int argc, char** argv);
+// CMakeLists.txt defines ALL_TOOLS, an ENTRY for each tool that is built.
+#define ENTRY(tool) int tool##_main(int argc, char** argv);
 ALL_TOOLS
 #undef ENTRY
 
@@ -19,7 +19,7 @@ struct Entry {
   int (*run)(int argc, char** argv);
 };
 
-#define ENTRY(tool) Entry{#tool, tool##_entry},
+#define ENTRY(tool) Entry{#tool, tool##_main},
 constexpr Entry kEntries[] = {ALL_TOOLS};
 #undef ENTRY
 

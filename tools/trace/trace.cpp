@@ -15,7 +15,7 @@
 using namespace pipeline;
 
 // NOLINTNEXTLINE(bugprone-exception-escape): thrown only if memory is out before anything is done
-int main(int argc, char** argv) {
+int trace_main(int argc, char** argv) {
   Tool tool(
       {"trace",
        "Traces rays to triangles in view space: writes the picture, and the depth of every pixel that "

@@ -14,7 +14,7 @@
 using namespace pipeline;
 
 // NOLINTNEXTLINE(bugprone-exception-escape): thrown only if memory is out before anything is done
-int main(int argc, char** argv) {
+int zbuf_main(int argc, char** argv) {
   Tool tool({"zbuf",
              "Draws triangles in normalized device coordinates: writes the picture, and the depth of every "
              "pixel that shows a triangle.",
