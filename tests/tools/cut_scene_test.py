@@ -85,9 +85,10 @@ class Scenes(Split):
 class Joins(ToolTest):
     def test_one_frame_is_written(self):
         pathlib.Path("a").write_text("framed\n0 0 0\n1 0 0\n0 1 0\n\nend\n")
-        self.assertEqual(
-            run("join-seen", "a", "a").stdout,
-            b"framed\n0 0 0\n1 0 0\n0 1 0\n\ntriangle 0\n0 0 0\n1 0 0\n0 1 0\n\nend\n")
+        done = run("join-seen", "--timing", "a", "a")
+        self.assertEqual(done.stdout,
+                         b"framed\n0 0 0\n1 0 0\n0 1 0\n\ntriangle 0\n0 0 0\n1 0 0\n0 1 0\n\nend\n")
+        self.assertRegex(done.stderr, rb"\Ajoin-seen: 2 triangles in ")
 
     def test_what_is_wrong(self):
         whole = "framed\neye 1 2 3\n0 0 0\n1 0 0\n0 1 0\n\nend\n"

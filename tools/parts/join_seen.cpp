@@ -13,44 +13,43 @@ using namespace pipeline;
 
 namespace {
 
-/// Writes the header of the first text and the triangles of all texts, unchanged.
-class JoinedText {
- public:
-  explicit JoinedText(TextWriter& text) : text_(text) {}
+/// Copies the triangles of a text, unchanged; writes the number of one other than `next_number`.
+void copy_triangles(StageReader& part, std::uint64_t& next_number, Tool& tool) {
+  part.accept_clipped();
+  part.accept_spheres();
+  part.keep_text();
+  for (TriangleBatch batch; part.read(batch); batch.clear()) {
+    tool.timing().triangle_count += batch.object_count();
+    for (std::size_t i = 0; i < batch.object_count(); ++i) {
+      const std::uint64_t number = batch.number_of(i);
+      if (number != next_number) tool.output().append("triangle " + std::to_string(number) + "\n");
+      tool.output().append(batch.texts[i]);
+      next_number = number + 1;
+    }
+  }
+}
 
-  /// Adds the next text. An InputError if its header differs from the first, or anything in it is wrong.
-  void add(StageReader& part, Timing& timing) {
-    if (!header_) {
-      header_ = part.header_text();
-      is_framed_ = part.header().framed;
-      text_.append(*header_);
-    } else if (part.header_text() != *header_) {
+/// Writes the header of the first text, which has to be that of the others, and the triangles of all.
+void join(const std::vector<std::string>& paths, bool expects_frame, Tool& tool) {
+  std::optional<std::string> header;
+  bool is_framed = false;
+  std::uint64_t next_number = 0;
+  for (const std::string& path : paths) {
+    InputFile file(path);
+    StageReader part(file.text());
+    if (expects_frame) part.expect_framed();
+    if (!header) {
+      header = part.header_text();
+      is_framed = part.header().framed;
+      tool.output().append(*header);
+    } else if (part.header_text() != *header) {
       throw InputError(part.header_end(),
                        expected_but_found("the header of the first text", "another one before here"));
     }
-    part.accept_clipped();
-    part.accept_spheres();
-    part.keep_text();
-    for (TriangleBatch batch; part.read(batch); timing.triangle_count += batch.object_count()) {
-      for (std::size_t i = 0; i < batch.object_count(); ++i) {
-        const std::uint64_t number = batch.number_of(i);
-        if (number != next_number_) text_.append("triangle " + std::to_string(number) + "\n");
-        text_.append(batch.texts[i]);
-        next_number_ = number + 1;
-      }
-      batch.clear();
-    }
+    copy_triangles(part, next_number, tool);
   }
-  void finish() {
-    if (is_framed_) text_.append("end\n");
-  }
-
- private:
-  TextWriter& text_;
-  std::optional<std::string> header_;
-  bool is_framed_ = false;
-  std::uint64_t next_number_ = 0;
-};
+  if (is_framed) tool.output().append("end\n");
+}
 
 }  // namespace
 
@@ -78,13 +77,6 @@ int join_seen_main(int argc, char** argv) {
     std::vector<NamedFile> inputs;
     for (const std::string& path : parts) inputs.push_back(file_or_stream("PART", path, kStandardInput));
     tool.expect_separate({kStandardOutput}, inputs);
-    JoinedText joined(tool.output());
-    for (const std::string& path : parts) {
-      InputFile file(path);
-      StageReader part(file.text());
-      if (expects_frame) part.expect_framed();
-      joined.add(part, tool.timing());
-    }
-    joined.finish();
+    join(parts, expects_frame, tool);
   });
 }
