@@ -23,11 +23,6 @@ std::size_t length_of_triangle(std::string_view text) {
   return end;
 }
 
-bool is_object(std::string_view word) {
-  const SceneCommand* command = find_scene_command(word);
-  return command != nullptr && command->kind == CommandKind::object;
-}
-
 void write_repeated(TextWriter& part, std::string_view command, std::uint64_t count) {
   for (; count > 0; --count) part.append(command);
 }
@@ -90,7 +85,8 @@ void SceneCutter::find_triangle(TextWriter* part) {
     while (text_.buffered().starts_with('\n')) text_.skip(1, 1);
     if (length_of_triangle(text_.buffered()) > 0) return;
     text_.expect_filled_line(line_, "'end', which closes a scene");
-    line_is_pending_ = is_object(line_.peek());
+    const SceneCommand* command = find_scene_command(line_.peek());
+    line_is_pending_ = command != nullptr && command->kind == CommandKind::object;
     if (line_is_pending_) return;
     if (line_.peek() == "end") {
       line_.word();

@@ -26,6 +26,8 @@ class SceneCutter {
   [[nodiscard]] bool has_triangle() const { return has_triangle_; }
   /// The number of the next triangle.
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
+  /// The number of the scene's bytes that are used so far.
+  [[nodiscard]] std::size_t position() const { return text_.bytes_read() - text_.buffered().size(); }
   /// Writes the beginning of a part whose first triangle is the next one.
   void begin(TextWriter& part) const;
   /// Copies the commands from the next triangle on, up to the first triangle at or after `end`, in bytes
@@ -47,7 +49,6 @@ class SceneCutter {
   const SceneCommand& expect_allowed(const LineScanner& at_keyword) const;
   void copy_triangle(TextWriter& part);
   void copy_buffered(TextWriter& part, std::size_t end);
-  [[nodiscard]] std::size_t position() const { return text_.bytes_read() - text_.buffered().size(); }
 
   TextReader& text_;
   LineScanner line_;

@@ -83,9 +83,7 @@ void cut(Tool& tool, const std::string& scene_path, std::uint64_t part_count, co
     // A part may have passed the end of the next one.
     const auto end =
         static_cast<std::size_t>(size * static_cast<double>(k) / static_cast<double>(part_count));
-    if (k < part_count && scene.text().bytes_read() - scene.text().buffered().size() >= end &&
-        cutter.has_triangle())
-      continue;
+    if (k < part_count && cutter.position() >= end && cutter.has_triangle()) continue;
     write_part(tool, cutter, folder + "/" + name_of_part(part, part_count), end);
     ++part;
   }
