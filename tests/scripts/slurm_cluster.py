@@ -116,5 +116,4 @@ class Cluster:
 
     def kill_node(self, node):
         """As if the power were cut: a name space of processes ends at once with its first."""
-        self.nodes[node].kill()
-        self.nodes[node].wait()
+        end(self.nodes[node])

@@ -98,19 +98,6 @@ class Text(ToolTest):
                               camera="0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n")
         self.assertEqual(ranges("view", pipe(["model"], stdin=with_triangle)), [(-1, 6), (-7, 1), (-6, -4)])
 
-    def test_parts_of_a_scene_join_to_the_whole(self):
-        text = scene("color 1 2 3\n",
-                     *(TRIANGLE + "push\nrotate 10 0 0 1\n" + SPHERE + "pop\n" for _ in range(9)))
-        pathlib.Path("scene.txt").write_text(text)
-        done = run("cut-scene", "scene.txt", "4", "--output", "parts")
-        texts = []
-        for line in done.stdout.decode().splitlines():
-            path, first = line.split()
-            texts.append(pathlib.Path(path).with_suffix(".stage1"))
-            texts[-1].write_bytes(pipe(["model", "--framed", "--first", first, path], stdin=""))
-        self.assertEqual(len(texts), 4)
-        self.assertEqual(pipe(["join-seen", *texts], stdin=""), pipe(["model", "--framed"], stdin=text))
-
 
 class Refusals(ToolTest):
     def expect(self, done, message):
