@@ -1,10 +1,11 @@
 """How finely a text shows its numbers: a tolerance can only come from the digits that are there."""
 import dataclasses
 import math
-import re
+from decimal import Decimal
+
+from lib.judging.pixel_words import counted
 
 LEAST_DIGITS = 3
-MANTISSA = re.compile(r"[-+]?([0-9]*)\.?([0-9]*)")
 FINEST = 17  # significant digits, of a double
 
 
@@ -23,20 +24,16 @@ class Digits:
         return 10.0**(exponent_of(x) - self.significant + 1) if x else 0.0
 
     @property
-    def count(self):
-        """The significant digits of the largest number."""
-        if self.decimals is not None:
-            return max(0, exponent_of(self.largest) + 1 + self.decimals) if self.largest else self.decimals
-        return self.significant
-
-    @property
     def are_too_few(self):
-        return self.count < LEAST_DIGITS
+        """True if the largest number shows fewer significant digits than LEAST_DIGITS."""
+        count = self.significant if self.decimals is None else (exponent_of(self.largest) +
+                                                                bool(self.largest) + self.decimals)
+        return count < LEAST_DIGITS
 
     def __str__(self):
-        count, what = (self.significant, "significant digit") if self.decimals is None else (self.decimals,
-                                                                                             "decimal")
-        return f"{count} {what}{'' if count == 1 else 's'}"
+        is_fixed = self.decimals is not None
+        return counted(self.decimals, "decimal") if is_fixed else counted(self.significant,
+                                                                          "significant digit")
 
 
 EXACT = Digits(None, FINEST)
@@ -49,27 +46,18 @@ def exponent_of(x):
 def digits_of(words):
     """The Digits of the words of a text's numbers."""
     largest = max((abs(float(word)) for word in words), default=0.0)
-    decimals = {decimals_of(word) for word in words}
-    if len(decimals) == 1 and (fixed := decimals.pop()):
-        fixed = min(fixed, FINEST)
-        return Digits(fixed, max(1, min(exponent_of(largest) + 1 + fixed, FINEST)), largest)
-    significant = max((len("".join(MANTISSA.match(word).groups()).lstrip("0")) for word in words), default=0)
-    return Digits(None, max(1, min(significant, FINEST)), largest)
-
-
-def decimals_of(word):
-    """How many decimals a number shows; None if it has none, or an exponent."""
-    point = word.find(".")
-    return None if point < 0 or "e" in word or "E" in word else len(word) - point - 1
+    numbers = [(word, Decimal(word).as_tuple()) for word in words]
+    decimals = {None if "e" in word.lower() else -number.exponent for word, number in numbers}
+    fixed = min(decimals.pop() or 0, FINEST) if len(decimals) == 1 else 0
+    significant = exponent_of(largest) + 1 + fixed if fixed else max(
+        (len(number.digits) for _, number in numbers), default=0)
+    return Digits(fixed or None, max(1, min(significant, FINEST)), largest)
 
 
 def of_one_program(texts):
     """The same Digits, given that one program printed all texts: numbers such as 0.5 show as many digits as
     they have, in a text whose program does not print trailing zeros."""
-    loose = [digits.significant for digits in texts if digits.decimals is None]
-    if not loose:
-        return texts
-    most = max(loose)
+    most = max((digits.significant for digits in texts if digits.decimals is None), default=0)
     return [
         Digits(None, most, digits.largest) if digits.decimals is None or digits.significant < most else digits
         for digits in texts]
