@@ -4,6 +4,7 @@ with ours.
 A matrix is shown only if the points determine it: fits to numbers that are moved within their last digit show
 how far rounding leaves it uncertain."""
 import dataclasses
+import itertools
 import math
 import random
 
@@ -22,12 +23,14 @@ DECIMALS = 5
 
 @dataclasses.dataclass
 class Comparison:
-    theirs: tuple
+    theirs: tuple  # None if no matrix comes near the points
     ours: tuple
     differing: set  # (row, column), from 0
 
     def lines(self):
         """Both matrices side by side; a * marks what differs."""
+        if self.theirs is None:
+            return ["  no 4 x 4 matrix gives these numbers"]
         rows = []
         for i, (a, b) in enumerate(zip(self.theirs, self.ours)):
             left = " ".join(
@@ -35,13 +38,6 @@ class Comparison:
             rows.append(f"  {left}   | " + " ".join(f"{shown(x):>12}" for x in b))
         width = rows[0].index("|")
         return [f"  {'found in the points (* differs)':<{width - 2}}| right", *rows]
-
-
-class NoMatrix:
-    """In place of a Comparison, where no matrix comes near the points."""
-    @staticmethod
-    def lines():
-        return ["  no 4 x 4 matrix gives these numbers"]
 
 
 def cause_of_element(i, j, value, right, digits=6):
@@ -141,13 +137,11 @@ def fitted(before, after, is_divided):
 
 def scaled_like(m, ours):
     """A matrix known up to a factor, scaled so that most elements equal ours."""
-    ratios = [
-        b / a for row, other in zip(m, ours) for a, b in zip(row, other) if abs(b) > 1e-9 and abs(a) > 1e-12]
+    pairs = [*zip(itertools.chain(*m), itertools.chain(*ours))]
+    ratios = [b / a for a, b in pairs if abs(b) > 1e-9 and abs(a) > 1e-12]
 
     def agreeing(factor):
-        return sum(
-            abs(factor * a - b) <= 1e-3 * max(1.0, abs(b)) for row, other in zip(m, ours)
-            for a, b in zip(row, other))
+        return sum(abs(factor * a - b) <= 1e-3 * max(1.0, abs(b)) for a, b in pairs)
 
     factor = max(ratios, key=agreeing, default=1.0)
     return tuple(tuple(factor * x for x in row) for row in m)
@@ -161,8 +155,8 @@ def misses(m, before, after, units, is_divided):
 
 
 def compare(before, after, units, ours, is_divided):
-    """The Comparison of the matrix from `before` to `after` with ours; a NoMatrix if none comes near the
-    points, and None if they do not determine it. `units` belong to `after`."""
+    """The Comparison of the matrix from `before` to `after` with ours; None if the points do not determine
+    one. `units` belong to `after`."""
     step = max(1, len(before) // MOST_POINTS)
     chosen = [i for i in range(0, len(before), step) if all(map(math.isfinite, after[i]))]
     before, after, units = ([values[i] for i in chosen] for values in (before, after, units))
@@ -178,7 +172,7 @@ def compare(before, after, units, ours, is_divided):
         return None
     theirs, *others = [scaled_like(m, ours) for m in fits] if is_divided else fits
     if misses(theirs, before, after, units, is_divided):
-        return NoMatrix()
+        return Comparison(None, ours, set())
     spread = [[2 * max(abs(m[i][j] - theirs[i][j]) for m in others) for j in range(4)] for i in range(4)]
     if any(not max(moves) <= WORST_SPREAD * max(1e-3, *map(abs, row)) for moves, row in zip(spread, theirs)):
         return None
