@@ -6,7 +6,7 @@ from compare_parts.differences import exceeds
 from lib.judging.points import read_points
 from lib.judging.reference import Reference
 from lib.judging.stage_judge import stage_outcome
-from lib.judging.stage_ways import Reading, exact_images
+from lib.judging.stage_ways import exact_images
 from lib.running.pipe_tools import Tools
 
 UNIT = 1e-7  # in the last of 7 decimals
@@ -53,15 +53,15 @@ def judged(scene, theirs, ours):
 
 def stages(reference):
     """A function for each stage that judges points as its output, given right ones as its input."""
-    yield lambda name, points: stage_outcome(reference, "model", name, points).verdict
+    yield lambda name, points: stage_outcome(reference, "model", name, points)[0]
     world = read_as_printed(reference.world)
-    yield lambda name, points: stage_outcome(reference, "view", name, points, [world]).verdict
+    yield lambda name, points: stage_outcome(reference, "view", name, points, [world])[0]
     p_view = exact_images(reference.scene.of_view(), False, reference.world)
     view = read_as_printed(p_view)
     clipped = reference.clipped(p_view)
     others = [clipped] if clipped is not None else []
-    yield lambda name, points: stage_outcome(reference, "project", name, points, [view], others).verdict
+    yield lambda name, points: stage_outcome(reference, "project", name, points, [view], others)[0]
 
 
 def read_as_printed(points):
-    return Reading(points, [(UNIT,) * 3] * len(points))
+    return points, [(UNIT,) * 3] * len(points)

@@ -12,9 +12,9 @@ from lib.judging.pixel_stage import PixelStage, pixel_readings
 from lib.judging.points import holds_enough, read_points
 from lib.judging.reference import kinds_of, reference
 from lib.judging.shown import read_colors, read_depths
-from lib.judging.stage_judge import Outcome, stage_outcome, undecided_outcome
-from lib.judging.stage_ways import Reading
-from lib.judging.verdict import GOOD, MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
+from lib.judging.stage_judge import stage_outcome, undecided
+from lib.judging.stage_ways import exact_reading
+from lib.judging.verdict import MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
 from lib.rim.input_file import InputError
 from lib.showing.pictures import PictureError
 from lib.text.stage_text import StageTextError
@@ -50,15 +50,15 @@ class HandIn:
             is_thin = theirs is not None and not any(
                 holds_enough(theirs.points, right) for right in self.right_after(stage))
             if thin and is_thin:
-                outcome = undecided_outcome(stage, name, f"there is too little in {thin}")
+                verdict, memory = undecided(stage, name, f"there is too little in {thin}"), None
             elif theirs is None:
-                outcome = Outcome(self.failed[kind], self.right_memory(stage, readings))
+                verdict, memory = self.failed[kind], self.right_memory(stage, readings)
             else:
-                outcome = self.outcome(stage, kind, theirs, readings, verdicts)
-            outcome.verdict.remarks += [] if theirs is None else theirs.remarks
-            self.add_others(kind, outcome.verdict)
-            verdicts.append(outcome.verdict)
-            memory, before, thin = outcome.memory, theirs, ""
+                verdict, memory = self.outcome(stage, kind, theirs, readings, verdicts)
+            verdict.remarks += [] if theirs is None else theirs.remarks
+            self.add_others(kind, verdict)
+            verdicts.append(verdict)
+            before, thin = theirs, ""
             if is_thin:  # the next stage is judged as if this file were missing
                 memory, before, thin = self.right_memory(stage, readings), None, name
         if "picture" in self.kinds:
@@ -71,23 +71,22 @@ class HandIn:
         """The possible inputs of a stage: the points of the file before it, and those in memory."""
         # The numbers of the next stage have to be finite.
         is_near = before is not None and all(abs(x) < FAR for p in before.points for x in p)
-        found = [Reading(before.points, before.units)] if is_near else []
-        return found if memory is None else [*found, Reading.exact(memory)]
+        found = [(before.points, before.units)] if is_near else []
+        return found if memory is None else [*found, exact_reading(memory)]
 
     def outcome(self, stage, kind, theirs, readings, verdicts):
-        """The Outcome of a text that can be read, after the verdicts on the stages before."""
+        """The result of stage_outcome for a text that can be read, after the verdicts on the stages before."""
         name = self.files[kind].name
         if not theirs.points:
             return self.of_empty_text(stage, kind, readings)
         outcome = stage_outcome(self.ours, stage, name, theirs, readings, self.clipped(stage, readings))
         failed = [verdict for verdict in verdicts if not verdict.is_good]
-        if outcome.verdict.verdict == WRONG and failed:
+        if outcome[0].verdict == WRONG and failed:
             # A program may write other numbers into a file than it keeps in memory.
-            right = [Reading.exact(self.ours.exact["model" if stage == "view" else "view"])]
+            right = [exact_reading(self.ours.exact["model" if stage == "view" else "view"])]
             by_right = stage_outcome(self.ours, stage, name, theirs, right, self.clipped(stage, right))
-            if by_right.verdict.verdict in GOOD:
-                by_right.verdict.remarks.append(
-                    f"by the right numbers, which are not those of {failed[-1].file}")
+            if by_right[0].is_good:
+                by_right[0].remarks.append(f"by the right numbers, which are not those of {failed[-1].file}")
                 return by_right
         return outcome
 
@@ -101,28 +100,28 @@ class HandIn:
         if stage == "model" or not readings:
             return self.ours.world if stage == "model" else None
         m = self.ours.scene.matrix(stage)
-        return [image(m, p, stage == "project") for p in readings[-1].points]
+        return [image(m, p, stage == "project") for p in readings[-1][0]]
 
     def clipped(self, stage, readings):
         """The points that may be left if project clips them, for each reading; none after other stages."""
         if stage != "project":
             return []
         exact = self.ours.exact["view"]
-        parts = (self.ours.exact_clipped if reading.points == exact else self.ours.clipped(reading.points)
-                 for reading in readings)
+        parts = (self.ours.exact_clipped if points == exact else self.ours.clipped(points)
+                 for points, _ in readings)
         return [points for points in parts if points is not None]
 
     def of_empty_text(self, stage, kind, readings):
-        """The Outcome of a text without triangles: right where there may be none."""
+        """As stage_outcome, of a text without triangles: right where there may be none."""
         name = self.files[kind].name
         if not all(self.right_after(stage)):
-            return Outcome(FileVerdict(stage, name, RIGHT, differing=0), [])
+            return FileVerdict(stage, name, RIGHT, differing=0), []
         if not readings and stage != "model":
-            return undecided_outcome(stage, name)
+            return undecided(stage, name), None
         if not all(self.clipped(stage, readings)):
-            return undecided_outcome(stage, name, "what it was to project may be out of view")
+            return undecided(stage, name, "what it was to project may be out of view"), None
         why = "there is no triangle in it" if self.files[kind].data.strip() else "it is empty"
-        return Outcome(FileVerdict(stage, name, WRONG, remarks=[why]))
+        return FileVerdict(stage, name, WRONG, remarks=[why]), None
 
     # reading
     def read(self, kind, parse):

@@ -7,8 +7,7 @@ from lib.maths.vectors import dot, normalized
 
 IDENTITY = tuple(tuple(float(i == j) for j in range(4)) for i in range(4))
 UNDEFINED = (math.nan,) * 3
-DIVIDES_X_AND_Y = "x and y"  # in place of True: z is not divided by w
-TWICE, Z_TWICE = "twice", "z twice"
+ONCE = (1, 1)  # by w: x and y, and z
 ROUNDING = 1e-13  # of sums and products in doubles, with some to spare
 
 
@@ -29,32 +28,32 @@ def negative(v):
     return tuple(-x for x in v)
 
 
-def image(m, p, is_divided=True):
-    """The image of a point; UNDEFINED where it would be divided by 0."""
+def image(m, p, divisions=ONCE):
+    """The image of a point; UNDEFINED where it would be divided by 0. `divisions` is how often x and y are
+    divided by w, and how often z; True for once, False for never."""
     x, y, z = p
     x, y, z, w = (row[0] * x + row[1] * y + row[2] * z + row[3] for row in m)
-    if not is_divided:
+    if not divisions:
         return x, y, z
-    if abs(w) <= 1e-12:
-        return UNDEFINED
-    w *= w if is_divided == TWICE else 1
-    return x / w, y / w, {DIVIDES_X_AND_Y: z, Z_TWICE: z / w / w}.get(is_divided, z / w)
+    of_x, of_z = ONCE if divisions is True else divisions
+    return (x / w**of_x, y / w**of_x, z / w**of_z) if abs(w) > 1e-12 else UNDEFINED
 
 
-def slack(m, p, units, is_divided=True):
+def slack(m, p, units, divisions=ONCE):
     """How far the image of p moves if p moves by `units`, and by rounding on the way."""
     moves = (*(u + ROUNDING * abs(x) for u, x in zip(units, p)), ROUNDING)
-    reach = [sum(abs(a) * move for a, move in zip(row, moves)) for row in m]
-    if not is_divided:
-        return reach[:3]
-    w = abs(m[3][0] * p[0] + m[3][1] * p[1] + m[3][2] * p[2] + m[3][3])
-    if w <= 2 * reach[3] or w <= 1e-12:
+    *slacks, of_w = (sum(abs(a) * move for a, move in zip(row, moves)) for row in m)
+    if not divisions:
+        return slacks
+    *values, w = (abs(dot(row, (*p, 1.0))) for row in m)
+    if w <= 2 * of_w or w <= 1e-12:
         return math.inf, math.inf, math.inf
-    divided = [(r + abs(a) * reach[3]) / (w - reach[3]) for r, a in zip(reach, image(m, p))]
-    if is_divided in (TWICE, Z_TWICE):
-        twice = [(r + abs(a) / w * reach[3]) / (w - reach[3]) for r, a in zip(divided, image(m, p))]
-        return twice if is_divided == TWICE else [*divided[:2], twice[2]]
-    return [*divided[:2], reach[2]] if is_divided == DIVIDES_X_AND_Y else divided
+    of_x, of_z = ONCE if divisions is True else divisions
+    for axis, count in enumerate((of_x, of_x, of_z)):
+        for _ in range(count):
+            values[axis] /= w
+            slacks[axis] = (slacks[axis] + values[axis] * of_w) / (w - of_w)
+    return slacks
 
 
 # model

@@ -5,34 +5,26 @@ import contextlib
 import itertools
 
 from lib.judging.fit import cause_of_element, cause_of_elements
-from lib.judging.matrices import DIVIDES_X_AND_Y, TWICE, TWO_SPELLINGS, Z_TWICE, negative
+from lib.judging.matrices import TWO_SPELLINGS, negative
 from lib.judging.mistakes import names_of
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.points import differs
 from lib.judging.verdict import Cause, cause_of_all, joined
 
-DIVISIONS = {
-    "no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
-    "depth-is-linear": DIVIDES_X_AND_Y, "depth-in-view-space": DIVIDES_X_AND_Y,
-    "depth-divided-twice": Z_TWICE}  # by w; other mistakes of project divide all three
+DIVISIONS = {  # as in `image`; other mistakes of project divide all three once
+    "no-divide": False, "divided-twice": (2, 2), "z-not-divided": (1, 0), "depth-is-linear": (1, 0),
+    "depth-in-view-space": (1, 0), "depth-divided-twice": (1, 2)}
 SAME = "left-handed"  # gives the numbers of l-is-eye-minus-look
 UNCHANGED = "The points are those of the stage before, unchanged"
 AXES = "xyzw"
 DIGITS = 1e-9  # that two equal numbers may differ by, against 1 and their size
 
 
-def listed(stage, scene):
-    """The mistakes with a name, each in the ways that programs make it."""
-    for name in names_of(stage):
-        for m, is_divided in ways(stage, scene, (name,)):
-            yield cause_of_all(stage, (name,)), m, is_divided
-
-
-def pairs(stage, scene):
-    """Two mistakes of the list at once."""
-    for names in itertools.combinations([name for name in names_of(stage) if name != SAME], 2):
-        if len(DIVISIONS.keys() & names) < 2:
-            for m, is_divided in itertools.islice(ways(stage, scene, names), 1):
+def listed(stage, scene, count=1):
+    """The mistakes with a name, each in the ways that programs make it, or two at once."""
+    for names in itertools.combinations(names_of(stage), count):
+        if count == 1 or SAME not in names and len(DIVISIONS.keys() & names) < 2:
+            for m, is_divided in ways(stage, scene, names):
                 yield cause_of_all(stage, names), m, is_divided
 
 
@@ -51,7 +43,7 @@ def ways(stage, scene, names):
                     yield (*m[:2], negative(m[2]), m[3]), is_divided
 
 
-def other_forms(stage, ours, divides):
+def other_forms(stage, ours):
     """The matrix as a whole in another form: its rows in another order, or another range of depths."""
     for order in itertools.permutations(range(4)):
         moved = [i for i in range(4) if order[i] != i]
@@ -63,19 +55,20 @@ def other_forms(stage, ours, divides):
                     f"{AXES[j]}, stand in each other's place")
         else:
             text = f"The rows of the matrix stand in the order {', '.join(AXES[i] for i in order[:3])}"
-        yield Cause("", text), tuple(ours[i] for i in order), divides
+        yield Cause("", text), tuple(ours[i] for i in order), stage == "project"
     if stage == "project":
         text = "The depth goes from 1 at near to 0 at far, in place of -1 to 1"
         reversed_z = tuple((w - z) / 2 for z, w in zip(*ours[2:]))
-        yield Cause("", text), (*ours[:2], reversed_z, ours[3]), divides
+        yield Cause("", text), (*ours[:2], reversed_z, ours[3]), True
 
 
-def changed_elements(stage, ours, divides):
+def changed_elements(stage, ours):
     """One row with the opposite sign, or one element that is another number."""
     def changed(i, row):
         return tuple(row if k == i else other for k, other in enumerate(ours))
 
-    count = 4 if stage == "project" else 3
+    divides = stage == "project"
+    count = 3 + divides
     for i in range(count):
         text = f"Row {i + 1} of the matrix (counted from 1) has the opposite sign"
         yield Cause("", text), changed(i, negative(ours[i])), divides
@@ -97,13 +90,12 @@ def causes_by_rows(ways, theirs, digits, comparison):
     if len(wrong) < 2:
         return []
     found = {}
-    for candidates in (listed, lambda stage, _: changed_elements(stage, ways.ours, ways.divides)):
-        for way in ways.made(candidates(ways.stage, ways.scene)):
+    for candidates in (listed(ways.stage, ways.scene), changed_elements(ways.stage, ways.ours)):
+        named = {*found}
+        for way in ways.made(candidates):
             axes = frozenset(touched(way, ways.right[0]))
-            if axes and axes <= wrong and axes != wrong and fits(way, axes):
+            if axes and axes < wrong and fits(way, axes):
                 found.setdefault(axes, []).append(way.cause)
-        if candidates is listed:
-            named = {*found}
     for axes in {*found} - named:  # more than one element would do
         found[axes] = [cause for cause in found[axes] if len(found[axes]) == 1]
     for axis in wrong:

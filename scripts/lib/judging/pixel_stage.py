@@ -10,7 +10,7 @@ from lib.judging.pixel_words import difference_in_words, unexplained_in_words
 from lib.judging.raster import TooMuch
 from lib.judging.shown import Shown
 from lib.judging.stage_judge import NO_POINTS
-from lib.judging.stage_ways import Reading
+from lib.judging.stage_ways import exact_reading
 from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
 
 TOO_MUCH = "there are too many pixels of triangles"
@@ -28,7 +28,7 @@ def pixel_readings(stage3, memory, right_ndc):
         readings["file"] = (stage3.points, stage3.units)
     for name, points in (("memory" if readings else "file", memory), ("right", right_ndc)):
         if points is not None and all(x == x for p in points for x in p):
-            readings[name] = (points, Reading.exact(points).units)
+            readings[name] = exact_reading(points)
             if name == "right":
                 text = [tuple(round(x, 7) for x in p) for p in points]
                 readings["right text"] = (text, [(3e-7,) * 3] * len(text))

@@ -1,5 +1,4 @@
 """Stages 1 to 3 of a hand-in: right, or with the mistake that reproduces their numbers."""
-import dataclasses
 import itertools
 import math
 
@@ -14,25 +13,20 @@ from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED,
 NO_POINTS = "the stages before give no points to judge it by"
 
 
-@dataclasses.dataclass
-class Outcome:
-    verdict: FileVerdict
-    memory: list = None  # the exact points that the program has after this stage; None if they are not known
-
-
 def stage_outcome(ours, stage, name, theirs, readings=(), clipped=()):
-    """The Outcome for Points of one of the first three stages beside a Reference, made of one of the readings
-    unless they are model's. `clipped` are lists of points that are right after project, too, for each
-    reading, the exact one last."""
+    """The FileVerdict on Points of one of the first three stages beside a Reference, made of one of the
+    readings unless they are model's; and the exact points that the program has after this stage, None if they
+    are not known. `clipped` are lists of points that are right after project, too, for each reading, the
+    exact one last."""
     scene = ours.scene
     if stage == "model":
         return outcome_among(name, theirs, ModelWays(scene, ours.world))
     for points in reversed(clipped):  # the exact ones are what the program may have in memory
         if len(points) == len(theirs) and not differs(theirs.points, used_digits(theirs),
                                                       ((p, NO_UNITS) for p in points)):
-            return Outcome(right_verdict(stage, name, theirs), points)
+            return right_verdict(stage, name, theirs), points
     if not readings:
-        return undecided_outcome(stage, name)
+        return undecided(stage, name), None
     right = [("", scene.matrix(stage), stage == "project")]
     if stage == "project" and scene.projection.kind == "perspective":
         right += [(PI.format(pi), scene.of_project(pi=pi), True) for pi in ROUGH_PIS]
@@ -40,7 +34,7 @@ def stage_outcome(ours, stage, name, theirs, readings=(), clipped=()):
 
 
 def outcome_among(name, theirs, ways):
-    """The Outcome of a text among the ways in which it may have come about."""
+    """As stage_outcome, among the ways in which a text may have come about."""
     digits = used_digits(theirs)
 
     def fits(way, parts=(ALL,)):
@@ -62,13 +56,13 @@ def outcome_among(name, theirs, ways):
 
     if not ways.has_count(len(theirs)):
         expected = [[*images] for way in ways.right for images in way.images(ALL)]
-        return Outcome(count_verdict(ways, name, theirs, expected, digits))
+        return count_verdict(ways, name, theirs, expected, digits), None
     for way in ways.right:
         if fits(way):
-            return Outcome(right_verdict(ways.stage, name, theirs, way.cause.text), way.memory())
+            return right_verdict(ways.stage, name, theirs, way.cause.text), way.memory()
     found = single_mistakes()
     if not found and theirs.digits.are_too_few:
-        return outcome_of_few_digits(ways, name, theirs)
+        return verdict_on_few_digits(ways, name, theirs), None
     result = nearest(ways.right[:1], theirs, digits)
     verdict = wrong(ways.stage, name, theirs, result)
     count, right = len(theirs) // 3, ways.right
@@ -84,7 +78,7 @@ def outcome_among(name, theirs, ways):
     if not verdict.causes:
         verdict.remarks += matching.few_triangles(result, count)
     ways.add_matrix(verdict, theirs)
-    return Outcome(verdict, found[0].memory() if found else None)
+    return verdict, found[0].memory() if found else None
 
 
 def used_digits(theirs):
@@ -122,8 +116,8 @@ def causes_of_triangles(theirs, expected, digits, matched):
     return [Cause("", text) for text in itertools.islice(filter(None, texts), 1)]
 
 
-def undecided_outcome(stage, name, why=NO_POINTS):
-    return Outcome(FileVerdict(stage, name, UNDECIDED, remarks=[why]))
+def undecided(stage, name, why=NO_POINTS):
+    return FileVerdict(stage, name, UNDECIDED, remarks=[why])
 
 
 def right_verdict(stage, name, theirs, rule=""):
@@ -143,12 +137,12 @@ def wrong(stage, name, theirs, result):
                        first=first)
 
 
-def outcome_of_few_digits(ways, name, theirs):
-    """The Outcome of a text with too few digits to name a mistake by. It is wrong if it differs from all
+def verdict_on_few_digits(ways, name, theirs):
+    """The verdict on a text with too few digits to name a mistake by. It is wrong if it differs from all
     that is right by more than those digits hide."""
     result = nearest(ways.right, theirs, theirs.digits)
     if not result:
-        return Outcome(FileVerdict(ways.stage, name, TOO_FEW_DIGITS, remarks=[f"it shows {theirs.digits}"]))
+        return FileVerdict(ways.stage, name, TOO_FEW_DIGITS, remarks=[f"it shows {theirs.digits}"])
     verdict = wrong(ways.stage, name, theirs, result)
     verdict.remarks.append(f"it shows {theirs.digits}, too few to name a cause")
-    return Outcome(verdict)
+    return verdict

@@ -5,8 +5,7 @@ import math
 
 from lib.judging import fit
 from lib.judging.matrices import IDENTITY, ROUNDING, image, slack
-from lib.judging.matrix_mistakes import (UNCHANGED, causes_by_rows, changed_elements, listed, other_forms,
-                                         pairs)
+from lib.judging.matrix_mistakes import UNCHANGED, causes_by_rows, changed_elements, listed, other_forms
 from lib.judging.model_habits import MODEL_MISTAKES, ROUGH_PIS, Habit, model_pairs
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.scene import NO_UNITS
@@ -18,15 +17,9 @@ UNTOUCHED = "The points are those of the scene: no transformation is carried out
 PI = "pi is taken as {:.8g}"
 
 
-@dataclasses.dataclass
-class Reading:
-    """A possible input of a stage: points, and how far each coordinate may be off."""
-    points: list
-    units: list
-
-    @classmethod
-    def exact(cls, points):
-        return cls(points, [NO_UNITS] * len(points))
+def exact_reading(points):
+    """A possible input of a stage is (points, how far each coordinate may be off)."""
+    return points, [NO_UNITS] * len(points)
 
 
 @dataclasses.dataclass
@@ -106,22 +99,22 @@ class MatrixWays:
 
     def __init__(self, stage, scene, readings, right):
         self.stage, self.scene, self.readings = stage, scene, readings
-        _, self.ours, self.divides = right[0]
+        self.ours = right[0][1]
         # the rounding of numbers that cancel in the matrix
         self.reach = ROUNDING * math.hypot(*scene.eye) if stage == "view" else 0.0
         self.right = [self.way(Cause("", rule), m, is_divided) for rule, m, is_divided in right]
 
     def way(self, cause, m, is_divided):
         def images(reading, part):
-            for p, units in zip(reading.points[part], reading.units[part]):
+            for p, units in zip(*(values[part] for values in reading)):
                 yield image(m, p, is_divided), [x + self.reach for x in slack(m, p, units, is_divided)]
 
         return Way(cause, lambda part: [images(reading, part) for reading in self.readings],
-                   lambda: exact_images(m, is_divided, self.readings[-1].points))
+                   lambda: exact_images(m, is_divided, self.readings[-1][0]))
 
     def has_count(self, count):
         """True if a reading has as many points as the text; others are then no longer asked."""
-        comparable = [reading for reading in self.readings if len(reading.points) == count]
+        comparable = [reading for reading in self.readings if len(reading[0]) == count]
         self.readings = comparable or self.readings
         return bool(comparable)
 
@@ -132,12 +125,12 @@ class MatrixWays:
         """As in ModelWays."""
         unchanged = Cause("", UNCHANGED), IDENTITY, False
         yield self.made([unchanged, *listed(self.stage, self.scene)])
-        yield self.made(other_forms(self.stage, self.ours, self.divides))
+        yield self.made(other_forms(self.stage, self.ours))
 
     def several(self):
         """As in ModelWays: one element, or two mistakes."""
-        yield self.made(changed_elements(self.stage, self.ours, self.divides)), 1
-        yield self.made(pairs(self.stage, self.scene)), MOST_PAIRS
+        yield self.made(changed_elements(self.stage, self.ours)), 1
+        yield self.made(listed(self.stage, self.scene, 2)), MOST_PAIRS
 
     def with_details(self, causes, _):
         return [dataclasses.replace(cause, detail=self.detail(cause.name)) for cause in causes]
@@ -154,8 +147,8 @@ class MatrixWays:
 
     def add_matrix(self, verdict, theirs):
         """Adds the matrix that the points show, and the cause that lies in its elements, or in its rows."""
-        verdict.matrices = fit.compare(self.readings[0].points, theirs.points, theirs.units, self.ours,
-                                       self.divides)
+        verdict.matrices = fit.compare(self.readings[0][0], theirs.points, theirs.units, self.ours,
+                                       self.stage == "project")
         verdict.causes = verdict.causes or fit.cause_of_elements(verdict.matrices) or causes_by_rows(
             self, theirs, theirs.digits, verdict.matrices)
         verdict.remarks += fit.known_rows(verdict, self.scene.directions() if self.stage == "view" else ())
