@@ -204,7 +204,7 @@ def read_test(folder, name, settings):
     kinds = [kind for kind in kinds_of(config) if not program or STAGE_OF[kind] == program.stage]
     if not kinds:
         raise CommandFailure(f"{shown(folder)}: expected a config.txt, which zbuf needs, found none")
-    given = input_of(program.stage, without_comments(scene), Tools(), program.is_bare) if program else ()
+    given = input_of(program.stage, without_comments(scene), Tools(), program.is_bare) if program else b""
     return Test(name, weight, reference, kinds,
                 right_picture(reference) if "picture" in kinds else None, settings, given)
 

@@ -243,7 +243,6 @@ class Built:
 
     def files(self, test):
         """The Files by kind that the program makes for a test; raises a ProgramError."""
-        given, before = test.given
         options = argparse.Namespace(time_limit=SECONDS_OF_RUN, memory=MEMORY, processes=PROCESSES,
                                      address_space=None, program=self.words, box=self.box, clock=CLOCK)
         limit = max(test.reference.limit(kind) for kind in test.kinds)
@@ -253,11 +252,11 @@ class Built:
                 os.chown(work, self.user, self.user)
             try:
                 output, _ = run_program(options, test.reference.scene_data, test.reference.config or b"1 1\n",
-                                        given, top, limit)
+                                        test.given, top, limit)
             finally:
                 if self.user is not None:
                     remove_what_is_left([self.user], self.start)
-            return hand_in(self.program.stage, output, before, work)
+            return hand_in(self.program.stage, output, test.given, work)
 
 
 def verdicts(contents, tests, limits):

@@ -24,21 +24,16 @@ WRITES = {"model": "stage1", "view": "stage2", "project": "stage3", "zbuf": "dep
 
 
 def input_of(stage, scene, tools, is_bare):
-    """The text for the stage, with a header and bare."""
-    if stage == "model":
-        return scene, scene
+    """The text for the stage."""
     bare = ["--bare"] if is_bare else []
-    if stage == "view":
-        return tools.output("model", *bare, stdin=scene), tools.output("model", "--bare", stdin=scene)
     with tools.file(scene) as path:
-        view = tools.output("view", "--scene", path, *bare, stdin=tools.output("model", stdin=scene))
-        if stage == "project":
-            return view, view
-        project = tools.output("project", "--scene", path, stdin=view)
-    if opaque_background(project):
+        runs = [["model", *(bare if stage == "view" else [])], ["view", "--scene", path, *bare],
+                ["project", "--scene", path]][:[*STAGES].index(stage)]
+        text = tools.through(*runs, stdin=scene)
+    if stage == "zbuf" and opaque_background(text):
         print(f"{os.path.basename(sys.argv[0])}: note: {OPAQUE_NOTE}", file=sys.stderr)
-    project = with_opaque_background(project)
-    return project, project
+        return with_opaque_background(text)
+    return text
 
 
 class ProgramError(Exception):
@@ -84,9 +79,9 @@ def outcome(words, given, folder, limits, box):
     return ending.stdout, ending.stderr
 
 
-def hand_in(stage, output, before, folder):
+def hand_in(stage, output, given, folder):
     """The Files by kind that the judge needs for one stage; `folder` is the descriptor of the program's."""
-    files = {} if stage == "model" else {STAGES[stage]: File("the input", before)}
+    files = {} if stage == "model" else {STAGES[stage]: File("the input", given)}
     if stage != "zbuf":
         return {**files, WRITES[stage]: File("stdout", output)}
     written = {
