@@ -4,20 +4,19 @@ import dataclasses
 import itertools
 
 from lib.judging.pixel_comparing import Context
-from lib.judging.pixel_files import Findings, blames_many_colors, mismatch_to_show
+from lib.judging.many_colors import blames_many_colors
+from lib.judging.pixel_findings import Findings
 from lib.judging.pixel_search import unknown
 from lib.judging.pixel_words import difference_in_words, unexplained_in_words
-from lib.judging.raster import TooMuch
+from lib.judging.raster import Rule, TooMuch
 from lib.judging.shown import Shown
 from lib.judging.stage_judge import NO_POINTS
 from lib.judging.stage_ways import exact_reading
 from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
 
-TOO_MUCH = "there are too many pixels of triangles"
 # A picture has many colors if it has more than COLORS for each triangle and SOME more: no frame and no stray
 # pixel has so many.
 COLORS, SOME = 2, 8
-PRINTED = "pixels without a triangle are printed"
 
 
 def pixel_readings(stage3, memory, right_ndc):
@@ -51,17 +50,16 @@ class PixelStage:
             verdicts["depths"] = self.verdict("depths", TOO_FEW_DIGITS, remarks=[f"it shows {depths.digits}"])
             depths = None
         given = [kind for kind, what in (("depths", depths), ("picture", colors)) if what is not None]
-        if not given:
-            return verdicts
-        if not self.readings:
-            return verdicts | {kind: self.verdict(kind, UNDECIDED, remarks=[NO_POINTS]) for kind in given}
-        shown = Shown(colors, depths, self.ours.window, self.is_uncovered)
-        context = Context(self.readings, self.ours.window, shown, borders_first=self.borders_first)
-        try:
-            return verdicts | (self.verdicts_of_many_colors(given, context)
-                               or self.verdicts_of_shown(given, context, Findings(context))[0])
-        except TooMuch:
-            return verdicts | {kind: self.verdict(kind, UNDECIDED, remarks=[TOO_MUCH]) for kind in given}
+        why = NO_POINTS
+        if given and self.readings:
+            shown = Shown(colors, depths, self.ours.window, self.is_uncovered)
+            context = Context(self.readings, self.ours.window, shown, self.borders_first)
+            try:
+                return verdicts | (self.verdicts_of_many_colors(given, context)
+                                   or self.verdicts_of_shown(given, context, Findings(context))[0])
+            except TooMuch:
+                why = "there are too many pixels of triangles"
+        return verdicts | {kind: self.verdict(kind, UNDECIDED, remarks=[why]) for kind in given}
 
     def verdict(self, kind, verdict, rule="", **fields):
         return FileVerdict("zbuf", self.files[kind].name, verdict, rule, **fields)
@@ -72,7 +70,7 @@ class PixelStage:
         nothing."""
         shown = context.shown
         count = max(
-            len(points) for points in (self.ours.world, *(points for points, _ in self.readings.values())))
+            len(points) for points in (self.ours.world, *(some for some, _ in self.readings.values())))
         if not shown.colors or len(shown.own_colors) <= COLORS * (count // 3) + SOME:
             return {}
         in_one_color = Context(self.readings, self.ours.window, shown.in_one_color())
@@ -150,7 +148,8 @@ class PixelStage:
         verdict.remarks += finding.remarks
         if kind == "depths" and shown.empty is not None:
             is_rear = abs(shown.empty - shown.rear) <= shown.depths.tolerance(shown.rear)
-            printed = f"{PRINTED}, too, with " + ("the rear limit" if is_rear else f"{shown.empty:.7g}")
+            empty = "the rear limit" if is_rear else f"{shown.empty:.7g}"
+            printed = f"pixels without a triangle are printed, too, with {empty}"
             verdict.rule = "; ".join(filter(None, (verdict.rule, printed)))
         if verdict.rule and verdict.verdict == RIGHT:
             verdict.verdict = ANOTHER_RULE
@@ -182,6 +181,19 @@ class PixelStage:
         del counts[shown.background]
         ours = sum(counts[color] for color in generated_colors(len(self.ours.world) // 3))
         return 2 * ours < sum(counts.values())
+
+
+def mismatch_to_show(context, finding, is_wrong):
+    """The Mismatch to show for a Finding: the pixels that its mistake explains, if it `is_wrong` by one, and
+    those that its rule changes, if it is another one than ours."""
+    found, rule = finding.mismatch, finding.mismatch.rule
+    is_by_mistake = is_wrong and finding.causes
+    if not (is_by_mistake or finding.rule and not found.pixels):
+        return found
+    before = Rule(rule.left, rule.right, rule.depth, rule.clamp) if is_by_mistake else Rule()
+    mismatch = context.compare(found.reading, before)
+    explained = {place: kind for place, kind in mismatch.pixels.items() if place not in found.pixels}
+    return dataclasses.replace(mismatch, pixels=explained)
 
 
 def generated_colors(count):
