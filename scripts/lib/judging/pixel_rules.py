@@ -2,15 +2,13 @@
 the mistakes that programs make."""
 import itertools
 
-from lib.judging.raster import COLUMNS, FLAT_ROW, FLAT_TRIANGLE
+from lib.judging.raster import FLAT_ROW, FLAT_TRIANGLE
 
 CENTER = {"left": "up", "right": "down"}
-OUR_ENDS = ({}, CENTER)
-CLOSED_ENDS = (("rounded", "rounded"), ("up", "down"))  # ours; CENTER
-OPEN_ENDS = [
-    *OUR_ENDS, *({"left": left, "right": right}
-                 for left, right in itertools.product(("truncated", "rounded", "down", "up"), repeat=2)
-                 if (left, right) not in CLOSED_ENDS)]
+OUR_ENDS = ({"left": "rounded", "right": "rounded"}, CENTER)
+ENDS = ({"left": left, "right": right}
+        for left, right in itertools.product(("truncated", "rounded", "down", "up"), repeat=2))
+OPEN_ENDS = [*OUR_ENDS, *(ends for ends in ENDS if ends not in OUR_ENDS)]
 OPEN_DEPTHS = [{}, {"depth": "between ends"}, {"depth": "between ends", "clamp": 1}, {
     "depth": "between ends", "clamp": 0}, {"depth": "from left"}, {"depth": "from left", "clamp": 0}]
 # mistakes that draw nothing, most of them in many scenes alone
@@ -37,7 +35,8 @@ WAYS = {
     "column-short row-short": [{"column_more": -1, "row_short": True}],
     "column-long": [{"column_more": 1}, {"columns_before": 1}],
     "row-long": [{"row_long": True}],
-    "min-for-max": [{"columns": columns} for columns in COLUMNS if columns],
+    "min-for-max": [{"columns": "to the border"}, {"columns": "from the border"}, {
+        "columns": "at the left end"}, {"columns": "at the right end"}],
     "width-minus-one": [{"is_one_less": True}],
     "strict-edges": [{"is_strict": True}],
     "vertices-at-whole-pixels": [{"corners": "whole"}, {"corners": "rounded"}],

@@ -207,13 +207,9 @@ def files_spoiled(context, mismatch):
     """The files that a mistake spoils: one of them if it only turns its rows."""
     rule = mismatch.rule
     turned_back = dataclasses.replace(rule, picture_flip="", text_flip="")
-    is_turn = turned_back in [Rule(**changes) for _, changes in context.open_rules]
-    if is_turn and not mismatch.pixels and not (rule.picture_flip and rule.text_flip):
-        if rule.picture_flip and context.shown.depths:
-            return ("picture",)
-        if rule.text_flip:
-            return ("depths",)
-    return "depths", "picture"
+    is_turn = not mismatch.pixels and turned_back in [Rule(**changes) for _, changes in context.open_rules]
+    flips = {"depths": rule.text_flip, "picture": rule.picture_flip}
+    return tuple(kind for kind, flip in flips.items() if flip or not (is_turn and any(flips.values())))
 
 
 def at_borders(context, best):

@@ -43,7 +43,7 @@ class Rule:
     window: str = ""  # one: its limits are -1 and 1; exchanged: left and bottom are
     is_depth_one: bool = False  # front and rear are -1 and 1
     is_one_less: bool = False  # width - 1 and height - 1 in place of width and height
-    corners: str = ""  # how CORNERS changes them
+    corners: str = ""  # how they are changed: whole, rounded, sorted down, sorted up
     winding: int = 0  # of triangles that are drawn: 1 counterclockwise, -1 clockwise; 0 is any
     half: str = ""  # upper, lower: the part of a triangle that is drawn
     ends_z: str = ""  # as met: edge by edge, not from left to right; exchanged
@@ -52,14 +52,14 @@ class Rule:
     columns_before: int = 0  # the excess columns at their left ends
     row_short: bool = False
     row_long: bool = False
-    columns: str = ""  # one of COLUMNS, where min stands for max
+    columns: str = ""  # to the border, from the border, at the left end, at the right end
     shift: tuple = (0, 0)  # columns and rows
     is_cut_first: bool = False  # whether spans end at the picture's borders before the shift
     is_strict: bool = False  # whether pixels whose centers lie on an edge are left out
     keep: str = "nearest"  # nearest, farthest, last, none
     has_front: bool = True
     has_rear: bool = True
-    flat: str = ""  # one of FLAT: a single depth for a triangle, or for each of its rows
+    flat: str = ""  # a single depth, of FLAT_TRIANGLE or of FLAT_ROW
     without: frozenset = frozenset()  # numbers of triangles that are not drawn
     picture_flip: str = ""  # upside down, mirrored, turned, transposed
     text_flip: str = ""
@@ -89,49 +89,38 @@ class Span:
     is_certain: bool  # whether the row meets the triangle for certain, and the triangle has an area
 
 
-# Depths by a span and the depths of its triangle's corners.
-FLAT_TRIANGLE = {
-    "mean": lambda _, zs: sum(zs) / 3, "first": lambda _, zs: zs[0], "second": lambda _, zs: zs[1],
-    "third": lambda _, zs: zs[2], "least": lambda _, zs: min(zs), "most": lambda _, zs: max(zs)}
-FLAT_ROW = {
-    "left of row": lambda span, _: span.z_left, "right of row": lambda span, _: span.z_right,
-    "mean of row": lambda span, _: (span.z_left + span.z_right) / 2}
-FLAT = FLAT_TRIANGLE | FLAT_ROW
+FLAT_TRIANGLE = ("mean", "first", "second", "third", "least", "most")  # of the depths of its corners
+FLAT_ROW = ("left of row", "right of row", "mean of row")
 
 
-def at_whole_pixels(offset, corners, grid):
-    """Corners moved to the centers of pixels, from the place in pixels plus `offset` rounded down."""
+def changed_corners(corners, change, grid):
+    """Corners moved to the centers of pixels, from the place in pixels rounded down, or to the nearest; or
+    sorted by y, with the depths in the order in which they came."""
+    if change.startswith("sorted"):
+        by_height = sorted(corners, key=lambda p: p[1], reverse=change == "sorted down")
+        return [(*p[:2], q[2]) for p, q in zip(by_height, corners)]
+    offset = 0.5 if change == "rounded" else 0.0
     return [(grid.x_of(math.floor((x - grid.left) / grid.dx + offset)),
              grid.y_of(math.floor((-grid.bottom - y) / grid.dy + offset)), z) for x, y, z in corners]
 
 
-def without_their_depths(is_downwards, corners, _):
-    """Corners sorted by y, with the depths in the order in which they came."""
-    by_height = sorted(corners, key=lambda p: p[1], reverse=is_downwards)
-    return [(*p[:2], q[2]) for p, q in zip(by_height, corners)]
-
-
-CORNERS = {
-    "": lambda corners, _: corners, "whole": functools.partial(at_whole_pixels, 0),
-    "rounded": functools.partial(at_whole_pixels, 0.5), "sorted down": functools.partial(
-        without_their_depths, True), "sorted up": functools.partial(without_their_depths, False)}
-
-
 class Triangles:
-    """Triangles in NDC over a grid, changed by one of CORNERS. `units` says how far each coordinate may be
+    """Triangles in NDC over a grid, changed by Rule.corners. `units` says how far each coordinate may be
     off."""
     def __init__(self, points, units, grid, change=""):
         self.grid = grid
         near = [tuple(max(-FAR, min(x, FAR)) for x in p) for p in points]
-        self.corners = [CORNERS[change](near[i:i + 3], grid) for i in range(0, len(near), 3)]
+        self.corners = [near[i:i + 3] for i in range(0, len(near), 3)]
+        if change:
+            self.corners = [changed_corners(corners, change, grid) for corners in self.corners]
         self.units = [min(FAR, max(max(u) for u in units[i:i + 3])) for i in range(0, len(units), 3)]
         self.rows, count = [[] for _ in range(grid.height)], 0
         self.row, self.below = functools.cache(self.row), functools.cache(self.below)
         for t, corners in enumerate(self.corners):
             lowest, _, highest = sorted(p[1] for p in corners)
             slack = self.units[t] / grid.dy + ROUNDING
-            first = max(0, bounded(grid.row_at(highest) - slack, grid.height))
-            last = min(grid.height - 1, bounded(grid.row_at(lowest) + slack, grid.height, math.floor))
+            first = math.ceil(min(max(0.0, grid.row_at(highest) - slack), grid.height))
+            last = math.floor(min(max(-1.0, grid.row_at(lowest) + slack), grid.height - 1))
             count += max(0, last - first + 1)
             if count > MOST_SPANS:
                 raise TooMuch
@@ -215,19 +204,6 @@ def spend(work, count):
         raise TooMuch
 
 
-def bounded(x, limit, rounded=math.ceil):
-    """A row or a column as a whole number, from -1 to `limit`."""
-    return rounded(max(-1.0, min(x, float(limit))))
-
-
-# The first and the last column, with min for max or max for min.
-COLUMNS = {
-    "": lambda first, last, border: (first, last), "to the border": lambda first, last, border:
-    (first, border), "from the border": lambda first, last, border: (0, last),
-    "at the left end": lambda first, last, border: (first, first),
-    "at the right end": lambda first, last, border: (last, last)}
-
-
 def ends_of(span, rule, width, slack=0.0):
     """The first and the last column under a rule; a positive slack makes the span as wide as its uncertainty
     allows, a negative one as narrow."""
@@ -238,8 +214,10 @@ def ends_of(span, rule, width, slack=0.0):
         last -= abs(last - span.right) <= span.slack_right
     if rule.is_cut_first:
         first, last = max(first, 0), min(last, width - 1)
-    if rule.columns:
-        first, last = COLUMNS[rule.columns](first, last, width - 1)
+    if rule.columns:  # min for max, or max for min
+        first, last = {
+            "to the border": (first, width - 1), "from the border": (0, last),
+            "at the left end": (first, first), "at the right end": (last, last)}[rule.columns]
     return first - rule.columns_before + rule.shift[0], last + rule.column_more + rule.shift[0]
 
 
@@ -282,9 +260,11 @@ class Drawing:
                     or span.triangle in rule.without)]
 
     def line(self, span):
-        if self.rule.flat:
-            return FLAT[self.rule.flat](span, [p[2] for p in self.triangles.corners[span.triangle]]), 0.0
-        return depth_line(span, self.rule, self.width)
+        if not self.rule.flat:
+            return depth_line(span, self.rule, self.width)
+        zs, ends = [p[2] for p in self.triangles.corners[span.triangle]], (span.z_left, span.z_right)
+        values = (sum(zs) / 3, *zs, min(zs), max(zs), *ends, sum(ends) / 2)
+        return values[(FLAT_TRIANGLE + FLAT_ROW).index(self.rule.flat)], 0.0
 
     def row(self, row):
         """The triangle (or -1) and the depth of each pixel of a row, and the range of columns beyond which
