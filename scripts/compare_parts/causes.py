@@ -56,7 +56,7 @@ def stages(reference):
     yield lambda name, points: stage_outcome(reference, "model", name, points)[0]
     world = read_as_printed(reference.world)
     yield lambda name, points: stage_outcome(reference, "view", name, points, [world])[0]
-    p_view = exact_images(reference.scene.of_view(), False, reference.world)
+    p_view = exact_images(reference.scene.matrix("view"), False, reference.world)
     view = read_as_printed(p_view)
     clipped = reference.clipped(p_view)
     others = [clipped] if clipped is not None else []

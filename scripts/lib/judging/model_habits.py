@@ -4,7 +4,8 @@ import functools
 import itertools
 import math
 
-from lib.judging.matrices import IDENTITY, affine, product, rotation, transposed
+from lib.judging.matrices import IDENTITY, affine, product, rotation, scaling, translation, transposed
+from lib.maths.matrices import TRANSFORMS
 from lib.maths.vectors import normalized
 
 ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
@@ -37,12 +38,12 @@ class Habit:
     after: object = tuple  # made of that matrix
     offset: str = ""  # added, put: how `translate` changes the matrix's last column
 
-    def turn(self, degrees, axis):
-        """The matrix of a rotation."""
-        return self.after(self.form(self.radians(degrees), self.axis(axis)))
-
-    def moved(self, matrix, made, keyword):
-        """The matrix after a command for which one was made."""
+    def moved(self, matrix, keyword, numbers):
+        """The matrix after a transform."""
+        if keyword == "rotate":
+            made = self.after(self.form(self.radians(numbers[0]), self.axis(numbers[1:])))
+        else:
+            made = (translation if keyword == "translate" else scaling)(numbers)
         if self.order == "neither":
             return matrix
         if keyword == "translate" and self.offset == "put":
@@ -58,7 +59,7 @@ RIGHT = Habit()
 MODEL_MISTAKES = {
     "multiplied-on-the-left": [Habit(order="left")],
     "push-and-pop-ignored": [Habit(stack="ignored")],
-    "pop-ignored": [Habit(stack="no pop")],
+    "pop-ignored": [Habit(stack="ignored")],
     "push-of-the-identity": [Habit(stack="push identity")],
     "pop-to-the-identity": [Habit(stack="pop identity")],
     "second-push-lost": [
@@ -90,28 +91,19 @@ class Stack:
     transform."""
     def __init__(self, habit):
         self.matrix, self.saved = IDENTITY, []
-        # commands: any, and the last push or pop; whether that was lost
-        self.last, self.last_of_stack, self.was_lost = "", "", False
+        self.last, self.was_push, self.was_lost = "", False, False  # the last command; the last push or pop
         self.kind, _, self.rest = habit.partition(", ")
-        self.saves_all = self.kind in ("one count", "one transform")
         self.count = 1  # how many pop takes back; one count: all since the last push
 
     def is_lost(self):
         """True if a push that comes now saves nothing."""
-        was_push, saved = self.last_of_stack == "push", bool(self.saved)
         return self.kind in ("ignored", "one count") or {
-            "adjacent lost": self.last == "push", "every other lost": was_push and not self.was_lost,
-            "all but first lost": was_push, "nested lost": saved, "one transform": bool(self.rest)}.get(
-                self.kind, False)
-
-    def moved_to(self, matrix):
-        self.matrix = matrix
-        if self.saves_all:
-            self.saved.append(matrix)
-            self.count += self.kind == "one count"
+            "adjacent lost": self.last == "push", "every other lost": self.was_push and not self.was_lost,
+            "all but first lost": self.was_push, "nested lost": bool(self.saved), "one transform": bool(
+                self.rest)}.get(self.kind, False)
 
     def push(self):
-        self.was_lost = self.is_lost()
+        self.was_push, self.was_lost = True, self.is_lost()
         if not self.was_lost:
             if self.kind.startswith("slot"):
                 self.saved.clear()
@@ -121,20 +113,23 @@ class Stack:
             self.count = 0
 
     def pop(self):
-        self.was_lost = False
-        if self.saves_all and self.count:
+        self.was_push = False
+        if self.kind.startswith("one") and self.count:
             del self.saved[-self.count:]
             self.matrix = self.saved[-1] if self.saved else IDENTITY
-        elif self.saved and self.kind not in ("ignored", "no pop", "one count"):
+        elif self.saved and self.kind != "one count":
             popped = self.saved[-1] if self.kind == "slot kept" else self.saved.pop()
             self.matrix = IDENTITY if self.kind == "pop identity" else popped
         elif self.rest == "identity":
             self.matrix = IDENTITY
 
     def command(self, keyword):
+        """Carries out a push or a pop, or takes note of another command, after its transform."""
         if keyword in ("push", "pop"):
             (self.push if keyword == "push" else self.pop)()
-            self.last_of_stack = keyword
+        elif keyword in TRANSFORMS and self.kind.startswith("one"):
+            self.saved.append(self.matrix)
+            self.count += self.kind == "one count"
         self.last = keyword
 
 

@@ -16,7 +16,7 @@ from lib.text.stage_text import parse_stage_text, text_of
 EXACT = ("--digits", "exact")
 OWN_COLORS = ("light", "attributes")  # header lines of scenes whose triangles are not each of one color
 MEBIBYTE = 1 << 20
-BYTES_OF_A_VERTEX, BYTES_OF_A_DEPTH, BYTES_OF_A_PIXEL = 500, 40, 8
+BYTES_OF_A_VERTEX, BYTES_OF_A_PIXEL = 500, {"depths": 40, "picture": 8}
 MOST_PIXELS = 1 << 24
 MOST_BYTES = 256 * MEBIBYTE  # of a file of a hand-in, however large the scene is
 OLD_FORMAT = ("the scene has the form of before 2020: size, background and the colors after triangles are "
@@ -80,12 +80,8 @@ class Reference:
 
     def limit(self, kind):
         """The bytes that a file of a hand-in may have."""
-        if kind in ("depths", "picture"):
-            needed = self.window.width * self.window.height * (BYTES_OF_A_DEPTH
-                                                               if kind == "depths" else BYTES_OF_A_PIXEL)
-        else:
-            needed = BYTES_OF_A_VERTEX * len(self.world)
-        return min(MEBIBYTE + needed, MOST_BYTES)
+        count = self.window.width * self.window.height if kind in BYTES_OF_A_PIXEL else len(self.world)
+        return min(MEBIBYTE + BYTES_OF_A_PIXEL.get(kind, BYTES_OF_A_VERTEX) * count, MOST_BYTES)
 
     @functools.cached_property
     def stage3(self):
@@ -100,7 +96,7 @@ class Reference:
     @functools.cached_property
     def exact(self):
         """{stage: its exact points}, where project does not clip."""
-        view, project = self.scene.of_view(), self.scene.of_project()
+        view, project = self.scene.matrix("view"), self.scene.matrix("project")
         in_view = [image(view, p, False) for p in self.world]
         return {"model": self.world, "view": in_view, "project": [image(project, p, True) for p in in_view]}
 

@@ -1,11 +1,10 @@
 """A scene that `model` has accepted: its camera, its commands and its points in world space, right or
 with one mistake."""
-import itertools
 import math
 
 from lib.judging import model_habits
-from lib.judging.matrices import (image, negative, perspective_matrix, projection_matrix, scaling, slack,
-                                  transposed, translation, view_matrix)
+from lib.judging.matrices import (image, negative, perspective_matrix, projection_matrix, slack, transposed,
+                                  view_matrix)
 from lib.maths.matrices import TRANSFORMS, Projection
 from lib.maths.vectors import cross, normalized
 from lib.text.scene import commands
@@ -34,9 +33,7 @@ class Scene:
             keyword = command.keyword
             if keyword in TRANSFORMS:
                 numbers = tuple(map(float, command.arguments[0]))
-                made = habit.turn(numbers[0], numbers[1:]) if keyword == "rotate" else (
-                    translation if keyword == "translate" else scaling)(numbers)
-                stack.moved_to(habit.moved(stack.matrix, made, keyword))
+                stack.matrix = habit.moved(stack.matrix, keyword, numbers)
             elif keyword == "triangle":
                 for words in command.arguments:
                     p = tuple(map(float, words[:3]))
@@ -49,18 +46,10 @@ class Scene:
             any(math.dist(p, q) > 1e-3 for (p, _), (q, _) in zip(self.world(), self.world(habit)))
             for habit in model_habits.MODEL_MISTAKES[name])
 
-    def command_before(self, triangle):
-        """The last command before a triangle, triangles aside: the line it comes after. None if there is
-        none."""
-        line = self.triangle_lines[triangle]
-        before = itertools.takewhile(lambda command: command.line < line, self.commands)
-        return next((command for command in reversed(list(before)) if command.keyword != "triangle"), None)
-
     def matrix(self, stage, mistakes=(), spelling=0):
-        return (self.of_view if stage == "view" else self.of_project)(mistakes, spelling=spelling)
-
-    def of_view(self, mistakes=(), spelling=0):
-        return view_matrix(self.eye, self.look, self.up, mistakes, spelling)
+        if stage == "view":
+            return view_matrix(self.eye, self.look, self.up, mistakes, spelling)
+        return self.of_project(mistakes, spelling=spelling)
 
     def of_project(self, mistakes=(), pi=math.pi, spelling=0):
         """The matrix of project; None if the mistakes cannot be made with this projection."""
@@ -83,7 +72,7 @@ class Scene:
         l = tuple(b - a for a, b in zip(self.eye, self.look))
         named = [("the scene's up", self.up), ("the scene's eye", self.eye), ("the scene's look", self.look),
                  ("look - eye", l), ("l x up", cross(normalized(l), self.up))]
-        r, u, back = (row[:3] for row in self.of_view()[:3])
+        r, u, back = (row[:3] for row in self.matrix("view")[:3])
         named += ("r", r), ("u", u), ("l", negative(back))
         for name, v in named:
             yield name, v

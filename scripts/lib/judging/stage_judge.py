@@ -74,7 +74,7 @@ def outcome_among(name, theirs, ways):
             theirs, right[0].images(ALL), digits, matching.reordered) or matching.causes_at_vertices(
                 result, count, lambda part: any(fits(way, [part]) for way in right),
                 lambda parts: [way.cause for way in single_mistakes(parts)])
-        verdict.remarks += ways.remarks(result)
+        verdict.remarks += filter(None, [ways.place(result)])
     if not verdict.causes:
         verdict.remarks += matching.few_triangles(result, count)
     ways.add_matrix(verdict, theirs)

@@ -79,14 +79,12 @@ class ModelWays:
         return [*others, dataclasses.replace(last, detail=self.place(result) if last.name else "")]
 
     def place(self, result):
-        """The place of the first wrong triangle in the scene."""
+        """The place of the first wrong triangle in the scene, and the last command before it."""
         triangle = result[0][0] // 3
-        line, before = self.scene.triangle_lines[triangle], self.scene.command_before(triangle)
-        after = f", after {before.keyword} in line {before.line}" if before else ""
+        line = self.scene_lines[triangle]
+        before = [one for one in self.scene.commands if one.line < line and one.keyword != "triangle"]
+        after = f", after {before[-1].keyword} in line {before[-1].line}" if before else ""
         return f"the first wrong triangle is number {triangle}, in line {line} of the scene{after}"
-
-    def remarks(self, result):
-        return [self.place(result)]
 
     def add_matrix(self, verdict, theirs):
         """Adds nothing: model has no matrix."""
@@ -142,8 +140,8 @@ class MatrixWays:
             return f"its length is {math.hypot(*cross(l, self.scene.up)) / math.hypot(*l):.4f}"
         return f"its length is {math.hypot(*l):.4f}" if name == "view/l-not-unit" else ""
 
-    def remarks(self, _):
-        return []
+    def place(self, _):
+        """Nothing: the mistake is in all triangles."""
 
     def add_matrix(self, verdict, theirs):
         """Adds the matrix that the points show, and the cause that lies in its elements, or in its rows."""
