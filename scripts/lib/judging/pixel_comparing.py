@@ -72,24 +72,24 @@ class Mismatch:
         return [place for place, found in self.pixels.items() if found in ("extra", "missing", own)]
 
 
+@dataclasses.dataclass
 class Context:
-    """All that rules are compared by: `readings` are {name: (points, units)}, the numbers of the file, those
-    in memory, and the right ones; `window` has the size and the limits, `shown` the hand-in's files."""
-    def __init__(self, readings, window, shown, is_one_of_two=False, triangles=None, borders_first=False):
-        self.borders_first = borders_first
-        self.readings, self.window, self.shown, self.is_one_of_two = readings, window, shown, is_one_of_two
-        self.first = next(iter(readings))
-        self.limits = float(window.front), float(window.rear)
-        self.triangles, self.work = {} if triangles is None else triangles, [MOST_OPEN_WORK]
-        self.left = [MOST_WORK]  # of the search for a cause
-        self.compared = {}
+    """All that rules are compared by."""
+    readings: dict  # {name: (points, units)}: the numbers of the file, those in memory, and the right ones
+    window: object  # a lib.maths.window.Window
+    shown: object  # the files, as a lib.judging.shown.Shown
+    borders_first: bool = False
+    is_one_of_two: bool = False
+    triangles: dict = dataclasses.field(default_factory=dict)
+    left: list = dataclasses.field(default_factory=lambda: [MOST_WORK])  # of the search for a cause
+
+    def __post_init__(self):
+        self.first, self.compared, self.work = next(iter(self.readings)), {}, [MOST_OPEN_WORK]
+        self.limits = float(self.window.front), float(self.window.rear)
 
     def of_one_file(self, kind):
         """The Context of the depths, or of the picture, alone. The search in both has one limit."""
-        one = Context(self.readings, self.window, self.shown.only(kind), True, self.triangles,
-                      self.borders_first)
-        one.left = self.left
-        return one
+        return dataclasses.replace(self, shown=self.shown.only(kind), is_one_of_two=True)
 
     @contextlib.contextmanager
     def limited(self):

@@ -66,12 +66,6 @@ class Rows:
         return self.make(row)
 
 
-def range_of(shown):
-    """The range from the first to the last that is true."""
-    return range(shown.index(True),
-                 len(shown) - shown[::-1].index(True)) if True in shown else range(len(shown), 0)
-
-
 @dataclasses.dataclass
 class Pixels:
     """The visible triangle of each pixel, row by row. `drawn` and `colors` are None without a picture; a row
@@ -88,7 +82,7 @@ class Shown:
     """A hand-in's picture (rows of colors, or None) and Depths (or None). `is_uncovered` makes rows with
     True for each pixel that no triangle covers."""
     def __init__(self, colors, depths, window, is_uncovered):
-        self.colors, self.depths, self.made = colors, depths, {}
+        self.colors, self.depths, self.pixels = colors, depths, functools.cache(self.pixels)
         self.width, self.height, self.rear = width, height, rear = window.width, window.height, float(
             window.rear)
         self.is_full = depths is not None and [*map(len, depths.rows)] == [width] * height
@@ -101,7 +95,7 @@ class Shown:
     def but(self, **fields):
         """A Shown with some fields changed."""
         changed = copy.copy(self)
-        vars(changed).update(fields, made={})
+        vars(changed).update(fields, pixels=functools.cache(functools.partial(Shown.pixels, changed)))
         return changed
 
     def only(self, kind):
@@ -147,12 +141,6 @@ class Shown:
 
     def pixels(self, picture_flip="", text_flip=""):
         """The Pixels, if picture and text are flipped back."""
-        flips = picture_flip, text_flip
-        if flips not in self.made:
-            self.made[flips] = self.make_pixels(*flips)
-        return self.made[flips]
-
-    def make_pixels(self, picture_flip, text_flip):
         colors = FLIPS[picture_flip](self.colors) if self.colors else None
         drawn = colors and Rows(lambda r: [color != self.background for color in colors[r]], len(colors))
         listed = self.listed_rows(text_flip, drawn) if self.depths else None
@@ -160,7 +148,9 @@ class Shown:
 
         def seen(row):
             shown = drawn[row] if drawn else depths[row] and [z is not None for z in depths[row]]
-            return shown and (shown, range_of(shown))
+            if not shown or True not in shown:
+                return shown and (shown, range(self.width, 0))
+            return shown, range(shown.index(True), self.width - shown[::-1].index(True))
 
         return Pixels(drawn, colors, depths, listed, Rows(seen, self.height))
 
