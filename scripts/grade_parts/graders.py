@@ -185,7 +185,7 @@ def judge_files(contents, test, is_only_test):
     """The Files of a test, the Verdict on them, and the places searched if there are none."""
     files = files_for(contents, test, is_only_test)
     verdict = Judge(files, test.reference, test.kinds).judge()
-    is_found = any(not file.is_missing for file in files.values())
+    is_found = any(file.data is not None or file.error for file in files.values())
     return files, verdict, "" if is_found else looked_for(test, is_only_test)
 
 

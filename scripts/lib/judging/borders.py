@@ -28,19 +28,18 @@ class BorderRule:
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = corners
         area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
         box = [(min(values), max(values)) for values in zip(*corners)]
-        sides = [(px, py, qx - px, qy - py, math.hypot(qx - px, qy - py))
-                 for (px, py, _), (qx, qy, _) in zip(corners, corners[1:] + corners[:1])]
         if not self.triangles.winding(t):
             return None, (0.0, 0.0, 0.0), box
         per_column = ((bz - az) * (cy - ay) - (cz - az) * (by - ay)) / area
         per_row = ((cz - az) * (bx - ax) - (bz - az) * (cx - ax)) / area
         depth = per_column, per_row, az - per_column * ax - per_row * ay
-        if abs(area) < REACH * max(side[-1] for side in sides):
-            return None, depth, box
-        sign, edges = math.copysign(1.0, area), []
-        for px, py, dx, dy, length in sides:
-            a, b = -sign * dy / length, sign * dx / length
+        edges = []
+        for (px, py, _), (qx, qy, _) in zip(corners, corners[1:] + corners[:1]):
+            length = math.copysign(math.hypot(qx - px, qy - py), area)
+            a, b = (py - qy) / length, (qx - px) / length
             edges.append((a, b, -(a * px + b * py)))
+            if abs(area) < REACH * abs(length):
+                return None, depth, box
         return edges, depth, box
 
     def fragment(self, t, row, column, tolerance):

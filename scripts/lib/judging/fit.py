@@ -95,10 +95,9 @@ def null_vector(rows):
     """The unit vector that a matrix makes shortest, by inverse iteration."""
     r = triangular(rows)
     count = len(r)
-    least = 1e-14 * max(abs(r[k][k]) for k in range(count))
-    for k in range(count):
-        if abs(r[k][k]) < least:
-            r[k][k] = least
+    least = 1e-14 * max(r[k][k] for k in range(count))
+    for k in range(count):  # the diagonal has no negative element
+        r[k][k] = max(r[k][k], least)
     x = [1.0 + 0.1 * k for k in range(count)]
     for _ in range(6):
         for k in range(count):  # R' y = x

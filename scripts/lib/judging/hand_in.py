@@ -14,7 +14,6 @@ KINDS = {
     "depths": ("z_buffer.txt", re.compile(r"\d*z(buffer|buf|out)(out|output)?\d*\.txt")),
     "picture": ("out.bmp", re.compile(r"\d*(out|output|image)?\d*\.(bmp|png|ppm)")),}
 STAGE_OF = {"stage1": "model", "stage2": "view", "stage3": "project", "depths": "zbuf", "picture": "zbuf"}
-TOO_LARGE = "it is longer than {} bytes, more than the scene can need"
 
 
 @dataclasses.dataclass
@@ -25,18 +24,12 @@ class File:
     error: InputError = None
     others: tuple = ()  # further names that might have been meant
 
-    @property
-    def is_missing(self):
-        return self.data is None and self.error is None
-
     def within(self, limit):
         """The bytes; raises an InputError if there are none, or more than `limit`."""
-        if self.is_missing:
-            raise InputError(self.name, "No such file", is_missing=True)
-        if self.error:
-            raise self.error
+        if self.data is None:
+            raise self.error or InputError(self.name, "No such file", is_missing=True)
         if len(self.data) > limit:
-            raise InputError(self.name, TOO_LARGE.format(limit))
+            raise InputError(self.name, f"it is longer than {limit} bytes, more than the scene can need")
         return self.data
 
 

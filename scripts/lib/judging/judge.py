@@ -56,13 +56,15 @@ class HandIn:
             else:
                 verdict, memory = self.outcome(stage, kind, theirs, readings, verdicts)
             verdict.remarks += [] if theirs is None else theirs.remarks
-            self.add_others(kind, verdict)
             verdicts.append(verdict)
             before, thin = theirs, ""
             if is_thin:  # the next stage is judged as if this file were missing
                 memory, before, thin = self.right_memory(stage, readings), None, name
         if "picture" in self.kinds:
             verdicts += self.pixels(before, memory, thin, all(verdict.is_good for verdict in verdicts))
+        for kind, verdict in zip(self.kinds, verdicts):
+            if others := self.files[kind].others:
+                verdict.remarks.append(f"not looked at: {', '.join(others)}")
         verdicts[0].remarks += self.ours.remarks
         return Verdict(verdicts)
 
@@ -148,17 +150,13 @@ class HandIn:
 
     def exchanged_colors(self):
         """The colors, as they should be, of a picture whose rows are our columns; None if it is no such."""
-        failed = self.failed.pop("picture")
+        failed = self.failed["picture"]
         colors = self.colors(self.ours.window.height, self.ours.window.width)
-        self.failed |= {"picture": failed} if colors is None else {}
+        self.failed["picture"] = failed
         return colors and [list(row) for row in zip(*colors)]
 
     def colors(self, *size):
         return self.read("picture", lambda data, name: read_colors(data, name, size, self.ours.background))
-
-    def add_others(self, kind, verdict):
-        if others := self.files[kind].others:
-            verdict.remarks.append(f"not looked at: {', '.join(others)}")
 
     # stage 4
     def pixels(self, stage3, memory, thin, is_right):
@@ -173,6 +171,4 @@ class HandIn:
         judge = PixelStage(self.ours, self.files, readings, thin, self.borders_first)
         verdicts = self.failed | (judge.verdicts_of_exchanged(depths, exchanged)
                                   if exchanged else judge.verdicts(depths, colors))
-        for kind in ("depths", "picture"):
-            self.add_others(kind, verdicts[kind])
         return [verdicts["depths"], verdicts["picture"]]

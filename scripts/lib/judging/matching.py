@@ -126,6 +126,4 @@ def few_triangles(result, count):
     wrong = sorted({i // 3 for i, *_ in result})
     if not wrong or len(wrong) > MOST_WRONG * count:
         return []
-    return [
-        f"only triangle{'s'[:len(wrong) > 1]} {listed(wrong)} of {count} "
-        f"{'is' if len(wrong) == 1 else 'are'} wrong"]
+    return [f"only {named(wrong)} of {count} {'is' if len(wrong) == 1 else 'are'} wrong"]

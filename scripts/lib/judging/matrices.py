@@ -69,11 +69,9 @@ def rotation(radians, axis, factors=lambda c, s: (c, 1 - c, s)):
     """Rodrigues' formula; `axis` should be a unit vector. `factors` makes the factors of its terms from
     cosine and sine."""
     of_x, of_axis, of_side = factors(math.cos(radians), math.sin(radians))
-    images = []
-    for x in (row[:3] for row in IDENTITY[:3]):
-        images.append([
-            of_x * e + of_axis * dot(axis, x) * a + of_side * t
-            for e, a, t in zip(x, axis, right_cross(axis, x))])
+    images = ([
+        of_x * e + of_axis * dot(axis, x) * a + of_side * t for e, a, t in zip(x, axis, right_cross(axis, x))]
+              for x in (row[:3] for row in IDENTITY[:3]))
     return affine(list(zip(*images)))
 
 

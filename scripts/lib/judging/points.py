@@ -146,20 +146,14 @@ def strays_of(text):
     def quoted(number):
         return f"line {number}, '{shown(lines[number - 1].strip()[:LONGEST])}'"
 
+    torn = [block for block in blocks if len(block) % 3]
+    remarks = ((strays, "1 line is", "lines are", f"neither a vertex nor a header line{each}",
+                quoted), (long, "1 vertex line has", "vertex lines have",
+                          "more than three numbers, of which the first three count", quoted),
+               (torn, "a triangle (between blank lines) has",
+                f"of {len(blocks)} triangles (between blank lines) have",
+                "another number of vertices than three",
+                lambda block: f"the one in line {block[0]}, {len(block)}"))
     return "; ".join(
-        filter(None, [
-            counted(strays, "1 line is", "lines are", f"neither a vertex nor a header line{each}", quoted),
-            counted(long, "1 vertex line has", "vertex lines have",
-                    "more than three numbers, of which the first three count", quoted),
-            counted([block for block in blocks if len(block) % 3], "a triangle (between blank lines) has",
-                    f"of {len(blocks)} triangles (between blank lines) have",
-                    "another number of vertices than three",
-                    lambda block: f"the one in line {block[0]}, {len(block)}")]))
-
-
-def counted(some, one, many, words, first):
-    """The count of some lines or triangles in words, and the first of them; empty if there are none."""
-    if not some:
-        return ""
-    count = f"{len(some)} {many} {words}: first " if len(some) > 1 else f"{one} {words}: "
-    return count + first(some[0])
+        (f"{len(some)} {many} {words}: first " if len(some) > 1 else f"{one} {words}: ") + first(some[0])
+        for some, one, many, words, first in remarks if some)

@@ -50,10 +50,8 @@ def sentence(verdict):
     """The first stage that went wrong, why, and the later ones that are wrong by themselves."""
     failed = [file for file in verdict.files if file.verdict in FAILED]
     undecided = [file for file in verdict.files if file.verdict in OPEN]
-    if not failed and undecided:
-        return "; ".join(f"{file.file}: {file.verdict}" for file in undecided)
     if not failed:
-        return sentence_of_right(verdict)
+        return "; ".join(f"{file.file}: {file.verdict}" for file in undecided) or sentence_of_right(verdict)
     if all(file.verdict == MISSING for file in failed):
         words = (f"{names_of(failed)} {'is' if len(failed) == 1 else 'are'} not handed in; what is there "
                  f"is right")
