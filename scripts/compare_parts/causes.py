@@ -58,7 +58,7 @@ def stages(reference):
     yield lambda name, points: stage_outcome(reference, "view", name, points, [world])[0]
     p_view = exact_images(reference.scene.matrix("view"), False, reference.world)
     view = read_as_printed(p_view)
-    clipped = reference.clipped(p_view)
+    clipped = reference.clipped(tuple(p_view))
     others = [clipped] if clipped is not None else []
     yield lambda name, points: stage_outcome(reference, "project", name, points, [view], others)[0]
 

@@ -61,11 +61,6 @@ class BorderRule:
         low, high = z - slack, z + slack
         return (t, low, high), inside >= REACH and low >= self.drawing.front and high < self.drawing.rear
 
-    def has(self, t, row, column, z, tolerance):
-        """True if a triangle has a depth within a pixel of the center of this one."""
-        found = self.fragment(t, row, column, tolerance)
-        return found is not None and found[0][1] <= z <= found[0][2]
-
     def inside(self, t, row, column):
         """The distance of a pixel's center from a triangle's outline, in pixels; below 0 outside, and if the
         triangle is thinner than a pixel."""
@@ -119,10 +114,11 @@ class BorderRule:
         color, z = self.pixels.colors[row][column], self.pixels.depths[row][column]
         if mismatch.colors.get(t) == color and t not in mismatch.unplaced:
             return False
-        tolerance, same = self.tolerance(z), mismatch.of_color(color)
-        return not self.has(t, row, column, z, tolerance) and any(
-            self.has(other, row, column, z, tolerance)
-            for other in self.near(row, column) if other in same and other != t)
+        others = [
+            other for other in self.near(row, column) if other in mismatch.of_color(color) and other != t]
+        found = [self.fragment(one, row, column, self.tolerance(z)) for one in (t, *others)]
+        is_there, *are_there = (one is not None and one[0][1] <= z <= one[0][2] for one in found)
+        return not is_there and any(are_there)
 
     def is_within_reach(self, place):
         """True if a triangle, of the pixel's color if it has one, could show the same within REACH."""

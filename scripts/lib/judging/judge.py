@@ -7,14 +7,13 @@ another rule at the borders; else wrong without a cause.
 """
 from lib.judging.digits import of_one_program
 from lib.judging.hand_in import STAGE_OF, File
-from lib.judging.matrices import image
 from lib.judging.pixel_stage import PixelStage, pixel_readings
 from lib.judging.points import holds_enough, read_points
 from lib.judging.reference import kinds_of, reference
 from lib.judging.shown import read_colors, read_depths
 from lib.judging.stage_judge import stage_outcome, undecided
-from lib.judging.stage_ways import exact_reading
-from lib.judging.verdict import MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
+from lib.judging.stage_ways import exact_images, exact_reading
+from lib.judging.verdict import BY_THE_RIGHT, MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
 from lib.rim.input_file import InputError
 from lib.showing.pictures import PictureError
 from lib.text.stage_text import StageTextError
@@ -88,29 +87,24 @@ class HandIn:
             right = [exact_reading(self.ours.exact["model" if stage == "view" else "view"])]
             by_right = stage_outcome(self.ours, stage, name, theirs, right, self.clipped(stage, right))
             if by_right[0].is_good:
-                by_right[0].remarks.append(f"by the right numbers, which are not those of {failed[-1].file}")
+                by_right[0].remarks.append(BY_THE_RIGHT + failed[-1].file)
                 return by_right
         return outcome
 
     def right_after(self, stage):
         """The lists of points that are right after a stage; project may clip or not."""
-        clipped = self.ours.exact_clipped if stage == "project" else None
-        return [self.ours.exact[stage], *([] if clipped is None else [clipped])]
+        exact = self.ours.exact
+        return [exact[stage], *self.clipped(stage, [exact_reading(exact["view"])])]
 
     def right_memory(self, stage, readings):
         """The points after a stage whose file is missing, if the stage is right."""
         if stage == "model" or not readings:
             return self.ours.world if stage == "model" else None
-        m = self.ours.scene.matrix(stage)
-        return [image(m, p, stage == "project") for p in readings[-1][0]]
+        return exact_images(self.ours.scene.matrix(stage), stage == "project", readings[-1][0])
 
     def clipped(self, stage, readings):
         """The points that may be left if project clips them, for each reading; none after other stages."""
-        if stage != "project":
-            return []
-        exact = self.ours.exact["view"]
-        parts = (self.ours.exact_clipped if points == exact else self.ours.clipped(points)
-                 for points, _ in readings)
+        parts = (self.ours.clipped(tuple(points)) for points, _ in readings) if stage == "project" else ()
         return [points for points in parts if points is not None]
 
     def of_empty_text(self, stage, kind, readings):
@@ -132,28 +126,20 @@ class HandIn:
         file = self.files[kind]
         try:
             return parse(file.within(self.ours.limit(kind)), file.name)
-        except InputError as error:
-            verdict = MISSING if error.is_missing else UNREADABLE
-            self.failed[kind] = FileVerdict(STAGE_OF[kind], file.name, verdict,
-                                            remarks=[] if error.is_missing else [error.reason])
-        except (StageTextError, PictureError) as error:
-            self.failed[kind] = FileVerdict(STAGE_OF[kind], file.name, UNREADABLE, remarks=[str(error)])
-        return None
+        except (InputError, StageTextError, PictureError) as error:
+            verdict = FileVerdict(STAGE_OF[kind], file.name, MISSING)
+            if not getattr(error, "is_missing", False):
+                verdict.verdict, verdict.remarks = UNREADABLE, [getattr(error, "reason", str(error))]
+            self.failed[kind] = verdict
+            return None
 
     def read_stages(self):
         kinds = [kind for kind in self.kinds if kind.startswith("stage")]
         points = {kind: self.read(kind, read_points) for kind in kinds}
-        given = [kind for kind in kinds if points[kind] is not None]
-        for kind, digits in zip(given, of_one_program([points[kind].digits for kind in given])):
-            points[kind].digits = digits
+        given = [some for some in points.values() if some is not None]
+        for some, digits in zip(given, of_one_program([some.digits for some in given])):
+            some.digits = digits
         return points
-
-    def exchanged_colors(self):
-        """The colors, as they should be, of a picture whose rows are our columns; None if it is no such."""
-        failed = self.failed["picture"]
-        colors = self.colors(self.ours.window.height, self.ours.window.width)
-        self.failed["picture"] = failed
-        return colors and [list(row) for row in zip(*colors)]
 
     def colors(self, *size):
         return self.read("picture", lambda data, name: read_colors(data, name, size, self.ours.background))
@@ -162,13 +148,13 @@ class HandIn:
     def pixels(self, stage3, memory, thin, is_right):
         """The FileVerdicts of the depths and of the picture. `thin` names a stage3.txt of too few points,
         `is_right` is True if all stages before are right."""
-        depths = self.read("depths", read_depths)
-        colors = self.colors(self.ours.window.width, self.ours.window.height)
-        exchanged = colors is None and self.exchanged_colors()
+        width, height = self.ours.window.width, self.ours.window.height
+        depths, colors, failed = self.read("depths", read_depths), self.colors(width, height), {**self.failed}
+        exchanged = colors is None and self.colors(height, width)  # whose rows are our columns
         if stage3 is not None and len(stage3) > MOST_PARTS * len(self.ours.world):
             stage3 = None
         readings = pixel_readings(stage3, memory, None if is_right else self.right_after("project")[-1])
         judge = PixelStage(self.ours, self.files, readings, thin, self.borders_first)
-        verdicts = self.failed | (judge.verdicts_of_exchanged(depths, exchanged)
-                                  if exchanged else judge.verdicts(depths, colors))
+        verdicts = failed | (judge.verdicts_of_exchanged(depths, [*map(list, zip(*exchanged))])
+                             if exchanged else judge.verdicts(depths, colors))
         return [verdicts["depths"], verdicts["picture"]]

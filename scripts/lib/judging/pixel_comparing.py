@@ -160,15 +160,12 @@ class Attempt:
                                                                 and None in pixels.depths)
 
     def could_show(self, row, column, is_drawn, z, triangles=None):
+        """True if a pixel could show this after all; of as many pixels as the budget has."""
+        self.budget -= 1
         slack = self.depths.tolerance(z) if z is not None else 0.0
-        return any(
+        return self.budget > 0 and any(
             (t >= 0) == is_drawn and (z is None or low <= z <= high) and (triangles is None or t in triangles)
             for t, low, high in self.drawing.could_show(row, column, slack))
-
-    def could_show_after_all(self, *pixel):
-        """could_show, for as many pixels as the budget has."""
-        self.budget -= 1
-        return self.budget > 0 and self.could_show(*pixel)
 
     def differences(self, row, drawn_row=None):
         """(column, kind) of each pixel of a row that the rule does not explain, colors aside. `drawn_row` is
@@ -190,7 +187,7 @@ class Attempt:
             if (t >= 0) == is_drawn and (z is None or abs(z - depth[column]) <= DEPTH_BASE
                                          or abs(z - depth[column]) <= tolerance(z)):
                 continue
-            if not self.could_show_after_all(row, column, is_drawn, z):
+            if not self.could_show(row, column, is_drawn, z):
                 yield column, "extra" if t < 0 else "missing" if not is_drawn else "depth"
             elif (t >= 0) != is_drawn:
                 self.doubtful += 1
@@ -272,5 +269,5 @@ class Attempt:
                 if t < 0 or not drawn[column] or result.colors[t] == color or (row, column) in result.pixels:
                     continue
                 z = depths[column] if depths else None
-                if not self.could_show_after_all(row, column, True, z, result.of_color(color)):
+                if not self.could_show(row, column, True, z, result.of_color(color)):
                     result.pixels[row, column], result.owners[row, column] = "other", t

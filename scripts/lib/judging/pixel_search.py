@@ -7,9 +7,9 @@ from lib.judging.borders import BorderRule
 from lib.judging.matching import named
 from lib.judging.pixel_comparing import Attempt, Mismatch
 from lib.judging.pixel_rules import BLANK, CENTER, MISTAKES, MOST_PAIRS, OUR_ENDS, pairs
-from lib.judging.pixel_words import border_rule_in_words, end_in_words, rule_in_words
+from lib.judging.pixel_words import border_rule_in_words, rule_in_words
 from lib.judging.raster import Rule, TooMuch
-from lib.judging.verdict import cause_of, cause_of_all
+from lib.judging.verdict import BY_THE_RIGHT, cause_of, cause_of_all
 
 SAMPLE_ROWS = 8
 # A mistake is named if, of at least LEAST_NEARLY pixels in SAMPLE_ROWS that the best open rule leaves, it
@@ -17,9 +17,9 @@ SAMPLE_ROWS = 8
 NEARLY, LEAST_NEARLY = 8, 8
 LOST = 0.9  # the share of a triangle's pixels that must look as without it, to call it missing
 LEAST_HOLES = 5  # on common edges: fewer may be an accident of rounding
-BY_THE_RIGHT = "by the right numbers, which are not those of stage3.txt"
 BY_READING = {
-    "memory": ["by the exact numbers, kept in memory"], "right": [BY_THE_RIGHT], "right text": [BY_THE_RIGHT]}
+    "file": [], "memory": ["by the exact numbers, kept in memory"],
+    **dict.fromkeys(("right", "right text"), [f"{BY_THE_RIGHT}stage3.txt"])}
 GIVEN_UP = "the search for a cause was given up: it would take too many steps"
 LEAST_PIXELS_OF_OTHERS = 3  # that other triangles than the largest must show, to call one color a mistake
 
@@ -89,7 +89,7 @@ def exact(mismatch, shown):
     if has_one_color and len(shown.own_colors) > 1:
         return None  # most pixels of each triangle have the color of one that hides it
     finding = Finding("exact", mismatch, rule_in_words(mismatch.rule))
-    finding.remarks += BY_READING.get(mismatch.reading, [])
+    finding.remarks += BY_READING[mismatch.reading]
     if has_one_color:
         finding.verdict, finding.touches = "mistake", ("picture",)
         finding.causes = [cause_of("zbuf/one-color")]
@@ -197,9 +197,9 @@ def mistake(context, found):
     if any(len(names) == 1 for names in found):  # several at once only if no single one will do
         found = {names: mismatch for names, mismatch in found.items() if len(names) == 1}
     first = next(iter(found.values()))
-    causes = [
-        dataclasses.replace(cause_of_all("zbuf", names), detail=end_in_words(one.rule))
-        for names, one in found.items()]
+    ends = ("the left one" if one.rule.columns_before else "the right one" if one.rule.column_more else ""
+            for one in found.values())  # at which rows have another number of columns
+    causes = [dataclasses.replace(cause_of_all("zbuf", names), detail=end) for names, end in zip(found, ends)]
     return Finding("mistake", first, rule_in_words(first.rule), causes, files_spoiled(context, first))
 
 

@@ -7,7 +7,7 @@ from lib.judging.pixel_comparing import Context
 from lib.judging.many_colors import blames_many_colors
 from lib.judging.pixel_findings import Findings
 from lib.judging.pixel_search import unknown
-from lib.judging.pixel_words import difference_in_words, unexplained_in_words
+from lib.judging.pixel_words import counted, difference_in_words, place_in_words
 from lib.judging.raster import Rule, TooMuch
 from lib.judging.shown import Shown
 from lib.judging.stage_judge import NO_POINTS
@@ -119,23 +119,23 @@ class PixelStage:
     def verdict_of_colors(self, colors):
         """The FileVerdict of a picture whose triangles have colors of their own, or light: every color
         counts, by either rule of coverage."""
-        verdicts = []
+        found = []  # (whether by the center rule, the pixels that differ)
         is_right_asked = self.thin or "right" in self.readings
         texts = [self.ours.stage3, self.ours.stage3_of_exact] if is_right_asked else []
         texts += [] if self.thin else [self.files["stage3"].data or b""]
-        rules = ("nearest", RIGHT, ""), ("center", ANOTHER_RULE, "the center rule")
-        for text, (coverage, verdict, rule) in itertools.product(texts, rules):
+        for text, coverage in itertools.product(texts, ("nearest", "center")):
             ours = self.ours.picture(text, coverage)
-            if ours is None:
-                continue
-            places = [(r, i) for r, (row, line) in enumerate(zip(ours, colors))
-                      for i, color in enumerate(line) if row[3 * i:3 * i + 3] != color]
-            verdicts.append(
-                self.verdict("picture", *((WRONG, "") if places else (verdict, rule)), differing=len(places),
-                             compared=len(ours) * len(colors[0]), places=places,
-                             first="row {}, column {}: another color".format(*places[0]) if places else ""))
-        return min(verdicts, key=lambda verdict: verdict.differing, default=self.verdict(
-            "picture", UNDECIDED, remarks=["zbuf refuses their stage3.txt"]))
+            if ours is not None:
+                found.append((coverage == "center", [(r, i) for r, (row, line) in enumerate(zip(ours, colors))
+                                                     for i, color in enumerate(line)
+                                                     if row[3 * i:3 * i + 3] != color]))
+        if not found:
+            return self.verdict("picture", UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
+        is_center, places = min(found, key=lambda one: len(one[1]))
+        words = (WRONG, "") if places else (ANOTHER_RULE, "the center rule") if is_center else (RIGHT, "")
+        return self.verdict("picture", *words, differing=len(places), places=places,
+                            compared=len(colors) * len(colors[0]),
+                            first="row {}, column {}: another color".format(*places[0]) if places else "")
 
     def verdict_of_pixels(self, kind, finding, shown):
         mismatch, rule = finding.mismatch, "" if finding.verdict == "unknown" else finding.rule
@@ -167,7 +167,9 @@ class PixelStage:
             verdict.explained = len({*context.plain.of(kind)} - {*unexplained})
             verdict.compared = max(context.plain.compared, verdict.explained + len(unexplained))
             if unexplained:
-                verdict.remarks.append(unexplained_in_words(unexplained, verdict.explained, width))
+                verdict.remarks.append(f"the cause explains {counted(verdict.explained, 'pixel')} and leaves "
+                                       f"{len(unexplained):,}, the first in "
+                                       f"{place_in_words(min(unexplained), width)}")
         verdict.places = sorted({*unexplained, *mismatch.of(kind)})
         mismatch = mismatch if mismatch.of(kind) else finding.mismatch
         if verdict.places:

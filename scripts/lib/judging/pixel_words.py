@@ -26,11 +26,6 @@ def rule_in_words(rule):
     return ", ".join(filter(None, (ends, DEPTHS.get(rule.depth))))
 
 
-def end_in_words(rule):
-    """The end at which rows have another number of columns."""
-    return "the left one" if rule.columns_before else "the right one" if rule.column_more else ""
-
-
 def border_rule_in_words(mismatch, pixels):
     """The pixels in which another rule at the borders differs."""
     others = {
@@ -61,9 +56,3 @@ def difference_in_words(mismatch, place, width):
     """A pixel that differs, with its place."""
     words = DIFFERENCES[mismatch.pixels[place]].format(mismatch.owners.get(place))
     return f"{place_in_words(place, width)}: {words if place[1] < width else 'another number of depths'}"
-
-
-def unexplained_in_words(places, explained, width):
-    """The pixels that a cause explains, and those that it leaves."""
-    return (f"the cause explains {counted(explained, 'pixel')} and leaves {len(places):,}, the first in "
-            f"{place_in_words(min(places), width)}")

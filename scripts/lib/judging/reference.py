@@ -30,6 +30,7 @@ class JudgeError(CommandFailure):
 class Reference:
     def __init__(self, scene, config, tools):
         self.tools, self.config, self.remarks = tools, config, []
+        self.clipped = functools.lru_cache(maxsize=4)(self.clipped)
         text, model = self.accepted(scene)
         self.expect_no_spheres(text, model)
         self.scene_data = text.encode("utf-8", errors="surrogateescape")
@@ -101,11 +102,6 @@ class Reference:
         return {"model": self.world, "view": in_view, "project": [image(project, p, True) for p in in_view]}
 
     @functools.cached_property
-    def exact_clipped(self):
-        """The points after project, where it clips; None if it refuses them."""
-        return self.clipped(self.exact["view"])
-
-    @functools.cached_property
     def draws_nothing(self):
         with self.tools.file(self.config) as config:
             return not self.tools.output("zbuf", config, "--image", "/dev/null", stdin=self.stage3).strip()
@@ -124,7 +120,7 @@ class Reference:
             return None
 
     def clipped(self, points):
-        """The points after our project, which clips; None if it refuses them."""
+        """The points after our project, which clips a tuple of points; None if it refuses them."""
         lines = "".join(" ".join(map(repr, p)) + "\n" * (1 + (i % 3 == 2)) for i, p in enumerate(points))
         try:
             with self.tools.file(self.scene_data) as path:

@@ -4,9 +4,8 @@ import re
 import shlex
 
 from lib.judging.matching import listed
-from lib.judging.verdict import FAILED, MISSING, OPEN, WRONG
+from lib.judging.verdict import BY_THE_RIGHT, FAILED, MISSING, OPEN, WRONG
 
-BY_THE_RIGHT = "by the right numbers, "  # begins the remark of a stage that was judged by those
 HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference, first pixel", "remarks"]
 
 

@@ -10,6 +10,7 @@ MISSING = "not handed in"
 UNREADABLE = "unreadable"
 TOO_FEW_DIGITS = "too few digits to judge"
 UNDECIDED = "could not be judged"
+BY_THE_RIGHT = "by the right numbers, which are not those of "  # begins a remark
 GOOD = (RIGHT, ANOTHER_RULE)
 FAILED = (WRONG, MISSING, UNREADABLE)
 OPEN = (TOO_FEW_DIGITS, UNDECIDED)
