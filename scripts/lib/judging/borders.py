@@ -43,8 +43,7 @@ class BorderRule:
         return edges, depth, box
 
     def fragment(self, t, row, column, tolerance):
-        """(triangle, least depth, largest depth) and whether it is there for certain; None if it is out of
-        reach."""
+        """(triangle, least depth, largest depth) and whether it is there for certain; None out of reach."""
         edges, (per_column, per_row, at_0), (of_x, of_y, of_z) = self.plane(t)
         if not (of_x[0] - REACH <= column <= of_x[1] + REACH and of_y[0] - REACH <= row <= of_y[1] + REACH):
             return None
@@ -62,8 +61,7 @@ class BorderRule:
         return (t, low, high), inside >= REACH and low >= self.drawing.front and high < self.drawing.rear
 
     def inside(self, t, row, column):
-        """The distance of a pixel's center from a triangle's outline, in pixels; below 0 outside, and if the
-        triangle is thinner than a pixel."""
+        """The pixels from a center to a triangle's outline; below 0 outside, and in thin triangles."""
         edges = self.plane(t)[0]
         return -REACH if edges is None else min(a * column + b * row + c for a, b, c in edges)
 

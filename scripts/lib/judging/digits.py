@@ -11,8 +11,7 @@ FINEST = 17  # significant digits, of a double
 
 @dataclasses.dataclass(frozen=True)
 class Digits:
-    """`decimals` is their count if every number of the text has the same, else None; `significant` the most
-    digits of a number."""
+    """`decimals` is None if not every number has the same; `significant` is the most digits of a number."""
     decimals: int
     significant: int
     largest: float = 1.0

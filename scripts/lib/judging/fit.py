@@ -60,8 +60,7 @@ def cause_of_elements(comparison, rows=range(4)):
 
 
 def known_rows(verdict, directions):
-    """Remarks on the wrong rows of a FileVerdict's Comparison that begin with a known direction, (name,
-    vector), if it has no cause."""
+    """Remarks on wrong rows of a verdict without a cause that begin with a known (name, direction)."""
     comparison, directions = verdict.matrices, list(directions)
     differing = () if verdict.causes else getattr(comparison, "differing", ())
     for i in sorted({i for i, j in differing if j < 3}):
@@ -79,8 +78,7 @@ def shown(x):
 
 
 def triangular(rows):
-    """The triangle R of the QR decomposition of a matrix, by Gram-Schmidt in its modified form (Björck,
-    1967)."""
+    """The triangle R of a matrix's QR decomposition, by modified Gram-Schmidt (Björck, 1967)."""
     columns, r = [list(column) for column in zip(*rows)], []
     for k in range(len(columns)):
         size = math.hypot(*columns[k]) or 1.0
@@ -110,8 +108,7 @@ def null_vector(rows):
 
 
 def normalizing(points):
-    """The matrix that moves the points to the origin and scales them to a size of about 1, and its
-    inverse."""
+    """The matrix that moves points to the origin and scales them to a size of about 1; and its inverse."""
     center = [sum(values) / len(points) for values in zip(*points)]
     size = max(max(abs(x - c) for x, c in zip(p, center)) for p in points) or 1.0
     there = product(scaling((1 / size,) * 3), translation(negative(center)))
@@ -154,8 +151,7 @@ def misses(m, before, after, units, is_divided):
 
 
 def compare(before, after, units, ours, is_divided):
-    """The Comparison of the matrix from `before` to `after` with ours; None if the points do not determine
-    one. `units` belong to `after`."""
+    """The Comparison of the matrix from `before` to `after` with ours; None if the points allow several."""
     step = max(1, len(before) // MOST_POINTS)
     chosen = [i for i in range(0, len(before), step) if all(map(math.isfinite, after[i]))]
     before, after, units = ([values[i] for i in chosen] for values in (before, after, units))

@@ -76,7 +76,7 @@ class HandIn:
         return found if memory is None else [*found, exact_reading(memory)]
 
     def outcome(self, stage, kind, theirs, readings, verdicts):
-        """The result of stage_outcome for a text that can be read, after the verdicts on the stages before."""
+        """The result of stage_outcome for a readable text, after the verdicts on the stages before."""
         name = self.files[kind].name
         if not theirs.points:
             return self.of_empty_text(stage, kind, readings)
@@ -121,8 +121,7 @@ class HandIn:
 
     # reading
     def read(self, kind, parse):
-        """The result of `parse` for a file's bytes and name; None, and a verdict in `failed`, if it cannot be
-        read."""
+        """A file as `parse` reads it; None, and a verdict in `failed`, if it cannot be read."""
         file = self.files[kind]
         try:
             return parse(file.within(self.ours.limit(kind)), file.name)

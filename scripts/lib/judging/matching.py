@@ -13,8 +13,7 @@ MOST_COMPARED = 1_000_000  # pairs of triangles, in search of the one that is wr
 
 
 def left_over(few, many, is_same):
-    """The indices of the items of `many` that `few` lacks, if `few` is a part of `many` in the same order;
-    else None."""
+    """The indices of `many` that `few` lacks, if `few` is a part of it in the same order; else None."""
     left, i = [], 0
     for number, item in enumerate(many):
         if i < len(few) and is_same(few[i], item):
@@ -25,8 +24,7 @@ def left_over(few, many, is_same):
 
 
 def left_over_for_certain(few, many, is_same):
-    """The indices left over, and True if there is no other choice: of two equal items, either may be left
-    over."""
+    """The indices left over, and True if there is no other choice, as there is between equal items."""
     left = left_over(few, many, is_same)
     if left is None:
         return None, False
@@ -84,8 +82,7 @@ def added(many, few, is_same, lines):
 
 
 def reordered(written, right, is_same):
-    """How triangles, or the vertices of each, stand in another order than the right one, as a sentence; empty
-    if they do not."""
+    """The other order of triangles, or of the vertices of each, as a sentence; empty if there is none."""
     for order in itertools.permutations(range(3)):
         if order != (0, 1, 2) and all(is_same(a, [b[i] for i in order]) for a, b in zip(written, right)):
             return (f"The vertices of each triangle stand in another order: "
@@ -106,9 +103,8 @@ def reordered(written, right, is_same):
 
 
 def causes_at_vertices(result, count, is_right_at, causes_at):
-    """The causes if each triangle is wrong at one or two vertices of its three, and the others are right.
-    `result` lists the differences in `count` triangles; `is_right_at` is True for a slice of points that
-    are right, `causes_at` explains slices."""
+    """The causes if one or two vertices of each of `count` triangles are wrong. `result` lists the
+    differences; `is_right_at` is True for a slice of points that are right, `causes_at` explains slices."""
     wrong = [k for k in range(3) if not is_right_at(VERTICES[k])]
     counts = [len({i for i, *_ in result if i % 3 == k}) for k in wrong]
     if not 0 < len(wrong) < 3 or min(counts) < max(2, count / 2):

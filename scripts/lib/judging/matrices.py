@@ -66,8 +66,7 @@ def scaling(factors):
 
 
 def rotation(radians, axis, factors=lambda c, s: (c, 1 - c, s)):
-    """Rodrigues' formula; `axis` should be a unit vector. `factors` makes the factors of its terms from
-    cosine and sine."""
+    """Rodrigues' formula for a unit vector; `factors` makes its terms' factors from cosine and sine."""
     of_x, of_axis, of_side = factors(math.cos(radians), math.sin(radians))
     images = ([
         of_x * e + of_axis * dot(axis, x) * a + of_side * t for e, a, t in zip(x, axis, right_cross(axis, x))]

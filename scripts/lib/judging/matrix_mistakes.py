@@ -29,8 +29,7 @@ def listed(stage, scene, count=1):
 
 
 def ways(stage, scene, names):
-    """(matrix, whether it divides) of mistakes made together; none where they cannot be made, for example
-    with a direction of 0 0 0."""
+    """(matrix, divisions) of mistakes made together; none where that fails, as with a direction of 0 0 0."""
     is_divided = next((DIVISIONS[name] for name in names if name in DIVISIONS), stage == "project")
     for spelling in range(1 + (len(names) == 1 and names[0] in TWO_SPELLINGS)):
         with contextlib.suppress(ZeroDivisionError, OverflowError):
@@ -113,8 +112,7 @@ def touched(way, right):
 
 
 def choices_of(found, wrong):
-    """The fewest of {axes: Causes} that together explain all wrong axes, each once; nothing if there are more
-    than MOST_PAIRS choices."""
+    """The fewest of {axes: Causes} that explain all wrong axes, each once; none if over MOST_PAIRS do."""
     for count in range(2, len(wrong) + 1):
         choices = [
             choice for some in itertools.combinations(found, count)

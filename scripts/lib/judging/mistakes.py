@@ -26,8 +26,7 @@ def sentence(name):
 
 
 def fix(name):
-    """The remedy for a mistake, or for several with `and` between, as sentences; empty for one that is not in
-    the list."""
+    """The remedy for a mistake of the list, or for several with `and` between, as sentences."""
     known = entries("mistakes.txt")
     return " ".join(known[part][1] for part in name.split(" and ") if part in known)
 

@@ -87,8 +87,7 @@ MODEL_MISTAKES = {
 
 
 class Stack:
-    """The current matrix and the saved ones, under a habit. Two kinds save the matrix after each
-    transform."""
+    """The current matrix and the saved ones, under a habit; two kinds save it after each transform."""
     def __init__(self, habit):
         self.matrix, self.saved = IDENTITY, []
         self.last, self.was_push, self.was_lost = "", False, False  # the last command; the last push or pop

@@ -18,8 +18,7 @@ MOST_WORK, MOST_OPEN_WORK = 10_000_000, 60_000_000
 
 @dataclasses.dataclass
 class Mismatch:
-    """The pixels that a rule does not explain: {(row, column): kind}, where kind is extra, missing, other or
-    depth."""
+    """The pixels that a rule does not explain: {(row, column): extra, missing, other or depth}."""
     rule: Rule
     reading: str
     pixels: dict = dataclasses.field(default_factory=dict)
@@ -56,8 +55,7 @@ class Mismatch:
         return set(range(self.triangle_count)) - largest
 
     def of_color(self, color):
-        """The triangles that a color may stand for: those whose color it is, else those that have none to
-        themselves."""
+        """The triangles that a color may stand for: those that have it, else all without one of their own."""
         return self.by_color.get(color) or self.unplaced
 
     def shows_another(self, place, pixels):
@@ -128,8 +126,7 @@ class Context:
         return Drawing(self.triangles[key], rule, limits, self.work)
 
     def explained(self, reading, rule, rows):
-        """The Mismatch of a rule that explains everything, without a pixel; else None. `rows` are looked at
-        first."""
+        """The empty Mismatch of a rule that explains everything, else None. `rows` are looked at first."""
         attempt = Attempt(self, reading, rule)
         return None if any(
             True for row in rows for _ in attempt.differences(row)) else self.compare(reading, rule, limit=0)
@@ -207,8 +204,7 @@ class Attempt:
                 yield column, "depth"
 
     def count(self, rows, most):
-        """How many pixels of some rows are not explained, up to most + 1; another number of depths explains
-        none of its row."""
+        """How many pixels of some rows are not explained, up to most + 1; all of a row with other depths."""
         unexplained = (most + 1 if column == self.width else 1 for row in rows
                        for column, _ in self.differences(row))
         return sum(itertools.islice(unexplained, most + 1))

@@ -30,9 +30,8 @@ class Findings:
         return found if self.explains_most(kind, found) else unknown(self.context.plain)
 
     def explains_most(self, kind, finding):
-        """True if a cause explains more pixels of a file than it leaves, and the other file does not
-        contradict it: a cause in the depths cannot explain the picture alone, nor one in the outlines the
-        text alone."""
+        """True if a cause explains more pixels of a file than it leaves, and the other file allows it: a
+        cause in the depths cannot explain the picture alone, nor one in the outlines the text alone."""
         if finding.verdict != "mistake" or kind not in finding.touches:
             return True
         plain, rule = self.context.plain, finding.mismatch.rule

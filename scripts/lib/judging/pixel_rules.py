@@ -87,8 +87,7 @@ def can_matter(changes, window, shown):
 
 
 def open_rules(window, readings, has_depths):
-    """(rank, changes) of the rules that the assignment leaves open, the usual ones first; of depth only where
-    they can make a difference."""
+    """(rank, changes) of the rules left open, the usual ones first; of depth only where that matters."""
     dx = -2 * float(window.left)
     is_beyond = any(abs(p[0]) > dx / 2 for points, _ in readings.values() for p in points)
     depths = [

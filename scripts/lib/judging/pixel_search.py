@@ -174,9 +174,8 @@ def by_most_pixels(context, rows, best):
 
 
 def without_triangles(context, best, limit):
-    """The Finding that some triangles are missing, if all their pixels look as if they were, and at most
-    `limit` others differ. A missing triangle's pixel shows nothing, or another triangle, whose color then
-    seems to be the missing one's, too."""
+    """The Finding that triangles are missing, if all their pixels look so and at most `limit` others differ.
+    Such a pixel shows nothing, or another triangle, whose color then seems to be the missing one's, too."""
     counts = collections.Counter(best.owners.values())
     lost = {t for t, count in counts.items() if count >= LOST * best.areas[t]}
     in_another = {t for t in counts if len(best.by_color.get(best.colors.get(t), ())) > 1}

@@ -35,8 +35,7 @@ def pixel_readings(stage3, memory, right_ndc):
 
 
 class PixelStage:
-    """Judges depths and picture. `thin` names a stage3.txt that holds too little to judge by; `borders_first`
-    is described at judge.HandIn."""
+    """Judges depths and picture; `thin` names a stage3.txt of too few points, the rest is judge.HandIn's."""
     def __init__(self, ours, files, readings, thin, borders_first):
         self.ours, self.files, self.readings, self.thin = ours, files, readings, thin
         self.borders_first = borders_first
@@ -65,9 +64,8 @@ class PixelStage:
         return FileVerdict("zbuf", self.files[kind].name, verdict, rule, **fields)
 
     def verdicts_of_many_colors(self, given, context):
-        """The verdicts if a picture has too many colors for its triangles: that these have many, if it
-        explains most of the picture; that no color is a triangle's, if even the outlines are others; else
-        nothing."""
+        """The verdicts on a picture of too many colors: its triangles have many, if that explains most of it;
+        no color is a triangle's, if even the outlines are others; else nothing."""
         shown = context.shown
         count = max(
             len(points) for points in (self.ours.world, *(some for some, _ in self.readings.values())))
@@ -117,8 +115,7 @@ class PixelStage:
         return [[row[i:i + 3] == self.ours.background for i in range(0, len(row), 3)] for row in rows]
 
     def verdict_of_colors(self, colors):
-        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color
-        counts, by either rule of coverage."""
+        """The FileVerdict of a picture whose own colors or light count, by either rule of coverage."""
         found = []  # (whether by the center rule, the pixels that differ)
         is_right_asked = self.thin or "right" in self.readings
         texts = [self.ours.stage3, self.ours.stage3_of_exact] if is_right_asked else []
@@ -176,9 +173,8 @@ class PixelStage:
             verdict.first = difference_in_words(mismatch, min(mismatch.of(kind)), width)
 
     def has_other_colors(self, shown):
-        """True if most pixels with a triangle have a color that zbuf gives to none of the scene's. Which
-        triangle a pixel shows is not asked: the text that it was judged by may lack some, and hold others in
-        parts."""
+        """True if most pixels with a triangle have a color that zbuf gives to none, whichever they show: the
+        text that the picture was judged by may lack triangles, and hold others in parts."""
         counts = collections.Counter(itertools.chain(*shown.colors))
         del counts[shown.background]
         ours = sum(counts[color] for color in generated_colors(len(self.ours.world) // 3))

@@ -23,8 +23,7 @@ LONGEST = 40  # characters of a line, as shown
 
 @dataclasses.dataclass
 class Points:
-    """The points of a stage text, three for each triangle. `units` is what a unit in the last digit of each
-    coordinate is worth."""
+    """The points of a stage text, three a triangle; `units` are the units in the last digits of each."""
     points: list
     lines: list
     digits: Digits = EXACT
@@ -71,8 +70,7 @@ def holds_enough(points, exact):
 
 
 def printed_tolerance(p, digits):
-    """How far printing may move the coordinates of a point: by a unit in the last digit of its largest
-    coordinate."""
+    """How far printing may move coordinates: by a unit in the last digit of the point's largest one."""
     size = max(map(abs, p))
     if not math.isfinite(size):
         return math.inf

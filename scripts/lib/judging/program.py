@@ -37,8 +37,7 @@ def input_of(stage, scene, tools, is_bare):
 
 
 class ProgramError(Exception):
-    """The program failed; the text says why. `errors` is its stderr; `is_asleep` is True if it waited until
-    its time was over."""
+    """The program's failure, its stderr, and whether it waited until its time was over."""
     def __init__(self, reason, errors=b"", is_asleep=False):
         super().__init__(reason)
         self.errors, self.is_asleep = errors, is_asleep
@@ -93,8 +92,7 @@ def hand_in(stage, output, given, folder):
 
 
 def expect_repetition(stage, verdict, files, run):
-    """Names randomness as the cause of wrong files without one if another run differs. `run` gives the Files
-    of another run."""
+    """Blames randomness for wrong files without a cause if another `run`, which gives Files, differs."""
     wrong = [file for file in verdict.of(stage) if file.verdict == WRONG]
     if not wrong or any(file.causes for file in wrong):
         return

@@ -22,8 +22,7 @@ ENDS = {
 
 
 class Grid(window.Grid):
-    """The positions of pixel centers in NDC, also by a mistake; if `is_one_less`, the first and the last of
-    them lie on the borders."""
+    """Pixel centers in NDC, also by a mistake; if `is_one_less`, the outermost lie on the borders."""
     def __init__(self, width, height, left, bottom, half_x=True, half_y=True, is_one_less=False):
         super().__init__(max(1, width - is_one_less), max(1, height - is_one_less), left, bottom)
         self.width, self.height, self.left, self.bottom = width, height, left, bottom
@@ -73,8 +72,7 @@ class Rule:
 
 @dataclasses.dataclass
 class Span:
-    """A triangle's part of a row: where it begins and ends in columns, its depth at both, and how uncertain
-    all that is."""
+    """A triangle's part of a row: its ends in columns, its depth at both, and how uncertain they are."""
     triangle: int
     left: float
     right: float
@@ -105,8 +103,7 @@ def changed_corners(corners, change, grid):
 
 
 class Triangles:
-    """Triangles in NDC over a grid, changed by Rule.corners. `units` says how far each coordinate may be
-    off."""
+    """Triangles in NDC over a grid, changed by Rule.corners. Coordinates may be off by their `units`."""
     def __init__(self, points, units, grid, change=""):
         self.grid = grid
         near = [tuple(max(-FAR, min(x, FAR)) for x in p) for p in points]
@@ -173,16 +170,14 @@ class Triangles:
                     is_certain)
 
     def winding(self, t):
-        """1 for counterclockwise, -1 for clockwise; 0 where the numbers' last digits decide, as without an
-        area."""
+        """1 for counterclockwise, -1 for clockwise; 0 where the last digits decide, as without an area."""
         (ax, ay, _), (bx, by, _), (cx, cy, _) = self.corners[t]
         area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
         reach = max(abs(bx - ax), abs(by - ay), abs(cx - ax), abs(cy - ay))
         return int(math.copysign(abs(area) > 4 * reach * (self.units[t] + 1e-15), area))
 
     def meet_on(self, s, t, row, column):
-        """True if two triangles lie on either side of a common edge on which a pixel's center lies, away from
-        its ends."""
+        """True if a pixel's center lies on an edge between two triangles, away from its ends."""
         corners, others = {*self.corners[s]}, {*self.corners[t]}
         if len(corners & others) != 2 or len(corners | others) != 4:
             return False
@@ -205,8 +200,7 @@ def spend(work, count):
 
 
 def ends_of(span, rule, width, slack=0.0):
-    """The first and the last column under a rule; a positive slack makes the span as wide as its uncertainty
-    allows, a negative one as narrow."""
+    """The first and the last column; as wide as the span's uncertainty allows, or (slack < 0) as narrow."""
     first = ENDS[rule.left](span.left - slack * span.slack_left)
     last = ENDS[rule.right](span.right + slack * span.slack_right)
     if rule.is_strict and slack <= 0:
@@ -267,8 +261,7 @@ class Drawing:
         return values[(FLAT_TRIANGLE + FLAT_ROW).index(self.rule.flat)], 0.0
 
     def row(self, row):
-        """The triangle (or -1) and the depth of each pixel of a row, and the range of columns beyond which
-        there is no triangle."""
+        """The triangle (or -1) and the depth of each pixel of a row, and the range of columns with any."""
         owner, depth, start, stop = [-1] * self.width, [self.rear] * self.width, self.width, 0
         front, rear, keep = self.front, self.rear, self.rule.keep
         for span in self.spans(row):
@@ -321,8 +314,7 @@ class Drawing:
 
 
 def kept(sure, possible, keep):
-    """The fragments (triangle, least depth, largest depth) that a pixel may show. `sure` ones exist, others
-    may."""
+    """The fragments (triangle, least depth, largest depth) that a pixel may show; `sure` ones exist."""
     if not sure:
         return [*possible, (-1, 0.0, 0.0)]
     if keep == "last":

@@ -107,8 +107,7 @@ class Reference:
             return not self.tools.output("zbuf", config, "--image", "/dev/null", stdin=self.stage3).strip()
 
     def picture(self, stage3, coverage="nearest"):
-        """The picture of our zbuf for the bytes of a stage text, as rows of bytes; None if it refuses
-        them."""
+        """Our zbuf's picture for a stage text, as rows of bytes; None if it refuses the text."""
         try:
             with self.tools.file(self.config) as config, self.tools.file(b"") as image:
                 self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image",

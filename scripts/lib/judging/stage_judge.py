@@ -93,9 +93,8 @@ def nearest(ways, theirs, digits):
 
 
 def count_verdict(ways, name, theirs, expected, digits):
-    """The verdict on a text with more or fewer triangles than `expected`, which are lists of points with
-    their slacks, right ones in the right number. The cause is which triangle is missing or too many, if all
-    others are right."""
+    """The verdict on a text of another count of triangles than `expected`, lists of points with their slacks.
+    The cause is which triangle is missing or too many, if all others are right."""
     count, right_count = len(theirs) // 3, len(expected[0]) // 3
 
     def matched(written, right, is_same):
@@ -107,8 +106,7 @@ def count_verdict(ways, name, theirs, expected, digits):
 
 
 def causes_of_triangles(theirs, expected, digits, matched):
-    """The cause that a function of `matching` finds in the triangles of a text beside one of the lists
-    expected; a list of at most one."""
+    """The cause that a function of `matching` finds in a text beside one of the lists expected, if any."""
     written, *right = ([points[i:i + 3] for i in range(0, len(points), 3)]
                        for points in map(list, (theirs.points, *expected)))
     texts = (matched(written, triangles, lambda one, other: not differs(one, digits, other))

@@ -24,9 +24,8 @@ def exact_reading(points):
 
 @dataclasses.dataclass
 class Way:
-    """`cause` is the mistake, or the rule of a way that is right; `images` makes for a slice of the points
-    lists of (point, slacks of its coordinates), one for each reading; `memory` makes the exact points
-    afterwards, None if they are not known."""
+    """`cause` is the mistake, or the rule of a right way; `images` makes lists of (point, slacks of its
+    coordinates) of a slice, one for each reading; `memory` makes the exact points, None if not known."""
     cause: Cause
     images: object
     memory: object
@@ -62,8 +61,7 @@ class ModelWays:
         return count == 3 * len(self.scene_lines)
 
     def single(self):
-        """Lists of Ways, of which the later ones count only where none of the earlier ones will do: mistakes
-        in their usual form, then in others."""
+        """Lists of Ways: mistakes in their usual form, then in others, for where none of those fits."""
         for chosen in (slice(1), slice(1, None)):
             yield (self.way(cause_of("model/" + name), habit) for name, habits in MODEL_MISTAKES.items()
                    for habit in habits[chosen])
@@ -91,8 +89,7 @@ class ModelWays:
 
 
 class MatrixWays:
-    """The ways of view or project, which are one matrix for all points. `right` are (rule in words, matrix,
-    whether it divides)."""
+    """The ways of view or project, each one matrix. `right` are (rule in words, matrix, its divisions)."""
     scene_lines = ()
 
     def __init__(self, stage, scene, readings, right):

@@ -18,8 +18,7 @@ OPEN = (TOO_FEW_DIGITS, UNDECIDED)
 
 @dataclasses.dataclass
 class Cause:
-    """A mistake that reproduces the numbers. `name` is its name in the list of mistakes, or empty if the list
-    lacks it."""
+    """A mistake that reproduces the numbers; `name` is empty if the list of mistakes lacks it."""
     name: str
     text: str
     detail: str = ""
