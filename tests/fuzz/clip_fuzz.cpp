@@ -47,6 +47,8 @@ void check_same_corners(const Polygon& cut, const Polygon& other) {
             "the order of the corners does not change where an edge is cut");
 }
 
+}  // namespace
+
 void check(FuzzBytes bytes) {
   const ClipVertex a = taken_vertex(bytes), b = taken_vertex(bytes), c = taken_vertex(bytes);
   const Polygon triangle = {a, b, c};
@@ -66,11 +68,4 @@ void check(FuzzBytes bytes) {
   if (any == 0) require(is_same(inside, triangle), "what lies inside of all planes is unchanged");
 }
 
-}  // namespace
 }  // namespace pipeline
-
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  pipeline::check(pipeline::FuzzBytes(data, size));
-  return 0;
-}

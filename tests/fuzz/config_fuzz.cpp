@@ -4,6 +4,7 @@
 
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/number_printer.h"
+#include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/transcript.h"
 
 namespace pipeline {
@@ -33,13 +34,11 @@ void rewrite(TextReader& text, TextWriter& output) {
 }
 
 }  // namespace
-}  // namespace pipeline
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace pipeline;
-  const Transcript once = transcript({reinterpret_cast<const char*>(data), size}, rewrite);
-  if (!once.mistake.empty()) return 0;
+void check(FuzzBytes bytes) {
+  const Transcript once = transcript(bytes.rest(), rewrite);
+  if (!once.mistake.empty()) return;
   require(transcript(once.written, rewrite) == once, "a config written out reads back to itself");
-  return 0;
 }
+
+}  // namespace pipeline

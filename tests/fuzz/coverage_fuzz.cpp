@@ -8,6 +8,7 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "tests/coverage/center_rational.h"
 #include "tests/coverage/center_reference.h"
+#include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"
 #include "tests/text/text_input.h"
 
@@ -38,7 +39,7 @@ void check_triangle(const TextTriangle& triangle, const Viewport& screen) {
   }
 }
 
-void check(std::string_view config_text, std::string_view stage_text) {
+void check_texts(std::string_view config_text, std::string_view stage_text) {
   const TextFile config_file(config_text), stage_file(stage_text);
   TextReader config(config_file.descriptor(), "config"), text(stage_file.descriptor(), "in");
   const Viewport screen = read_config(config);
@@ -55,16 +56,15 @@ void check(std::string_view config_text, std::string_view stage_text) {
 }
 
 }  // namespace
-}  // namespace pipeline
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
+void check(FuzzBytes bytes) {
+  const std::string_view text = bytes.rest();
   const std::size_t blank_line = std::min(text.find("\n\n"), text.size());
   try {
-    pipeline::check(text.substr(0, blank_line), text.substr(std::min(blank_line + 2, text.size())));
-  } catch (const pipeline::InputError&) {
+    check_texts(text.substr(0, blank_line), text.substr(std::min(blank_line + 2, text.size())));
+  } catch (const InputError&) {
     // Other targets check text that is no config or no stage text.
   }
-  return 0;
 }
+
+}  // namespace pipeline

@@ -40,4 +40,7 @@ class FuzzBytes {
   std::size_t next_ = 0;
 };
 
+/// The check of a target, which ends the process if a claim does not hold (require).
+void check(FuzzBytes bytes);
+
 }  // namespace pipeline

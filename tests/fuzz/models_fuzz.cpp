@@ -64,6 +64,8 @@ std::size_t count_of_failures(const std::string& messages) {
   return count;
 }
 
+}  // namespace
+
 void check(FuzzBytes bytes) {
   static const std::vector<Option> kOptions = options_in(run({MESH2SCENE, "--help-all"}).output);
   const int letter = bytes.byte(), first = std::tolower(letter);
@@ -87,11 +89,4 @@ void check(FuzzBytes bytes) {
   require(run({MODEL, folder.path("scene.txt")}).status == 0, "what mesh2scene has written is a scene");
 }
 
-}  // namespace
 }  // namespace pipeline
-
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  pipeline::check(pipeline::FuzzBytes(data, size));
-  return 0;
-}

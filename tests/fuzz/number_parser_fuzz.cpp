@@ -8,6 +8,7 @@
 #include <string>
 
 #include "libpipeline/text/number_parser.h"
+#include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"
 
 namespace pipeline {
@@ -84,18 +85,14 @@ void check_exact_decimal(const std::string& word) {
 }
 
 }  // namespace
-}  // namespace pipeline
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string word(reinterpret_cast<const char*>(data), size);
+void check(FuzzBytes bytes) {
+  const std::string word(bytes.rest());
   // strtod would stop at a NUL in a word; the parser has to refuse it.
-  if (word.find('\0') != std::string::npos) {
-    pipeline::require(pipeline::parse_number(word).error == pipeline::NumberError::not_a_number,
-                      "NUL is no digit");
-    return 0;
-  }
-  pipeline::check_value(word);
-  pipeline::check_exact_decimal(word);
-  return 0;
+  if (word.find('\0') != std::string::npos)
+    return require(parse_number(word).error == NumberError::not_a_number, "NUL is no digit");
+  check_value(word);
+  check_exact_decimal(word);
 }
+
+}  // namespace pipeline

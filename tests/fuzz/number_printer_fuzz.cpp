@@ -67,6 +67,8 @@ void check_safety(double value, double error, NumberFormat format) {
           "a safe number may be larger");
 }
 
+}  // namespace
+
 void check(FuzzBytes bytes) {
   const NumberFormat format = {.decimals = bytes.whole(kMaxDecimals), .shortest = false};
   const double hi = bytes.number();
@@ -81,11 +83,4 @@ void check(FuzzBytes bytes) {
   check_safety(hi, std::ldexp(1.0, -bytes.whole(120)), format);
 }
 
-}  // namespace
 }  // namespace pipeline
-
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  pipeline::check(pipeline::FuzzBytes(data, size));
-  return 0;
-}

@@ -176,6 +176,8 @@ void check_any_options(FuzzBytes& bytes) {
   run_with_any(zbuf_main, "zbuf", projected.output, bytes);
 }
 
+}  // namespace
+
 void check(FuzzBytes bytes) {
   const int options = bytes.byte();
   if ((options & 64) != 0) return check_any_options(bytes);
@@ -196,11 +198,4 @@ void check(FuzzBytes bytes) {
   if ((options & 32) != 0) check_rays(viewed);
 }
 
-}  // namespace
 }  // namespace pipeline
-
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  pipeline::check(pipeline::FuzzBytes(data, size));
-  return 0;
-}

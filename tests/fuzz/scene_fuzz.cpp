@@ -3,6 +3,7 @@
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/vertex/model_stage.h"
+#include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/transcript.h"
 
 namespace pipeline {
@@ -28,10 +29,9 @@ void model(TextReader& text, TextWriter& output) {
 }
 
 }  // namespace
-}  // namespace pipeline
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  pipeline::transcript({reinterpret_cast<const char*>(data), size}, pipeline::model);
-  return 0;
+void check(FuzzBytes bytes) {
+  transcript(bytes.rest(), model);
 }
+
+}  // namespace pipeline

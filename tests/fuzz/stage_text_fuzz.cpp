@@ -3,6 +3,7 @@
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
+#include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/transcript.h"
 
 namespace pipeline {
@@ -17,7 +18,7 @@ void copy(TextReader& text, TextWriter& output, NumberFormat format) {
   writer.finish();
 }
 
-void check(std::string_view text, NumberFormat format) {
+void check_copies(std::string_view text, NumberFormat format) {
   const Work work = [=](TextReader& reader, TextWriter& writer) { copy(reader, writer, format); };
   const Transcript once = transcript(text, work);
   if (!once.mistake.empty()) return;
@@ -27,12 +28,10 @@ void check(std::string_view text, NumberFormat format) {
 }
 
 }  // namespace
-}  // namespace pipeline
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
-  pipeline::check(text, {.decimals = 7, .shortest = false});
-  pipeline::check(text, {.decimals = 7, .shortest = true});
-  return 0;
+void check(FuzzBytes bytes) {
+  check_copies(bytes.rest(), {.decimals = 7, .shortest = false});
+  check_copies(bytes.rest(), {.decimals = 7, .shortest = true});
 }
+
+}  // namespace pipeline
