@@ -13,22 +13,8 @@ namespace {
 const std::string kPlainTriangle = "0 0 0\n1 0 0\n0 1 0\n\n";
 const std::string kSphere = "sphere\n1 2 3\n3 2 3\n1 4 3\n1 2 5\n\n";
 
-/// What a stage makes of a text that it does not change.
-std::string copied(const std::string& text) {
-  const TextFile file(text), out("");
-  TextReader reader(file.descriptor(), "in.txt");
-  StageReader stage(reader);
-  stage.accept_spheres();
-  TextWriter writer(out.descriptor(), "out.txt");
-  StageWriter copy(writer, kShortest, false);
-  copy.write_header(stage.header());
-  for (TriangleBatch batch; stage.read(batch);) copy.write(batch);
-  copy.finish();
-  return out.whole_text();
-}
-
 std::string error_of_copy(const std::string& text) {
-  return message_of([&] { copied(text); });
+  return message_of([&] { copy_of(text); });
 }
 
 TEST(Spheres, AreReadAndWrittenAmongTriangles) {
@@ -36,7 +22,7 @@ TEST(Spheres, AreReadAndWrittenAmongTriangles) {
        {kSphere, kPlainTriangle + kSphere, kSphere + kPlainTriangle,
         kSphere + kSphere + kPlainTriangle + kPlainTriangle + kSphere,
         "triangle 7\n" + kSphere + kPlainTriangle, "framed\n" + kPlainTriangle + kSphere + "end\n"})
-    EXPECT_EQ(copied(text), text);
+    EXPECT_EQ(copy_of(text), text);
 }
 
 TEST(Spheres, FollowTheTrianglesOfTheirBatch) {

@@ -35,4 +35,18 @@ inline std::string written(const TriangleBatch& batch, NumberFormat format = {},
   return file.whole_text();
 }
 
+/// The text written from everything that a reader reads.
+inline std::string copy_of(const std::string& text, NumberFormat format = kShortest, bool bare = false) {
+  const TextFile in(text), out("");
+  TextReader reader(in.descriptor(), "in.txt");
+  TextWriter writer(out.descriptor(), "out.txt");
+  StageReader stage(reader);
+  stage.accept_spheres();
+  StageWriter copy(writer, format, bare);
+  copy.write_header(stage.header());
+  for (TriangleBatch batch; stage.read(batch);) copy.write(batch);
+  copy.finish();
+  return out.whole_text();
+}
+
 }  // namespace pipeline

@@ -30,23 +30,9 @@ const std::string kLooks =
 const std::string kFullTriangle =
     "1 2 3 0.1 4 5 6 0 0 1\n4 5 6 12.5 7 8 255 1 0 0\n7 8 9 1e+22 0 0 0 0 0 0\n\n";
 
-/// The text written from everything that a reader reads.
-std::string copy_of(const std::string& text, NumberFormat format, bool bare) {
-  const TextFile in(text);
-  const TextFile out("");
-  TextReader reader(in.descriptor(), "in.txt");
-  TextWriter writer(out.descriptor(), "out.txt");
-  StageReader stage(reader);
-  StageWriter copy(writer, format, bare);
-  copy.write_header(stage.header());
-  for (TriangleBatch batch; stage.read(batch);) copy.write(batch);
-  copy.finish();
-  return out.whole_text();
-}
-
 TEST(StageText, ColorAndLightComeBackAsTheyWere) {
   const std::string text = kLooks + kFullTriangle + "triangle 7\n" + kFullTriangle;
-  EXPECT_EQ(copy_of(text, {.shortest = true}, false), text);
+  EXPECT_EQ(copy_of(text), text);
 }
 
 /// Triangle `n` in fixed form, with the columns color, normal and material.
@@ -67,11 +53,11 @@ TEST(StageText, MaterialsComeBackAsTheyWereInBlocksAndLineByLine) {
     text += triangle;
     odd += n % 50 == 7 ? "\t" + triangle : triangle;
   }
-  EXPECT_EQ(copy_of(header + text, {.decimals = 2}, false), header + text);
-  EXPECT_EQ(copy_of(header + odd, {.decimals = 2}, false), header + text);
-  const std::string shortest = copy_of(header + text, {.shortest = true}, false);
+  EXPECT_EQ(copy_of(header + text, {.decimals = 2}), header + text);
+  EXPECT_EQ(copy_of(header + odd, {.decimals = 2}), header + text);
+  const std::string shortest = copy_of(header + text);
   EXPECT_NE(shortest, header + text);
-  EXPECT_EQ(copy_of(shortest, {.decimals = 2}, false), header + text);
+  EXPECT_EQ(copy_of(shortest, {.decimals = 2}), header + text);
 }
 
 TEST(StageText, AMaterialHasNoExponent) {
@@ -80,7 +66,7 @@ TEST(StageText, AMaterialHasNoExponent) {
   const std::string digits = "." + std::string(20, '0');  // more than fast paths print
   for (int vertex = 0; vertex < 3; ++vertex)
     text += "1" + digits + " 2" + digits + " 3" + digits + " 100000\n";
-  EXPECT_EQ(copy_of(text + "\n", {.decimals = 20}, false), text + "\n");
+  EXPECT_EQ(copy_of(text + "\n", {.decimals = 20}), text + "\n");
 }
 
 TEST(StageText, HeaderNumbersAndWKeepAllTheirDigits) {
