@@ -175,8 +175,11 @@ class Prefix(ToolTest):
             self.refuses([word, "1"], f"expected a command, found '{word}' (now {now})")
             self.refuses(["help", word], f"expected a command, found '{word}' (now {now})")
 
-    def test_a_stage_that_was_not_built_is_named(self):
-        self.refuses(["view"], f"view has not been built in {self.commands}".replace("\n", "?"))
+    def test_a_tool_that_was_not_built_is_named(self):
+        for tool in ("view", "trace"):
+            self.refuses([tool],
+                         f"no {tool} in {self.commands}: 'cmake --build --preset release' builds it".replace(
+                             "\n", "?"))
 
     def test_further_words_are_refused(self):
         for words in (["--version", "x"], ["--help", "x"], ["env", "x"], ["help", "show", "x"]):
