@@ -367,7 +367,7 @@ class EmptyPictures(ToolTest):
             black +
             "all that is seen is in shadow (--no-shadows lights it; ambient 0.2 0.2 0.2 would show it, too)")
         self.expect(black + "its colors are 0", "color 0 0 0\n", SPHERE)
-        self.expect(black + "its colors are within 0 and 1, but channels run from 0 to 255",
+        self.expect(black + "its colors lie between 0 and 1, but channels run from 0 to 255",
                     "color 1 0.5 0\n", SPHERE)
         self.expect(unlit, "light 0 0 -9 1 1 1\n", SPHERE)
         self.expect("", "light 0 0 -9 1 1 1\nambient 0.2 0.2 0.2\n", SPHERE)

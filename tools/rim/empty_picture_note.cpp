@@ -168,7 +168,7 @@ bool is_like_color(Vec3 channels) {
 /// Indexed by Darkness; # stands for the greatest value, "its" refers to what is black.
 constexpr std::array<const char*, kDarknessCount> kReasons = {
     "its colors are 0",
-    "its colors are within 0 and 1, but channels run from 0 to 255",
+    "its colors lie between 0 and 1, but channels run from 0 to 255",
     "no channel of its colors is above #, but channels run from 0 to 255",
     "mirrors and glass alone are seen, and they show a black background",
     "rays that may bring light are cut (--max-depth, --min-contribution)",
