@@ -8,6 +8,7 @@ import itertools
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import socket
@@ -21,7 +22,7 @@ import zlib
 from lib.showing.pictures import png_chunks, read_picture, unfiltered
 from random_scene import scene_of_parts as scene
 from ssh_server import SshServer
-from toolbox import BIN, SOURCE, ToolTest, pipe, run, run_script, tools_with
+from toolbox import BIN, CAMERA, NO_TRIANGLE, SOURCE, ToolTest, pipe, run, run_script, tools_with
 
 FARM = SOURCE / "scripts/farm"
 # Options of project and of zbuf.
@@ -54,16 +55,14 @@ def connection_of(process):
     return process
 
 
-def begun(farm, count, hosts=()):
-    """{output: the process of its model}, as soon as so many wait; in the hosts' folders, if any are
-    given."""
+def begun(farm, count, folders=""):
+    """{output: the process of its model}, as soon as so many wait in folders of this pattern."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end and farm.poll() is None:
         found = {}
         for path in pathlib.Path().glob("began-*"):
-            process, *folder = path.read_text().split(maxsplit=1) or ["0"]
-            if os.path.exists(f"/proc/{process}") and (not hosts
-                                                       or set(pathlib.Path(*folder).parts) & set(hosts)):
+            process, _, folder = path.read_text().partition(" ")
+            if os.path.exists(f"/proc/{process or 0}") and re.search(folders, folder):
                 found[f"seen-0-{path.stem[6:]}.txt"] = int(process)
         if len(found) >= count:
             return found
@@ -137,11 +136,9 @@ class Local(FarmTest):
                     self.assertFalse(pathlib.Path("farm.ppm.farm").exists())
 
     def test_notes_of_bands_are_about_the_whole_picture(self):
-        camera = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n"
-        for triangle, note in (("0 1 0\n1 2 0\n-1 2 0\nend\n", ""),
-                               ("0 9 0\n1 9 0\n-1 9 0\nend\n",
-                                "zbuf: note: the picture is empty: no triangle came\n")):
-            pathlib.Path("scene.txt").write_text(camera + triangle)
+        for y, note in ((1, ""), (9, NO_TRIANGLE)):
+            pathlib.Path("scene.txt").write_text(
+                f"{CAMERA}triangle\n0 {y} 0\n1 {y + 1} 0\n-1 {y + 1} 0\nend\n")
             self.assertEqual(self.farm("--bands", "2", "--z-buffer", "none"), (0, note))
             self.assertFalse(os.path.exists("none"))
 
@@ -246,7 +243,7 @@ class OtherMachines(FarmTest):
         self.expect(True, *SETTINGS[1])
         self.bin = tools_with("model", HOLD.format(pathlib.Path.cwd()))
         process = self.start("--parts", "4", "--keep", *hosts)
-        (one, first), (two, second), *_ = begun(process, 2, ("w1", "w2")).items()
+        (one, first), (two, second), *_ = begun(process, 2, "/w[12]/").items()
         connection = connection_of(first)
         self.assertNotEqual(connection, server.process.pid)
         os.kill(connection, signal.SIGKILL)
