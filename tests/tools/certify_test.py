@@ -48,6 +48,13 @@ class Bounds(ToolTest):
         ndc = pipe(["project", "--digits", "2"], stdin=text.split("\n", 3)[3].replace("world", "view"))
         self.assertIn(b"bounds ndc 0.005 0 0.005", ndc)
 
+    def test_a_triangle_that_bounds_keep_from_the_screen_is_dropped(self):
+        """Nearer than near / 1024 it is clipped, and nothing is left; farther away it stays whole."""
+        for distance, is_possible in ((0.00096, False), (0.00097, True)):
+            text = "perspective 60 1 1 100\nbounds view 1e-5 0\n0 0 -{0}\n1 0 -{0}\n0 1 -{0}\n\n".format(
+                distance)
+            self.assertEqual(b"\nclipped\n" in pipe(["project"], stdin=text), is_possible)
+
     def test_what_has_no_bounds_is_refused(self):
         sphere, bounded = CAMERA + "sphere 0 0 0 1\nend\n", "ortho -1 1 -1 1 1 9\nbounds view 0 0\n"
         zbuf = ["zbuf", "config.txt", *CENTER]
