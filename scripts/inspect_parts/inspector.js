@@ -25,13 +25,16 @@ const STARTS = {
   project: {yaw: -0.45, pitch: 0.3},
 };
 const counted = (count, word) => `${count.toLocaleString("en")} ${word}${count === 1 ? "" : "s"}`;
+// The stages whose texts a panel needs: colors of wireframes need two.
+const NEEDS = {"wire-model": ["model", "view", "project"], "wire-view": ["view", "project"], "wire-project": ["view", "project"], drawer: ["project"],
+  "text-model": ["model"], "text-view": ["view"], "text-project": ["project"], "text-zbuf": ["zbuf"]};
 const NOTHING = {triangle: -1, pixel: -1};
 
 export class Inspector {
   // `root` has the elements of page.html. It writes to the page's address only if it `hasAddress`. `kept` is the result of dispose() of
-  // the inspector before an edit of the scene.
-  constructor(root, data, {hasAddress = true, kept = null} = {}) {
-    Object.assign(this, {root, data, hasAddress, listening: new AbortController()});
+  // the inspector before an edit of the scene. `isOnScreen(element)` is false for panels that need not be made yet.
+  constructor(root, data, {hasAddress = true, kept = null, isOnScreen = () => true} = {}) {
+    Object.assign(this, {root, data, hasAddress, isOnScreen, listening: new AbortController()});
     this.held = NOTHING;
     this.shown = NOTHING;
     this.palette = new Palette(document.documentElement, this.listening.signal);
@@ -62,6 +65,12 @@ export class Inspector {
     return {held: this.held, tab: this.tabs.shown, poses: this.panels.map(({wire}) => wire.view.pose)};
   }
 
+  // Draws wireframes that have come on the screen, and returns the stages whose texts are needed there.
+  look() {
+    for (const {wire} of this.panels) wire.drawIfLate();
+    return Object.keys(NEEDS).filter(id => this.isOnScreen(this.one("#" + id))).flatMap(id => NEEDS[id]);
+  }
+
   one(selector) { return this.root.querySelector(selector); }
 
   all(selector) { return this.root.querySelectorAll(selector); }
@@ -90,7 +99,7 @@ export class Inspector {
     this.one("#stages").append(element("figure", {}, element("figcaption", {}, tool, element("span", {title}, title), element("span", {title: remark}, remark && `(${remark})`), fit), pane));
     const box = element("div", {class: "text", id: "text-" + tool, tabindex: 0, role: "group", "aria-label": `text after ${tool}`});
     this.one("#texts").append(element("section", {}, element("h2", {}, tool, " ", element("span", {}, "lines from 1")), box));
-    const wire = new Wireframe(pane, stage, {start: STARTS[tool], pose}, name => this.fates.kindOf(name), this.palette);
+    const wire = new Wireframe(pane, stage, {start: STARTS[tool], pose, isOnScreen: this.isOnScreen}, name => this.fates.kindOf(name), this.palette);
     fit.onclick = canvas.ondblclick = () => wire.fit();
     const {numbers} = stage, text = new TextPanel(box, stage.lines, {
       numberOf: index => numbers ? numbers[index] || "" : index + 1,
@@ -205,7 +214,8 @@ export class Inspector {
     const count = this.fragments.shownPixels[name];
     if (count) return `shown in ${count} pixel${count === 1 ? "" : "s"}`;
     if (this.fragments.hasFragment[name] & 1) return "hidden in all its pixels";
-    return this.data.step === 1 && !this.panels[2].stage.piecesOf(name).length ? "dropped by project: outside or culled" : "without a pixel: outside, or too thin";
+    const {stage} = this.panels[2];
+    return !stage.numbers && !stage.piecesOf(name).length ? "dropped by project: outside or culled" : "without a pixel: outside, or too thin";
   }
 
   // "#pixel=COLUMN,ROW" or "#triangle=N" in the address selects one.

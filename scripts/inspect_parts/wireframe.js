@@ -23,9 +23,9 @@ function joined(a, b) {
 
 export class Wireframe {
   // `pane` has a canvas and another one above it, for marks. The first view is `pose`, if there is one, else `start`. `kindOf(name)` is
-  // the fate of a triangle or a sphere, one of KINDS.
-  constructor(pane, stage, {start, pose}, kindOf, palette) {
-    Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, rays: [], theirs: null, index: null, isDirty: false});
+  // the fate of a triangle or a sphere, one of KINDS. It is drawn only while `isOnScreen(pane)`, and made up for by drawIfLate().
+  constructor(pane, stage, {start, pose, isOnScreen}, kindOf, palette) {
+    Object.assign(this, {pane, stage, isOnScreen, palette, names: stage.names, guide: stage.guide, highlighted: -1, rays: [], theirs: null, index: null, isDirty: false});
     [this.canvas, this.mark] = pane.querySelectorAll("canvas");
     this.view = new Turntable(start, stage.guide, joined(stage.points, stage.spheres.outermost()));
     [this.layers, this.sphereLayers] = [stage.names, stage.spheres.names].map(names => Uint8Array.from(names, name => KINDS.indexOf(kindOf(name))));
@@ -68,9 +68,13 @@ export class Wireframe {
     requestAnimationFrame(() => this.draw());
   }
 
+  drawIfLate() { if (this.isLate) this.draw(); }
+
   draw() {
     const {ink, x, y, layers, palette} = this, context = this.canvas.getContext("2d");
     this.isDirty = false;
+    this.isLate = !this.isOnScreen(this.pane);
+    if (this.isLate) return;
     this.index = null;
     this.view.placeAll(this.stage.points, x, y, this.near);
     ink.clear();

@@ -4,7 +4,6 @@ import {autocompletion, completeFromList} from "@codemirror/autocomplete";
 import {defaultKeymap, history, historyKeymap, isolateHistory} from "@codemirror/commands";
 import {HighlightStyle, StreamLanguage, syntaxHighlighting} from "@codemirror/language";
 import {lintGutter, setDiagnostics} from "@codemirror/lint";
-import {EditorState} from "@codemirror/state";
 import {EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers} from "@codemirror/view";
 import {tags} from "@lezer/highlight";
 
@@ -35,15 +34,13 @@ export class Editor {
   constructor(box, name, changed) {
     this.isOwn = false;
     const language = name === "scene.txt" ? [scenes, syntaxHighlighting(colors), autocompletion({override: [completeFromList(COMPLETIONS)]})] : [scenes, syntaxHighlighting(colors)];
-    this.extensions = [
+    const extensions = [
       lineNumbers(), history(), drawSelection(), highlightActiveLine(), lintGutter(), ...language, theme, keymap.of([...defaultKeymap, ...historyKeymap]),
       EditorView.contentAttributes.of({"aria-label": name, spellcheck: "false", tabindex: "0"}),
       EditorView.updateListener.of(update => { if (update.docChanged && !this.isOwn) changed(); }),
     ];
-    this.view = new EditorView({state: this.stateOf(""), parent: box});
+    this.view = new EditorView({extensions, parent: box});
   }
-
-  stateOf(text) { return EditorState.create({doc: text, extensions: this.extensions}); }
 
   // One string for each version of the text, since a long one is asked for several times.
   get text() {

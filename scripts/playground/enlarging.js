@@ -3,7 +3,9 @@
 const PANELS = "figure, #pixel, #texts > section, #drawer, #source > section, #own", CAPTIONS = "figcaption, h2, summary, #tabs, .enlarge";
 
 export class Enlarging {
-  constructor() {
+  // Calls `changed` when other panels have come into sight.
+  constructor(changed) {
+    this.changed = changed;
     this.id = "";  // of the panel, or of the first part of it that has one, since the inspector makes its panels anew
     document.addEventListener("dblclick", event => { if (event.target.closest(CAPTIONS) && !event.target.closest("button, select")) this.toggle(event.target); });
     document.addEventListener("keydown", event => {
@@ -15,6 +17,14 @@ export class Enlarging {
     }, {capture: true});
   }
 
+  // The panel that fills the window.
+  get panel() { return document.getElementById(this.id)?.closest(PANELS); }
+
+  isOnScreen(element) {
+    const {top, bottom, width} = element.getBoundingClientRect();
+    return width > 0 && bottom > 0 && top < innerHeight && (!this.id || Boolean(this.panel?.contains(element)));
+  }
+
   toggle(target) {
     const panel = target.closest(PANELS);
     if (panel) this.show(panel.matches(".large") ? "" : panel.id || panel.querySelector("[id]").id);
@@ -23,7 +33,7 @@ export class Enlarging {
   show(id = this.id) {
     this.id = id;
     for (const panel of document.querySelectorAll(".large")) panel.classList.remove("large");
-    const part = id && document.getElementById(id);
-    if (part) part.closest(PANELS).classList.add("large");
+    if (this.panel) this.panel.classList.add("large");
+    this.changed();
   }
 }

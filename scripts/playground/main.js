@@ -9,6 +9,7 @@ import {keep, kept} from "./keeping.js";
 import {ROWS} from "./language.js";
 import {checked, expectLines, hashOf, kindOf, stateOf} from "./link.js";
 import {OwnPanel} from "./own_panel.js";
+import {STAGES} from "./pipe.js";
 import {PipeClient} from "./pipe_client.js";
 import {STEPS} from "./tour.js";
 import {VERSION, importerModule, texts, toolModule, workerAddress} from "./resources.js";
@@ -29,7 +30,8 @@ class Playground {
     this.editors = {scene: new Editor(one("#scene"), "scene.txt", () => this.editedInput()), config: new Editor(one("#config"), "config.txt", () => this.editedInput())};
     this.isWork = false;  // true if the reader has changed the sample or the link
     this.own = new OwnPanel(this, mistakes);
-    this.enlarging = new Enlarging();
+    this.enlarging = new Enlarging(() => this.look());
+    this.watch = new IntersectionObserver(() => this.look());
     this.client = new PipeClient(module, worker, {drawn: picture => this.preview(picture), answered: answer => this.show(answer), busy: isBusy => { one("#stop").hidden = !isBusy; }});
     this.line = new CommandLine(one("#line"), tool => this.client.ask({help: tool}).then(({text}) => text), () => this.editedInput());
     one("#samples").append(...Object.keys(samples).map(name => new Option(name, name)));
@@ -106,6 +108,7 @@ class Playground {
     one("#picture").onclick = () => one("#image").toBlob(blob => this.save("out.png", blob));
     one("#files").onclick = () => this.saveFiles();
     one("#stop").onclick = () => this.client.stop();
+    one("#own").ontoggle = () => this.look();
     this.step = 0;
     one("#tour").onclick = () => { const {hidden} = one("#steps"); one("#steps").hidden = !hidden; one("#tour").setAttribute("aria-expanded", hidden); if (hidden) { this.goToStep(0); one("#after").focus(); } };
     one("#before").onclick = () => this.goToStep(this.step - 1);
@@ -156,10 +159,20 @@ class Playground {
     this.state = {...this.state, ...parts};
   }
 
-  // The last output of a stage; for model, the scene.
+  // The last output of a stage; for model, the scene; null if a run must first bring it.
   textOf(tool) {
-    const stage = this.inspector && this.inspector.data.stages.find(other => other.tool === tool);
-    return tool === "scene" ? this.editors.scene.text : stage ? stage.text : "";
+    if (tool === "scene") return this.editors.scene.text;
+    return this.inspector?.data.shown.includes(tool) ? this.inspector.data.stages.find(other => other.tool === tool).text : null;
+  }
+
+  // Runs the last state again if the screen, or the reader's own stage, needs texts of more stages.
+  look() {
+    if (!this.inspector) return;
+    const {shown} = this.inspector.data, needed = this.inspector.look();
+    this.client.shown = this.own.isInUse ? STAGES : needed;
+    if (this.client.shown.every(tool => shown.includes(tool)) || one("#glass").matches(".stale")) return;
+    this.client.shown = [...new Set([...shown, ...this.client.shown])];
+    if (this.client.running === null) this.client.run(this.client.state, this.client.isQuick);
   }
 
   goToStep(step) {
@@ -241,10 +254,15 @@ class Playground {
     if (failed && this.inspector) this.inspector.pixels.showImage(this.inspector.data.pixels);  // in place of a newer run's preview
     if (failed && !this.inspector) one("#waiting").textContent = "Nothing to show yet: the messages say why.";
     if (failed) return;
-    const kept = this.inspector && this.inspector.dispose(), parts = one("#inspector").content.cloneNode(true);
+    const kept = this.inspector && this.inspector.dispose(), parts = one("#inspector").content.cloneNode(true), {id} = document.activeElement;
+    document.body.style.minHeight = `${document.body.scrollHeight}px`;  // else the page would scroll up
     one("#glass").replaceChildren(one("#older"), parts);
     if (data.isTraced) one("#glass #pixels figcaption span").textContent = "trace";
-    this.inspector = new Inspector(one("#glass"), data, {hasAddress: false, kept});
+    this.inspector = new Inspector(one("#glass"), data, {hasAddress: false, kept, isOnScreen: element => this.enlarging.isOnScreen(element)});
+    document.body.style.minHeight = "";
+    if (id) document.getElementById(id)?.focus({preventScroll: true});
+    this.watch.disconnect();
+    for (const panel of one("#glass").querySelectorAll("figure, .text, #drawer")) this.watch.observe(panel);
     document.body.dataset.runs = Number(document.body.dataset.runs || 0) + 1;
     this.enlarging.show();
     this.own.judge(data.theirs, data.columns * data.rows);

@@ -43,10 +43,13 @@ export class OwnPanel {
     [this.tool.value, this.kind.value, this.editor.text] = [mine.tool, mine.kind, mine.text];
   }
 
+  // Whether it needs the texts of all stages.
+  get isInUse() { return one("#own").open || Boolean(this.stage) || this.isAgain || this.isRunning; }
+
   // Shows the reader's text, or one to begin with: a template, or our stage's output.
   offer() {
     this.set(null);
-    this.editor.text = this.drafts.get(this.name) ?? (this.kind.value === "js" ? TEMPLATES[this.tool.value] : this.page.textOf(this.tool.value));
+    this.editor.text = this.drafts.get(this.name) ?? (this.kind.value === "js" ? TEMPLATES[this.tool.value] : this.page.textOf(this.tool.value) ?? "");
   }
 
   // After an edit, a text runs at once, code on Run.
@@ -78,11 +81,13 @@ export class OwnPanel {
     if (this.page.isTraced) return this.tell("A stage of your own is drawn by project | zbuf.");
     if (this.kind.value === "text") return this.set({tool, text});
     this.forget();
-    const run = this.runs, printed = one("#own-printed");
+    const run = this.runs, printed = one("#own-printed"), input = this.page.textOf(BEFORE[tool]);
+    this.isAgain = input === null;
+    if (this.isAgain) return this.page.look();
     this.isRunning = true;
     printed.textContent = "";
     try {
-      const made = await runCode(text, [this.page.textOf(BEFORE[tool]), this.page.config], line => { if (run === this.runs) printed.append(line, "\n"); });
+      const made = await runCode(text, [input, this.page.config], line => { if (run === this.runs) printed.append(line, "\n"); });
       if (run === this.runs) this.set({tool, text: made});
     } catch (error) {
       if (run !== this.runs) return;

@@ -38,9 +38,10 @@ export class Pipe {
     return result;
   }
 
-  // The data of an Inspector, and the messages of every stage. With `isQuick`, only the visible fragment of each pixel is listed: all
-  // fragments take ten times as long as the picture. Calls `drawn` with the picture as soon as it is there. Throws a StageFailure.
-  async run({scene, config, words, own}, isQuick, drawn) {
+  // The data of an Inspector, with the whole texts of the stages in `shown`, and the messages of every stage. With `isQuick`, only the
+  // visible fragment of each pixel is listed: all fragments take ten times as long as the picture. Calls `drawn` with the picture as soon as
+  // it is there. Throws a StageFailure.
+  async run({scene, config, words, own, shown}, isQuick, drawn) {
     const isTraced = typeof words.trace === "string";
     if (/(^| )--rows\b/.test(words.zbuf)) throw new Error("--rows draws a part of the picture, which this page cannot show");
     const results = [], messages = [], logs = isQuick && !/--samples/.test(words.zbuf) ? ["--triangle-array", TRIANGLES, "--depth-array", DEPTHS] : ["--fragments", FRAGMENTS];
@@ -68,7 +69,7 @@ export class Pipe {
       input = tool === "view" && isTraced ? await this.faceted(results, scene) : done.output;
     }
     const [, rule] = words.zbuf.match(/--coverage[ =]+(\S+)/) || [], options = [...wordsOf(words.project), ...rule ? ["--coverage", rule] : []];
-    const data = {...this.inspected(results, config), ...picture, isTraced, options, coverage: rule}, isLarge = data.step > 1;
+    const data = {...this.inspected(results, config, shown), ...picture, isTraced, options, coverage: rule}, isLarge = data.step > 1;
     if (own && isLarge) messages.push({tool: "page", line: `page: note: a stage of your own is compared in scenes of up to ${MOST_DRAWN} triangles`});
     else if (own && !isTraced) data.theirs = await this.withOwn(own, results, {config, words, picture});
     return {data, messages, isQuick: logs[0] !== "--fragments" && !isLarge};
@@ -114,17 +115,17 @@ export class Pipe {
     return (await this.stage("view", [], world.output, {}, "faceted view")).output;
   }
 
-  inspected(results, config) {
+  inspected(results, config, shown) {
     const counts = results.map(done => pairsOf(textOf(done.read(COUNTS)))), zbuf = results[3];
     const step = Math.max(1, Math.ceil(new Map(counts[0]).get("triangles") / MOST_DRAWN));
-    const texts = results.slice(0, 3).map(done => partOf(done.output, step)), [model] = texts;
+    const texts = results.slice(0, 3).map(done => partOf(done.output, shown.includes(done.tool) ? step : Infinity)), [model] = texts;
     if (model.count > MOST_TRIANGLES) throw new Error(`triangles are numbered up to ${model.count}, which is more than this page can show`);
     const {columns, rows} = imageOf(zbuf.read(IMAGE));
-    const depths = textOf(zbuf.output), stages = texts.map((text, i) => this.stageData(results[i], text, counts[i], model.count));
+    const depths = shown.includes("zbuf") ? textOf(zbuf.output) : "", stages = texts.map((text, i) => this.stageData(results[i], text, counts[i], model.count));
     stages.push({tool: "zbuf", title: "pixels", seconds: zbuf.seconds, triangles: texts[2].pieces, bytes: zbuf.output.length, statistics: counts[3], text: depths});
     const log = zbuf.read(FRAGMENTS), fragments = log ? textOf(log) : seenOf(zbuf.read(TRIANGLES), zbuf.read(DEPTHS));
     return {
-      scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres, step, stages, notes: step > 1 ? ["Hidden fragments are left out."] : [], limits: limitsOf(config),
+      scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres, step, shown, stages, notes: step > 1 ? ["Hidden fragments are left out."] : [], limits: limitsOf(config),
       explanations: [], fragments, leftOut: 0,
     };
   }

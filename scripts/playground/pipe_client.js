@@ -7,7 +7,7 @@ export class PipeClient {
   // `module` is the compiled WebAssembly.Module, `workerAddress` the address of the worker's script. Calls `drawn` with the picture of a
   // run, `answered` with its whole answer, and `busy` with true when a run has taken a while, with false at its end.
   constructor(module, workerAddress, {drawn, answered, busy}) {
-    Object.assign(this, {module, workerAddress, drawn, answered, busy, id: 0, running: null, next: null, waiting: new Map()});
+    Object.assign(this, {module, workerAddress, drawn, answered, busy, id: 0, running: null, next: null, waiting: new Map(), shown: []});
     this.start();
   }
 
@@ -18,19 +18,19 @@ export class PipeClient {
     this.worker.postMessage({module: this.module});
   }
 
-  // Runs a state, at first quickly; after a pause without another state, with all fragments.
-  run(state) {
+  // Runs a state, at first quickly; after a pause without another state, with all fragments. `shown` are the stages whose texts are needed.
+  run(state, isQuick = true) {
     clearTimeout(this.later);
     this.isPending = false;
-    this.next = {state, isQuick: true};
+    this.next = {state, isQuick};
     if (this.running === null) this.send();
   }
 
   send() {
     if (!this.next) return;
     this.running = ++this.id;
-    this.worker.postMessage({id: this.running, ...this.next});
-    this.state = this.next.state;
+    const {state, isQuick} = Object.assign(this, this.next);
+    this.worker.postMessage({id: this.running, state: {...state, shown: this.shown}, isQuick});
     this.next = null;
     this.timer = setTimeout(() => this.busy(true), SOON);
   }
@@ -56,7 +56,7 @@ export class PipeClient {
     if (answer.picture) return this.drawn(answer.picture);
     this.end();
     this.isPending = answer.isQuick && !this.next;  // the slow part
-    if (this.isPending) this.later = setTimeout(() => { this.isPending = false; this.next = {state: this.state, isQuick: false}; this.send(); }, PAUSE);
+    if (this.isPending) this.later = setTimeout(() => this.run(this.state, false), PAUSE);
     this.send();
     if (this.running !== null) return;  // a newer state runs: of this one, only the picture is shown
     try {

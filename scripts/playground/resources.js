@@ -4,14 +4,10 @@ import {bytesOf} from "../inspect_parts/pack.js";
 
 export const VERSION = PIPELINE_VERSION;
 
-async function fetched(name) {
-  const answer = await fetch(name);
-  if (!answer.ok) throw new Error(`${name}: ${answer.status}`);
-  return answer;
-}
-
 async function dataOf(name) {
-  const bytes = IN_FOLDER ? await (await fetched(`${name}.bin`)).arrayBuffer() : bytesOf(document.getElementById(`${name}-data`).textContent.trim());
+  const answer = IN_FOLDER && await fetch(`${name}.bin`);
+  if (answer && !answer.ok) throw new Error(`${name}.bin: ${answer.status}`);
+  const bytes = answer ? await answer.arrayBuffer() : bytesOf(document.getElementById(`${name}-data`).textContent.trim());
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate")));
 }
 

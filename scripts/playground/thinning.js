@@ -1,4 +1,5 @@
-// The part of a stage's text that the panels get: all, or of a long text the header, all spheres, and one triangle in `step`.
+// The part of a stage's text that the panels get: all, or of a long text the header, all spheres, and one triangle in `step`; of a text that
+// no panel shows, `step` is Infinity.
 
 import {textOf} from "./tools.js";
 
