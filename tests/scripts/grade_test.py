@@ -30,8 +30,7 @@ from grade_parts.summary import findings
 from lib.judging.mistakes import fix, sentences
 from lib.judging.verdict import Cause, FileVerdict, Verdict
 from lib.rim.command import CommandFailure
-from toolbox import (BIN, SOURCE, ToolTest, end_by_signal, heed_signals, pseudo_terminal, run_script,
-                     tools_with)
+from toolbox import BIN, SOURCE, Terminal, ToolTest, end_by_signal, heed_signals, run_script, tools_with
 
 SAMPLE = SOURCE / "samples/worked-example"
 FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
@@ -313,14 +312,10 @@ class Results(ClassTest):
 
     def test_a_bar_on_a_terminal(self):
         self.add("anna")
-        ours, theirs = pseudo_terminal()
+        terminal = Terminal(self)
         subprocess.run([SOURCE / "scripts/grade", "hand-ins", "tests"], stdout=subprocess.DEVNULL,
-                       stderr=theirs, env={**os.environ, "BIN": str(BIN)}, check=True)
-        os.close(theirs)
-        shown = os.read(ours, 10000)
-        os.close(ours)
-        self.assertIn(b"] 0/1", shown)
-        self.assertIn(b"[" + b"#" * 30 + b"] 1/1", shown)
+                       stderr=terminal.channel, env={**os.environ, "BIN": str(BIN)}, check=True)
+        self.assertRegex(terminal.shown(), rb"(?s)\] 0/1.*\[#{30}\] 1/1")
 
     def test_a_table_that_cannot_be_printed_is_said(self):
         self.add("anna")

@@ -16,7 +16,7 @@ import unittest
 from unittest import mock
 
 from browser import MISSING, Browser
-from toolbox import BIN, SOURCE, ToolTest, pipe, pseudo_terminal, run, run_script, stage_texts, tools_with
+from toolbox import BIN, SOURCE, Terminal, ToolTest, pipe, run, run_script, stage_texts, tools_with
 
 TAB, ESCAPE, LEFT, UP, RIGHT, DOWN, HOME, SHIFT = ("\ue004", "\ue00c", "\ue012", "\ue013", "\ue014", "\ue015",
                                                    "\ue011", "\ue008")
@@ -58,12 +58,10 @@ class Messages(ToolTest):
 
     def test_per_cent_on_a_terminal(self):
         pathlib.Path("scene.txt").write_text(SCENE)
-        ours, theirs = pseudo_terminal()
+        terminal = Terminal(self)
         subprocess.run([SOURCE / "scripts/inspect", "scene.txt", "config.txt", "-o", "page.html"],
-                       stderr=theirs, env={**os.environ, "BIN": str(BIN)}, check=True)
-        os.close(theirs)
-        shown = os.read(ours, 10000)
-        os.close(ours)
+                       stderr=terminal.channel, env={**os.environ, "BIN": str(BIN)}, check=True)
+        shown = terminal.shown()
         self.assertRegex(shown, rb"\A\r\[\.{30}\] 0%")
         self.assertRegex(shown, rb"\r\[#{14}\.{16}\] 48%, \d+ s left")
         self.assertTrue(shown.endswith(b"\r\x1b[K"))

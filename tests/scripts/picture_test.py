@@ -11,7 +11,7 @@ import time
 import unittest
 
 from lib.running.spheres import has_the_word
-from toolbox import BIN, SOURCE, ToolTest, expect_mesh2scene, pipe, pseudo_terminal, run
+from toolbox import BIN, SOURCE, Terminal, ToolTest, expect_mesh2scene, pipe, run
 
 
 def setUpModule():  # noqa: N802
@@ -83,11 +83,8 @@ class Picture(ToolTest):
             done = subprocess.run([SOURCE / "scripts/picture", *words, *more], capture_output=True,
                                   env={**os.environ, "BIN": str(BIN)})
             self.assertEqual((done.stdout, done.stderr), (pathlib.Path("one.png").read_bytes(), b""))
-        reader, terminal = pseudo_terminal()
-        done = subprocess.run([SOURCE / "scripts/picture", *words], stdout=terminal, stderr=subprocess.PIPE,
-                              env={**os.environ, "BIN": str(BIN)})
-        os.close(terminal)
-        os.close(reader)
+        done = subprocess.run([SOURCE / "scripts/picture", *words], stdout=Terminal(self).channel,
+                              stderr=subprocess.PIPE, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual(
             (done.returncode, done.stderr),
             (2, b"picture: expected -o FILE, such as -o vase.png, found a terminal for the picture (try "

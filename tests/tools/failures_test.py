@@ -9,8 +9,8 @@ import socket
 import subprocess
 import unittest
 
-from toolbox import (BIN, CAMERA, DRAWING, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command,
-                     pseudo_terminal, run, run_with, stage_texts, tool_inputs)
+from toolbox import (BIN, CAMERA, DRAWING, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, Terminal, ToolTest,
+                     command, run, run_with, stage_texts, tool_inputs)
 
 WHY = "model: <stdin>:9:1: expected 'end', which closes a scene, found the end of the input"
 OLD_IMAGE = b"an older image\x00\xff"
@@ -68,13 +68,10 @@ class ErrorLines(ToolTest):
                               f"{tool}: no output: model failed")
 
     def test_at_a_terminal_the_message_is_enough(self):
-        ours, theirs = pseudo_terminal()
-        self.addCleanup(os.close, ours)
-        with open(theirs, "wb") as terminal:
-            self.assert_fails(run("view", stdin="error model: a mistake\n", stdout=terminal), 1,
-                              "view: no output: model failed")
-            terminal.write(b"nothing else\n")
-        self.assertEqual(os.read(ours, 100), b"nothing else\r\n")
+        terminal = Terminal(self)
+        self.assert_fails(run("view", stdin="error model: a mistake\n", stdout=terminal.channel), 1,
+                          "view: no output: model failed")
+        self.assertEqual(terminal.shown(), b"")
 
     def test_a_tool_that_draws_says_that_there_is_no_picture(self):
         for tool in DRAWING:

@@ -11,8 +11,8 @@ import subprocess
 import time
 import unittest
 
-from toolbox import (ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, TRIANGLE, ToolTest, add_claims, command,
-                     pseudo_terminal, run, run_with, stage_texts)
+from toolbox import (ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, TRIANGLE, Terminal, ToolTest, add_claims,
+                     command, run, run_with, stage_texts)
 
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
 OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"], "trace": ["config.txt"]}
@@ -169,18 +169,11 @@ class MissingChannels(FaultTest):
             self.assertEqual(run_with("<&- >&- 2>&-", tool, *OPERANDS[tool]).returncode, 1)
 
 
-class Terminal(ToolTest):
-    def test_a_terminal_shows_a_mistake_once(self):
-        ours, theirs = pseudo_terminal()
-        try:
-            done = run("model", stdin="x\n", stdout=theirs)
-            self.assertEqual(done.returncode, 1)
-            os.set_blocking(ours, False)
-            with self.assertRaises(BlockingIOError):
-                os.read(ours, 100)
-        finally:
-            os.close(ours)
-            os.close(theirs)
+class OnATerminal(ToolTest):
+    def test_a_mistake_is_shown_once(self):
+        terminal = Terminal(self)
+        self.assertEqual(run("model", stdin="x\n", stdout=terminal.channel).returncode, 1)
+        self.assertEqual(terminal.shown(), b"")
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import re
 import subprocess
 import unittest
 
-from toolbox import (BIN, CONFIG, SCENE, TRIANGLE, ToolTest, add_claims, alternatives, pseudo_terminal, run,
+from toolbox import (BIN, CONFIG, SCENE, TRIANGLE, Terminal, ToolTest, add_claims, alternatives, run,
                      stage_texts)
 
 # The second triangle is hidden.
@@ -155,9 +155,7 @@ class Outputs(ToolTest):
                 pathlib.Path(file).write_bytes(text)
         settings = {"PATH": f"{BIN}:{os.environ['PATH']}"}
         if "TERMINAL" in line:
-            for end in (ends := pseudo_terminal()):
-                self.addCleanup(os.close, end)
-            settings["TERMINAL"] = os.ttyname(ends[1])
+            settings["TERMINAL"] = os.ttyname(Terminal(self).channel)
         if preparation:
             subprocess.run(preparation, shell=True, check=True)
         before = self.contents()

@@ -112,6 +112,22 @@ def pseudo_terminal():
         raise unittest.SkipTest(f"no pseudo-terminal: {error.strerror}") from None
 
 
+class Terminal:
+    """A pseudo-terminal that is open until the test ends; programs write to its `channel`."""
+    def __init__(self, test):
+        self.reader, self.channel = pseudo_terminal()
+        for end in (self.reader, self.channel):
+            test.addCleanup(os.close, end)
+
+    def shown(self):
+        """The bytes that it shows."""
+        os.write(self.channel, b"|")  # marks their end
+        shown = b""
+        while not shown.endswith(b"|"):
+            shown += os.read(self.reader, 65536)
+        return shown[:-1]
+
+
 def end_by_signal(process, number):
     """The text that a waiting process has written to stdout and stderr when the signal has ended it. Python
     may be about to wait when a signal arrives and would then notice it only after the next one, so the signal

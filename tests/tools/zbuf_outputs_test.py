@@ -14,8 +14,7 @@ import unittest
 import zlib
 
 from lib.showing import pictures
-from toolbox import (CAMERA, NO_TRIANGLE, ToolTest, command, pipe, pseudo_terminal, run, run_script,
-                     stage_texts)
+from toolbox import CAMERA, NO_TRIANGLE, Terminal, ToolTest, command, pipe, run, run_script, stage_texts
 
 # The lower left half of the screen, and all of it.
 HALF = "-1.0000000 -1.0000000 0.0000000\n1.0000000 -1.0000000 0.0000000\n-1.0000000 1.0000000 0.0000000\n\n"
@@ -208,19 +207,13 @@ class Depths(OutputTest):
                               f"zbuf: {option}: expected --samples 1 with it, found '2' (try zbuf --help)")
 
 
-class Terminal(OutputTest):
+class OnATerminal(OutputTest):
     def shown(self, *words, text):
         """The texts on the terminal and on stderr."""
-        reader, terminal = pseudo_terminal()
-        done = run("zbuf", *words, stdin=text, stdout=terminal)
-        os.write(terminal, b"|")  # marks the end of the output
-        shown = b""
-        while not shown.endswith(b"|"):
-            shown += os.read(reader, 65536)
-        os.close(terminal)
-        os.close(reader)
+        terminal = Terminal(self)
+        done = run("zbuf", *words, stdin=text, stdout=terminal.channel)
         self.assertEqual(done.returncode, 0)
-        return shown[:-1].replace(b"\r\n", b"\n"), done.stderr.decode()
+        return terminal.shown().replace(b"\r\n", b"\n"), done.stderr.decode()
 
     def test_is_not_flooded_by_depths(self):
         self.assertEqual(self.shown("--size", "40x20", text=ALL), (b"", "out.bmp: 40 x 20, 100 % covered\n"))

@@ -11,7 +11,7 @@ import subprocess
 import unittest
 
 from scanline_test import zbuf
-from toolbox import CAMERA, CONFIG, SOURCE, ToolTest, command, pipe, pseudo_terminal, run
+from toolbox import CAMERA, CONFIG, SOURCE, Terminal, ToolTest, command, pipe, run
 
 TRIANGLE = "0 0 0\n1 0 0\n0 1 0\n\n"
 
@@ -102,15 +102,9 @@ class Progress(ToolTest):
         return done
 
     def on_a_terminal(self, seconds):
-        reader, terminal = pseudo_terminal()
-        self.run_for(seconds, terminal)
-        os.write(terminal, b"|")  # marks the end of the output
-        shown = ""
-        while not shown.endswith("|"):
-            shown += os.read(reader, 65536).decode()
-        os.close(terminal)
-        os.close(reader)
-        return shown[:-1]
+        terminal = Terminal(self)
+        self.run_for(seconds, terminal.channel)
+        return terminal.shown().decode()
 
     def test_a_terminal_gets_one_line(self):
         shown = self.on_a_terminal(2)
