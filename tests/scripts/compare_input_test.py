@@ -72,13 +72,15 @@ class InputTest(ToolTest):
                          (f"compare: {message}\n", "", 2))
 
 
-class Pipes(InputTest):
-    PLACE = "line 3, z of vertex 3 of triangle 0: 0.25 in A, 0.7 in B"
-
+class TwoFiles(InputTest):
     def setUp(self):
         super().setUp()
         write("a", OTHER)
         write("b", TRIANGLE)
+
+
+class Pipes(TwoFiles):
+    PLACE = "line 3, z of vertex 3 of triangle 0: 0.25 in A, 0.7 in B"
 
     def test_each_may_be_a_pipe_and_a_dash_is_standard_input(self):
         self.assert_same(shell('"$COMPARE" <(cat a) <(cat a)'))
@@ -343,12 +345,7 @@ class Pictures(InputTest):
         self.assert_not_compared(compare("a", "b"), "a: expected a filter from 0 to 4, found 5")
 
 
-class Endings(InputTest):
-    def setUp(self):
-        super().setUp()
-        write("a", OTHER)
-        write("b", TRIANGLE)
-
+class Endings(TwoFiles):
     def test_a_reader_that_leaves_is_no_traceback(self):
         done = shell('"$COMPARE" a b | :; echo ${PIPESTATUS[0]}')
         self.assertEqual((done.stderr, done.stdout.strip()), (b"", b"141"))
