@@ -76,7 +76,7 @@ class Limits:
 
 
 class TooLong(BaseException):
-    """More processor time than allowed; no handler of what a file may raise stops it."""
+    """More processor time than allowed; no handler of a bad file's errors stops it."""
 
 
 @contextlib.contextmanager
@@ -107,13 +107,13 @@ def grade(path, tests, level, limits, keep):
     for test in tests:
         try:
             with processor_seconds(limits.seconds):
-                files, verdict, remark = next(of_program) if of_program else (judge_files(
+                files, verdict, remark = next(of_program)() if of_program else (judge_files(
                     contents, test,
                     len(tests) == 1))
                 made = graded_test(test, files, verdict, level, graded.wrong)
                 if any(file.stage == "zbuf" and file.causes for file in verdict.files):
                     accused[len(graded.tests)] = test, files
-        except (TooLong, StopIteration):  # a generator that has raised is at its end
+        except (TooLong, StopIteration):  # the latter after a program that took too long to unpack
             made, remark = not_judged(test, level), f"{test.name}: it could not be judged: {too_long(limits)}"
         graded.remarks += [remark] * bool(remark)
         graded.tests.append(made)
@@ -150,8 +150,8 @@ def take_back_causes(graded, tests, level):
 
 
 def judge_borders_first(graded, number, test, files, level):
-    """Judges a test again if the hand-in is right by another rule at the borders in another test: one scene
-    must not call a mistake what another tolerates."""
+    """Judges a test again if the hand-in is right by another rule at the borders in another test: what one
+    scene tolerates, no other may call a mistake."""
     before, kinds = graded.tests[number].verdict, kinds_of(test.reference.config)
     verdict = Judge(files, test.reference, kinds, borders_first=True).judge()
     by_stage = Verdict([file for file in verdict.files if before.of(file.stage)])

@@ -260,7 +260,8 @@ class Built:
 
 
 def verdicts(contents, tests, limits):
-    """Yields (files, verdict, remark) for each test. `limits` are graders.Limits."""
+    """Yields, for each test, a function that returns (files, verdict, remark): if a call takes too long, the
+    next tests are still judged. `limits` are graders.Limits."""
     program, hidden = limits.program, limits.hidden
     with confined.temporary_folder("grade.") as top:
         try:
@@ -268,21 +269,26 @@ def verdicts(contents, tests, limits):
         except ProgramError as error:
             reason = f"The program cannot be built: {error}{messages(error.errors)}"
             for i, test in enumerate(tests):
-                yield {}, failure(test, "The program cannot be built"), "" if i else reason
+                found = {}, failure(test, "The program cannot be built"), "" if i else reason
+                yield lambda found=found: found
             return
         for test in tests:
-            try:
-                files = built.files(test)
-            except ProgramError as error:
-                reason = f"the program failed: {error}"
-                verdict = failure(test, reason)
-                for file in verdict.files if error.is_asleep else ():
-                    file.verdict, file.causes = UNDECIDED, []
-                yield {}, verdict, f"{test.name}: {reason}"
-                continue
-            verdict = Judge(files, test.reference, kinds_of(test.reference.config)).judge()
-            expect_repetition(program.stage, verdict, files, lambda test=test: built.files(test))
-            yield files, Verdict(verdict.of(program.stage)), ""
+            yield functools.partial(verdict_of_test, built, test)
+
+
+def verdict_of_test(built, test):
+    """(files, verdict, remark) for one test."""
+    try:
+        files = built.files(test)
+    except ProgramError as error:
+        reason = f"the program failed: {error}"
+        verdict = failure(test, reason)
+        for file in verdict.files if error.is_asleep else ():
+            file.verdict, file.causes = UNDECIDED, []
+        return {}, verdict, f"{test.name}: {reason}"
+    verdict = Judge(files, test.reference, kinds_of(test.reference.config)).judge()
+    expect_repetition(built.program.stage, verdict, files, lambda: built.files(test))
+    return files, Verdict(verdict.of(built.program.stage)), ""
 
 
 def failure(test, reason):

@@ -505,7 +505,8 @@ class Results(ClassTest):
         limits = graders.Limits(60, 2048, 1, (), settings.program)
         with mock.patch.object(programs, "SECONDS_OF_RUN", 0.25), \
                 mock.patch("conform_parts.workers.PATIENCE", 1):
-            _, verdict, remark = next(programs.verdicts(contents_of("hand-ins/anna"), tests, limits))
+            verdicts = programs.verdicts(contents_of("hand-ins/anna"), tests, limits)
+            _, verdict, remark = next(verdicts)()
         self.assertEqual([(file.verdict, file.causes) for file in verdict.files],
                          [("could not be judged", [])])
         self.assertEqual(remark, "square: the program failed: it does not end within 2.5 s")
@@ -846,6 +847,24 @@ class Hostile(ClassTest):
         self.assertEqual(
             (graded.remarks, graded.is_judged),
             (["square-2: it could not be judged: that takes longer than 2 s of the processor"], False))
+
+    def test_a_program_that_takes_too_long_to_judge_in_one_test_is_judged_in_the_next(self):
+        self.add_test("square-2")
+        pathlib.Path("tests/assignment.txt").write_text("program view\nrun cat\n")
+        right = programs.verdict_of_test
+
+        def endless(built, test):
+            while test.name == "square":
+                pass
+            return right(built, test)
+
+        with mock.patch.dict(os.environ, BIN=str(BIN)), \
+                mock.patch.object(programs, "verdict_of_test", endless):
+            tests, settings = read_tests("tests")
+            limits = graders.Limits(2, 2048, 1, (), settings.program)
+            (_, graded), = graders.grade_all(find_hand_ins("hand-ins", False)[0], tests, "cause", limits)
+        self.assertEqual([made.verdict.files[0].verdict for made in graded.tests],
+                         ["could not be judged", "wrong"])
 
     def test_a_judge_that_is_ended_keeps_what_was_judged(self):
         def ended(judge_files, words):
