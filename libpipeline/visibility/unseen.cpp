@@ -23,8 +23,8 @@ double depth_reach(const Triangle& p, const BoundingBox& extent, double dx) {
   return std::fabs(rise) / area * dx + 0x1p-20 * (std::fabs(extent.low.z) + std::fabs(extent.high.z));
 }
 
-/// The side of the window on which a triangle lies that misses it past a corner, if it does: all of the
-/// window is then beyond one of its edges.
+/// The side on which a triangle misses the window past a corner, if it does: all of the window is then beyond
+/// one of the triangle's edges.
 std::optional<UnseenPlace> side_past_corner(const Triangle& p, const Viewport& screen) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3];

@@ -43,7 +43,7 @@ def factor_of(values, others):
 
 def judged(scene, theirs, ours):
     """The FileVerdict on `theirs`, if `ours` is the output of a stage of the scene, else None. A text is its
-    bytes and its name. If `ours` fits several stages, the first counts whose mistakes reproduce `theirs`."""
+    bytes and its name. If `ours` fits several stages, the first whose mistakes reproduce `theirs` counts."""
     reference = Reference(scene, None, Tools())
     ours, theirs = read_points(*ours), read_points(*theirs)
     verdicts = [

@@ -148,7 +148,7 @@ class Frames:
             right, stale = self.stock(out)
             self.draw(work, options_of_parallel, right)
             new = self.frames.keys() - right
-            # Even if killed here, the list names every frame, and none of this film as one of the older.
+            # If we are killed here, the list names every frame, and no older one as one of this film's.
             out.write("frames.txt", self.list_of([*stale | new, *map(self.lines.get, right)]))
             work.move([*sorted(new), *COMMON], out)
             out.remove_files((stale - new).__contains__)

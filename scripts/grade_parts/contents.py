@@ -59,7 +59,7 @@ class Contents:
                 archive = archive_of(io.BytesIO(data))
             except MemoryError:
                 raise
-            except Exception as error:  # whatever zipfile, tarfile and zlib raise for an archive that is none
+            except Exception as error:  # whatever zipfile, tarfile and zlib raise for what is no archive
                 reason = str(error) if isinstance(error, ContentsError) else NO_ARCHIVE.format(error)
                 self.failed.append(f"{shown('/'.join(path))[:LONGEST_NAME]}: {reason}"[:2 * LONGEST_NAME])
                 continue
@@ -213,7 +213,7 @@ def contents_of(path):
     except OSError as error:
         raise ContentsError("a link is not followed" if os.path.
                             islink(path) else error.strerror or "it cannot be read as an archive") from None
-    except Exception as error:  # whatever zipfile, tarfile and zlib raise for an archive that is none
+    except Exception as error:  # whatever zipfile, tarfile and zlib raise for what is no archive
         raise ContentsError(NO_ARCHIVE.format(error)) from None
 
 

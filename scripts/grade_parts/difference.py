@@ -23,7 +23,7 @@ def smaller(rows, step):
 
 
 def faded(rows):
-    """The rows, so light that marks stand out."""
+    """Rows so light that marks stand out."""
     light = bytes(210 + i * 45 // 255 for i in range(256))
     return [row.translate(light) for row in rows]
 

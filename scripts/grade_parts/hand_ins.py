@@ -11,7 +11,7 @@ from lib.rim.input_file import InputError
 
 LONGEST_LABEL = 60
 # The ways to name a folder after a test: by its name, by its name in upper or lower case, or by its number
-# alone. The first way that a folder of the hand-in follows counts.
+# alone. The first way that fits a folder of the hand-in is taken.
 SHORT, LONG = r"(?:test|scene|case|task|sample|example|output|result)?(\d+)", r"(\d+).*"
 NAMINGS = (lambda name, test: name == test, lambda name, test: plain(name) == plain(test),
            lambda name, test: number_of(name, SHORT) == number_of(test, LONG))

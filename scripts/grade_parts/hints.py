@@ -15,7 +15,7 @@ def gives(level, what):
 
 
 def shown_of(verdict, level):
-    """The Verdict as far as the level shows it; by `none`, only files that are missing or cannot be read."""
+    """The Verdict as far as the level shows it; at `none`, only files that are missing or cannot be read."""
     if gives(level, "cause"):
         return verdict
     if level == "none":

@@ -28,7 +28,7 @@ export class FragmentData {
       this.owners[p] = this.triangles[this.seen[p]];
       ++this.shownPixels[this.owners[p]];
     }
-    this.ends = this.shownPixels.slice();  // pixels `order[k]` show triangle `name` for the shownPixels[name] k before ends[name]
+    this.ends = this.shownPixels.slice();  // `order[k]` shows `name` for ends[name] - shownPixels[name] <= k < ends[name]
     for (let name = 1; name < this.ends.length; ++name) this.ends[name] += this.ends[name - 1];
     const next = this.ends.map((end, name) => end - this.shownPixels[name]);
     this.order = new Int32Array(this.ends.at(-1) || 0);

@@ -1,5 +1,5 @@
-// An index of the triangles that may lie under a point: a grid whose cells list them. It is built whenever the view turns, which takes
-// an R-tree longer; and a library with one would save no code.
+// An index of the triangles that may lie under a point: a grid whose cells list them. It is rebuilt whenever
+// the view turns; an R-tree would take longer to build, and its library save no code.
 
 const CELL = 16;            // pixels
 const MOST_CELLS = 64;      // of a triangle; a larger triangle is a candidate everywhere

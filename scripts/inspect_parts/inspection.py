@@ -22,7 +22,7 @@ MAX_DRAWN_TRIANGLES = 200000
 MAX_FRAGMENTS = 3000000
 MAX_FACETS = 20000  # of all spheres
 BELTS = 2, 16  # the fewest and the most of a sphere
-# The per cent of the time for a large page after each step.
+# The percentage of a large page's time after each step.
 SHARES = {"model": 11, "view": 21, "project": 32, "zbuf": 48}
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
 BEGINS = (*NUMBER_BEGINS, "triangle ", "clipped", "sphere")  # of the lines after a header

@@ -36,7 +36,7 @@ export class PicturePanel {
     canvas.getContext("2d").putImageData(picture, 0, 0);
   }
 
-  // Shows an image; of another size, from a run whose other data are still to come, it fits into the place of this one.
+  // Shows an image; one of another size, from a run whose other data are yet to come, is fitted into this one's place.
   showImage(rgb, columns = this.columns, rows = this.rows) {
     const picture = new ImageData(columns, rows), pixels = new Uint32Array(picture.data.buffer);
     for (let p = 0, at = 0; p < pixels.length; ++p, at += 3) pixels[p] = packed(rgb[at], rgb[at + 1], rgb[at + 2]);

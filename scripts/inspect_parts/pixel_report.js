@@ -23,7 +23,7 @@ class PixelGrid {
 
 const compared = (a, b) => a.map((x, i) => x.compare(b[i])).find(sign => sign) || 0;
 
-// The sorted (x, z) where edges, but horizontal ones, cross the line at y; interpolated from the lower end (by y, then x, then z).
+// The sorted (x, z) where non-horizontal edges cross the line at y; interpolated from the lower end (by y, then x, then z).
 function crossings(points, y) {
   const found = [];
   points.forEach((p, i) => {

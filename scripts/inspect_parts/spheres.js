@@ -69,7 +69,7 @@ export class Spheres {
     return [this.outline(i), this.around(i, a, b), this.around(i, b, c), this.around(i, c, a)];
   }
 
-  // The number and three times the nearness of the sphere under a pixel whose center is nearest.
+  // Of the spheres under a pixel, the one with the nearest center: number, and nearness times 3.
   at(px, py) {
     let found = -1, nearest = -Infinity;
     for (let i = 0; i < this.names.length; ++i) {

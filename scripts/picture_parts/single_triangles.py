@@ -14,7 +14,7 @@ GROWTHS = (0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3)  # relative; tried until the trian
 
 class SingleTriangles:
     def __init__(self, tools, scene, draw):
-        """`scene` is text that model takes; `draw` makes of a text of project a picture file and the numbers
+        """`scene` is text that model takes; `draw` makes of a text of project a picture file, and the numbers
         of the triangles that its pixels show."""
         self.tools, self.draw = tools, draw
         self.to_view_space = to_view_space(scene)

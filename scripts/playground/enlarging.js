@@ -1,4 +1,4 @@
-// A double click on a panel's caption, or F8 in it, lets it fill the window, until the same again or Escape.
+// A double click on a panel's caption, or F8 in it, lets it fill the window, until the next or Escape.
 
 const PANELS = "figure, #pixel, #texts > section, #drawer, #source > section, #own", CAPTIONS = "figcaption, h2, summary, #tabs, .enlarge";
 

@@ -102,7 +102,7 @@ class Playground {
     one("#link").onclick = () => this.copyLink();
     one("#save").onclick = () => this.saveState();
     one("#words").onclick = () => { const {hidden} = one("#language"); one("#language").hidden = !hidden; one("#words").setAttribute("aria-expanded", hidden); };
-    // Before the page closes: the browser asks if work cannot be kept.
+    // On closing: if work cannot be kept, the browser asks.
     window.addEventListener("beforeunload", event => { if (!this.keep() && this.isWork) event.preventDefault(); });
     document.addEventListener("visibilitychange", () => this.keep());
     one("#picture").onclick = () => one("#image").toBlob(blob => this.save("out.png", blob));

@@ -30,7 +30,7 @@ export class Pipe {
   async stage(tool, words, input, files, place = tool) {
     const key = [...words, ...Object.values(files)], before = this.kept.get(place);
     if (before && before.input === input && isEqual(before.key, key)) return before;
-    if (place === "model") this.kept.clear();  // all else is of its output, and large
+    if (place === "model") this.kept.clear();  // all else is made from it, and large
     const started = performance.now();
     const done = await this.tools.run(tool, words, {input, files, isPiped: [tool !== "model", tool !== "zbuf"]});
     const result = {...done, tool, key, input, seconds: (performance.now() - started) / 1000, text: textOf(done.messages)};

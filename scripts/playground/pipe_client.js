@@ -72,7 +72,7 @@ export class PipeClient {
     this.busy(false);
   }
 
-  // Starts a worker that has crashed again, if it has ever answered.
+  // Restarts a worker that has crashed, if it has ever answered.
   fail(event) {
     event.preventDefault();
     const line = event.message || "the browser does not start a worker here";

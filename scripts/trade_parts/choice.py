@@ -47,7 +47,7 @@ class Choice:
 
 
 def least_wrong(rows, limits):
-    """The limits; if wrong pixels have none, it is the fewest that the other limits allow."""
+    """The limits; for wrong pixels, if not limited, the fewest that the others allow."""
     within = [row.percent_wrong for row in rows if limits.are_met_by(row)]
     return dataclasses.replace(
         limits, percent_wrong=min(within)) if within and limits.percent_wrong is None else limits

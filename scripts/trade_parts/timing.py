@@ -88,7 +88,7 @@ class Counts(Times):
 
 
 def counted(pipe, turns, progress):
-    """The Counts of instructions, or of the bytes of the three texts without valgrind."""
+    """The Counts of instructions or, without valgrind, of the three texts' bytes."""
     if shutil.which("valgrind") is None:
         return Counts(
             {

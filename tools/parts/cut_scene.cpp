@@ -103,7 +103,7 @@ int cut_scene_main(int argc, char** argv) {
   tool.options().set_usage("Usage: cut-scene [OPTIONS] SCENE PARTS");
   tool.options().add_operand("SCENE", scene_path, "The scene, a file");
   tool.options().add_operand("PARTS", part_count_word,
-                             "How many parts at most; none is without a triangle, unless the scene is");
+                             "At most how many parts; each has a triangle if the scene has one");
   tool.options().begin_group("Output");
   tool.options().add_word("-o,--output", "FOLDER", folder,
                           "Where the parts go, a new folder or an empty one");

@@ -19,7 +19,7 @@ int trace_main(int argc, char** argv) {
   Tool tool(
       {"trace",
        "Traces rays to triangles in view space: writes the picture, and the depth of every pixel that "
-       "shows a triangle. Both are those of project --digits exact and zbuf --coverage center.",
+       "shows a triangle. Depths are those of project --digits exact and zbuf --coverage center.",
        "The output of view (or stage2.txt)",
        {"model scene.txt | view | trace config.txt -o picture.ppm > z_buffer.txt",
         "trace --size 400x300 --scene scene.txt stage2.txt"},

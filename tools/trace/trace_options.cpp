@@ -48,7 +48,7 @@ void TraceOptions::add_pixels(CommandLine& options) {
                     "With --sampling adaptive: take all samples where a channel of the first five differs by "
                     "at least N levels; N");
   options.add_whole("--threads", thread_count, 0, kMaxThreads,
-                    "How many threads trace rays (0: as many as pay)");
+                    "How many threads trace rays (0: all that help)");
 }
 
 void TraceOptions::add_color_and_light(CommandLine& options) {

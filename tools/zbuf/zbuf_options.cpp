@@ -72,7 +72,7 @@ void ZbufOptions::add_pixels(CommandLine& options) {
       "Draw a triangle only where it is nearer than the visible one by more than E; the order of triangles "
       "then matters");
   options.add_whole("--threads", thread_count, 0, kMaxThreads,
-                    "How many threads draw and shade (0: as many as pay)");
+                    "How many threads draw and shade (0: all that help)");
 }
 
 void ZbufOptions::complete(bool is_terminal) {

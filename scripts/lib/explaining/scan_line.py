@@ -64,7 +64,7 @@ def numbers_of_row(array, width, row):
 
 
 def edges_of(depths):
-    """(column, is_left, polygon, depth) for the first pixel of each run of a polygon, and the next one."""
+    """(column, is_left, polygon, depth) for the first pixel in and after each run of a polygon."""
     for polygon, by_column in depths.items():
         for column, depth in by_column.items():
             if column - 1 not in by_column:
@@ -81,7 +81,7 @@ def corners_of(text, wanted):
 
 
 def edge_table(triangles, window, rows, row):
-    """The edges, but horizontal ones, whose first row is this one, from left to right."""
+    """The non-horizontal edges whose first row is this one, from left to right."""
     found = []
     for polygon, corners in triangles:
         places, (first, last) = [window.place(p) for p in corners], rows[polygon]

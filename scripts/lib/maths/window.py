@@ -172,7 +172,7 @@ def span_on_row(grid, points, row):
 
 
 def crossings(points, y):
-    """The sorted (x, z) where edges, but horizontal ones, cross the line at y, interpolated from the lower
+    """The sorted (x, z) where non-horizontal edges cross the line at y, interpolated from the lower
     end (by y, then x, then z)."""
     found = []
     for p, q in zip(points, points[1:] + points[:1]):

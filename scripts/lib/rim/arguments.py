@@ -154,8 +154,8 @@ class CommandParser(argparse.ArgumentParser):
                 self.error(f"{name}: expected a place outside of '{shown(folder)}', found '{shown(path)}'")
 
     def expect_separate(self, options, *outputs, inputs=()):
-        """Ends the program where an output is another output or an input, by path, link or inode, or `-`, as
-        a command that takes it says STANDARD_OUTPUT. Outputs are pairs of a name for messages and a path or
+        """Ends the program where an output is another output or an input, by path, link or inode, or is `-`:
+        commands that take it pass STANDARD_OUTPUT. Outputs are pairs of a name for messages and a path or
         None, and so are inputs beside the usual operands."""
         operands = [(name.upper(), getattr(options, name, None)) for name in OPERANDS]
         names = {}

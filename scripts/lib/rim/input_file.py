@@ -61,7 +61,7 @@ def read_all(descriptor, path):
 
 
 def digest(path):
-    """The SHA-256 of a file, in memory for a block."""
+    """The SHA-256 of a file, read block by block."""
     state = hashlib.sha256()
     with input_errors(path), open(path, "rb") as file:
         while block := file.read(BLOCK):

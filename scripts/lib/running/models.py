@@ -8,7 +8,7 @@ from lib.rim.input_file import read_input
 from lib.rim.output_file import write_file
 from lib.running.pipe_tools import Tools
 
-# The last ones are formats that mesh2scene refuses with a hint how to convert them.
+# The last ones are formats that mesh2scene refuses with a hint on conversion.
 ENDINGS = (".obj", ".stl", ".ply", ".gltf", ".glb", ".3mf", ".3ds", ".dae", ".fbx", ".off", ".amf", ".x3d")
 KEPT = []  # folders, until the program ends
 
