@@ -20,6 +20,6 @@ rm -rf "${build:?}/$name"*
 mkdir "$build/$name"
 for tool in model view project zbuf trace; do x86_64-w64-mingw32-strip -o "$build/$name/$tool.exe" "$build/bin/$tool.exe"; done
 cp -R LICENSE samples/materials samples/worked-example "$build/$name"
-scripts/package/third-party "$build" libhwy-dev libcli11-dev > "$build/$name/THIRD-PARTY"
+scripts/package/third-party "$build" > "$build/$name/THIRD-PARTY"
 find "$build/$name" -exec touch -d "@${SOURCE_DATE_EPOCH-946684800}" {} +
 (cd "$build" && TZ=UTC python3 -m zipfile -c "$name.zip" "$name")

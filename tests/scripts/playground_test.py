@@ -167,6 +167,11 @@ class TheBuild(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for _ in range(2):
                 self.assertEqual(self.build(folder).returncode, 0)
+            licenses = pathlib.Path(folder, "playground/LICENSES.txt").read_text()
+            for part in ("@codemirror/view", "cli11", "emscripten", "highway", "llvm-toolchain",
+                         "nlohmann-json3"):
+                self.assertRegex(licenses, rf"\n  {part}\S* \S+\n")
+            self.assertIn("system/lib/libc/musl/*", licenses)
             names = sorted(str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*"))
             self.assertEqual(names,
                              ["playground", "playground.html", *(f"playground/{name}" for name in FILES)])
