@@ -21,8 +21,9 @@ class TryPackage(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.tree, self.bin = pathlib.Path(folder.name, "tree"), pathlib.Path(folder.name, "bin")
-        (self.tree / "scripts/maintain").mkdir(parents=True)
-        shutil.copy(SOURCE / "scripts/maintain/try-package", self.tree / "scripts/maintain")
+        (self.tree / "scripts/maintain/parts").mkdir(parents=True)
+        for name in ("try-package", "parts/steps.sh"):
+            shutil.copy(SOURCE / "scripts/maintain" / name, self.tree / "scripts/maintain" / name)
         self.put(self.tree / "build/release/libexec/pipeline/model", "")
         for name in PROGRAMS:
             self.put(self.bin / name, f'#!/bin/sh\nexec {shutil.which(name)} "$@"\n')
@@ -60,7 +61,7 @@ class TryPackage(unittest.TestCase):
         status, output, messages = self.run_there()
         self.assertEqual((status, messages), (77, "no network\n"))
         self.assertEqual(output.splitlines()[-1],
-                         "try-package: skipped: the minimal root could not be made: is there a network?")
+                         "try-package: skipped: a root of bookworm could not be made: is there a network?")
 
     def test_a_package_that_cannot_be_made_is_a_failure(self):
         self.put(self.bin / "cpack", "#!/bin/sh\necho broken\nexit 1\n")

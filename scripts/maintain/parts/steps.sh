@@ -1,0 +1,40 @@
+# Read by try-package and try-release: a log, a temporary folder, and steps.
+# shellcheck shell=sh
+self=$(readlink -f -- "$0")
+name=${self##*/}
+CDPATH='' cd -- "${self%/*}/../.." || exit
+mkdir -p build
+log=$PWD/build/$name.log
+: > "$log"
+work=$(mktemp -d)
+trap 'rm -rf --one-file-system -- "$work"' EXIT
+trap 'exit 1' HUP INT TERM
+
+# Ends where this machine lacks what the others need.
+skip() {
+  echo "$name: skipped: $1"
+  exit 77
+}
+
+# Runs a step quietly: $1 describes it, the other words are the command.
+step() {
+  what=$1
+  shift
+  echo "== $what" >> "$log"
+  "$@" >> "$log" 2>&1 || {
+    echo "FAIL  $what"
+    tail -n 15 "$log" >&2
+    exit 1
+  }
+  echo "ok    $what"
+}
+
+# Makes the folder $work/$1, a minimal Debian of suite $2; the other words are options for mmdebstrap.
+make_root() {
+  folder=$work/$1 suite=$2
+  shift 2
+  mmdebstrap --variant=minbase "$@" "$suite" "$folder" >> "$log" 2>&1 || {
+    tail -n 1 "$log" >&2
+    skip "a root of $suite could not be made: is there a network?"
+  }
+}
