@@ -1,6 +1,6 @@
 #!/bin/sh
-# Part of make-release, run in its root without a network: builds the sources in /src in /build, and packs in /build/out.
-# $1 is the version.
+# Part of make-release, run in its root without a network: builds the sources in /src in /build, and packs them and the
+# playground in /page in /build/out. $1 is the version.
 set -eu
 version=$1
 umask 022
@@ -25,7 +25,10 @@ put_program() {
   $2 -o "$3/libexec/pipeline/tools/all-tools" "$1/bin/all-tools"
 }
 
-mkdir -p out pack
+rm -rf pack out installed deb
+mkdir pack out
+cp /page/playground.html "out/pipeline-$version-playground.html"
+cp -a /page/playground "pack/pipeline-$version-playground"
 configure x86_64
 cmake --build x86_64
 configure aarch64 -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++

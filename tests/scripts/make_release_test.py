@@ -20,7 +20,9 @@ SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
 BWRAP = """#!/bin/sh
 [ ! -e "$0.fails" ] || { echo no namespaces >&2; exit 1; }
 [ ! -e "$0.hangs" ] || { : > "$0.started"; sleep 60; }
-while [ "$1" != --bind ]; do shift; done
+while [ "$1" != --bind ]; do [ "$3" != /page ] || page=$2; shift; done
+mkdir -p "$2/out"
+cp "$page/playground.html" "$2/out/pipeline-9.8.7-playground.html"
 echo archive > "$2/out/pipeline-9.8.7-source.tar.xz"
 echo list > "$2/out/built-with.txt"
 """
@@ -40,14 +42,15 @@ class MakeRelease(unittest.TestCase):
         self.out.mkdir()
         package = self.tree / "scripts/package"
         package.mkdir(parents=True)
-        shutil.copy(SOURCE / "scripts/package/make-release", package)
+        for name in ("make-release", "make_root.sh"):
+            shutil.copy(SOURCE / "scripts/package" / name, package)
         self.put(self.tree / "scripts/build-playground", PLAYGROUND)
         self.put(self.tree / "CMakeLists.txt", "project(pipeline VERSION 9.8.7 LANGUAGES CXX)\n")
         self.put(self.tree / "CHANGELOG.md",
                  "# Log\n\n## 9.8.7 - 2026-11-26\n\n- New.\n\n## 9.8.6 - 2026-11-25\n\n- Old.\n")
         self.put(self.tree / ".gitignore", "/build/\n")
         self.put(self.tree / "build/playground/root/usr/bin/emcmake", "")
-        self.put(self.tree / "build/playground/npm/done", "")
+        self.put(self.tree / "build/playground/npm/node_modules/.bin/esbuild", "")
         self.put(self.bin / "bwrap", BWRAP)
         self.put(self.bin / "mmdebstrap", '#!/bin/sh\nfor new; do :; done\nmkdir -p "$new"\n')
         self.put(self.bin / "node", "#!/bin/sh\necho v0\n")
@@ -132,8 +135,9 @@ class MakeRelease(unittest.TestCase):
         done = subprocess.run([self.tree / "scripts/package/make-release", "9.8.7", "new"], cwd=self.out,
                               capture_output=True, text=True, env={"PATH": str(self.bin)})
         self.assertEqual(
-            done.stderr, "make-release: missing: node flock build/playground/root build/playground/npm; run "
-            "scripts/install-packages --checks and then --playground\n")
+            done.stderr, "make-release: missing: node flock build/playground/root/usr/bin/emcmake "
+            "build/playground/npm/node_modules/.bin/esbuild; run scripts/install-packages --checks and then "
+            "--playground\n")
 
     def test_version_and_changelog_are_those_of_the_commit(self):
         self.refused("CMakeLists.txt has another version than 9.8.6", version="9.8.6")
@@ -151,13 +155,14 @@ class MakeRelease(unittest.TestCase):
         self.assertEqual(self.run_it("9.8.7", "new")[::2], (0, ""))
         self.assertEqual((self.bin / "playground.runs").read_text(), "run\n")
         kept = sorted(os.listdir(self.tree / "build/package"))
-        self.assertEqual(kept, ["lock", "root", "root.log", "root.recipe"])
+        self.assertEqual(kept, ["lock", "root", "root.log", "root.packages"])
 
     def test_without_a_network_the_root_is_not_made(self):
         self.put(self.bin / "mmdebstrap", "#!/bin/sh\necho no network >&2\nexit 1\n")
         status, _, messages = self.run_it("9.8.7", "new")
         problem = "build/package/root could not be made; see build/package/root.log"
-        self.assertEqual((status, messages), (1, f"no network\nmake-release: {problem}\n"))
+        self.assertEqual((status, messages.partition(".log")[0] + ".log"),
+                         (1, f"no network\nmake_root.sh: {problem}"))
         self.assertEqual(sorted(os.listdir(self.tree / "build/package")), ["lock", "root.log"])
 
     def test_stopped_half_way_it_leaves_nothing(self):
@@ -171,20 +176,19 @@ class MakeRelease(unittest.TestCase):
         self.assertEqual((process.returncode, os.listdir(self.out)), (1, []))
 
     def test_home_is_one_setting(self):
-        for name in ("README.md", "CMakeLists.txt", "scripts/package/set-home"):
+        for name in ("README.md", "CMakeLists.txt"):
             shutil.copy(SOURCE / name, self.tree / name)
         paths = self.tree / "README.md", self.tree / "CMakeLists.txt"
         before = [path.read_text() for path in paths]
         for address, page in (("https://github.com/a/b/", "https://a.github.io/b"),
                               ("https://h.org/b", "https://h.org/b/playground")):
-            subprocess.run([self.tree / "scripts/package/set-home", address], check=True)
+            self.assertEqual(self.run_it("--home", address), (0, "", ""))
             after = [path.read_text() for path in paths]
             home = address.rstrip("/")
             self.assertIn(f"({home}/releases/latest) · [**Try it in the browser**]({page})\n", after[0])
             self.assertIn(f'HOMEPAGE_URL "{home}"', after[1])
         for address, status in (("h.org", 2), ("https://h.org/|", 2), ("", 0)):
-            done = subprocess.run([self.tree / "scripts/package/set-home", address], capture_output=True)
-            self.assertEqual(done.returncode, status)
+            self.assertEqual(self.run_it("--home", address)[0], status)
         self.assertEqual([path.read_text() for path in paths], before)
 
     def test_workflows_call_what_is_here(self):
