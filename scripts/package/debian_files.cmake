@@ -7,19 +7,19 @@ set(documents "${prefix}/share/doc/pipeline")
 # Debian looks for the license under this name, and in this form.
 file(READ "${documents}/LICENSE" license)
 file(REMOVE "${documents}/LICENSE")
-string(REGEX MATCH "Copyright [(]c[)] ([^\n]*)\n+(.*)\n" _ "${license}")
-set(holder "${CMAKE_MATCH_1}")
-string(REPLACE "\n\n" "\n.\n" text "${CMAKE_MATCH_2}")
-string(REPLACE "\n" "\n " text "${text}")
-file(WRITE "${documents}/copyright" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+string(REPLACE "\n\n" "\n.\n" license "${license}")
+string(REPLACE "\n" "\n " license "${license}")
+string(REGEX REPLACE "^.*Copyright [(]c[)] ([^\n]*)\n [.]\n(.*)\n " "\
+Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: pipeline
 Comment: The programs contain parts of other packages; THIRD-PARTY beside this file has their licenses.
 
 Files: *
-Copyright: ${holder}
+Copyright: \\1
 License: Expat
- ${text}
-")
+\\2
+" copyright "${license}")
+file(WRITE "${documents}/copyright" "${copyright}")
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # from SOURCE_DATE_EPOCH, if it is set
 file(WRITE "${documents}/changelog" "pipeline (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 
