@@ -37,8 +37,9 @@ class Windows(unittest.TestCase):
                  b"model: cannot write <stdout>: No space left on device\r?\n$"),
             ):
                 with self.subTest(line):
-                    done = subprocess.run(["/usr/lib/wine/wine64", "cmd", "/c", line], cwd=name, stdout=out,
-                                          stderr=subprocess.PIPE, env=os.environ | settings, timeout=300)
+                    done = subprocess.run(["setarch", "-R", "/usr/lib/wine/wine64", "cmd", "/c", line],
+                                          cwd=name, stdout=out, stderr=subprocess.PIPE,
+                                          env=os.environ | settings, timeout=300)
                     self.assertRegex(done.stderr, b"^" + message)
                     self.assertEqual(done.returncode, status)
             for made in ("out.bmp", "z_buffer.txt"):
