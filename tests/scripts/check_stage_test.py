@@ -254,8 +254,11 @@ class Program(ToolTest):
     def test_an_empty_output_has_a_cause(self):
         header = (": it must read past the lines before the first triangle, such as 'perspective 50 1.3 1 "
                   "50' (--bare feeds none)")
-        for options, words in ((), header), (("--bare",), ""):
-            self.assertEqual(self.told("project", "exec true", *options),
+        stops = "exec awk '/^[a-z]/ { exit } 1'"  # at a header line
+        loses_all = 'exec "$BIN/project" | grep -v .'
+        for program, options, words in (stops, (), header), (loses_all, (), ""), ("exec true", ("--bare",),
+                                                                                  ""):
+            self.assertEqual(self.told("project", program, *options),
                              f"scene: wrong: it is empty\n  cause: It wrote nothing{words}\n")
         self.assertIn("  cause: It wrote nothing\n", self.told("zbuf", "exec true"))
 
