@@ -83,7 +83,7 @@ def causes_by_rows(ways, theirs, digits, comparison):
     """The Causes of Points that are each one mistake or more, if every coordinate that is wrong is explained
     by one that leaves the others as they are. `comparison` is the fitted matrix beside ours."""
     def fits(way, axes):
-        return any(not differs(theirs.points, digits, images, axes) for images in way.images(slice(None)))
+        return any(not differs(theirs.points, digits, images, axes) for images in way.images())
 
     wrong = {axis for axis in range(3) if not any(fits(way, [axis]) for way in ways.right)}
     if len(wrong) < 2:
@@ -104,7 +104,7 @@ def causes_by_rows(ways, theirs, digits, comparison):
 
 def touched(way, right):
     """The axes on which a Way gives other numbers than the right one."""
-    (images, *_), (others, *_) = way.images(slice(None)), right.images(slice(None))
+    (images, *_), (others, *_) = way.images(), right.images()
     return {
         axis
         for (p, _), (q, _) in zip(images, others) for axis in range(3)

@@ -88,12 +88,10 @@ def exact(mismatch, shown):
     has_one_color = len(set(mismatch.colors.values())) == 1 and sum(counts[1:]) >= LEAST_PIXELS_OF_OTHERS
     if has_one_color and len(shown.own_colors) > 1:
         return None  # most pixels of each triangle have the color of one that hides it
-    finding = Finding("exact", mismatch, rule_in_words(mismatch.rule))
-    finding.remarks += BY_READING[mismatch.reading]
+    words, remarks = rule_in_words(mismatch.rule), [*BY_READING[mismatch.reading]]
     if has_one_color:
-        finding.verdict, finding.touches = "mistake", ("picture",)
-        finding.causes = [cause_of("zbuf/one-color")]
-    return finding
+        return Finding("mistake", mismatch, words, [cause_of("zbuf/one-color")], ("picture",), remarks)
+    return Finding("exact", mismatch, words, remarks=remarks)
 
 
 def spread(values, count):

@@ -7,9 +7,10 @@ from lib.judging.digits import EXACT
 from lib.judging.model_habits import ROUGH_PIS
 from lib.judging.points import described, differences, differs
 from lib.judging.scene import NO_UNITS
-from lib.judging.stage_ways import ALL, PI, MatrixWays, ModelWays
+from lib.judging.stage_ways import PI, MatrixWays, ModelWays
 from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict)
 
+ALL = slice(None)
 NO_POINTS = "the stages before give no points to judge it by"
 
 
@@ -38,10 +39,9 @@ def outcome_among(name, theirs, ways):
     digits = used_digits(theirs)
 
     def fits(way, parts=(ALL,)):
-        of_parts = [way.images(part) for part in parts]
-        return any(
-            not any(differs(theirs.points[part], digits, images) for part, images in zip(parts, of_one))
-            for of_one in zip(*of_parts))
+        return any(not any(
+            differs(theirs.points[part], digits, itertools.islice(images, part.start, None, part.step))
+            for part, images in zip(parts, of_one)) for of_one in zip(*(way.images() for _ in parts)))
 
     def fitting(candidates, parts=(ALL,), most=math.inf):
         """The Ways that fit, the first with each cause; nothing if more than `most` would do."""
@@ -55,7 +55,7 @@ def outcome_among(name, theirs, ways):
         return next(filter(None, (fitting(candidates, parts) for candidates in ways.single())), [])
 
     if not ways.has_count(len(theirs)):
-        expected = [[*images] for way in ways.right for images in way.images(ALL)]
+        expected = [[*images] for way in ways.right for images in way.images()]
         return count_verdict(ways, name, theirs, expected, digits), None
     for way in ways.right:
         if fits(way):
@@ -71,7 +71,7 @@ def outcome_among(name, theirs, ways):
     else:
         found = next(filter(None, (fitting(some, most=most) for some, most in ways.several())), [])
         verdict.causes = [way.cause for way in found] or causes_of_triangles(
-            theirs, right[0].images(ALL), digits, matching.reordered) or matching.causes_at_vertices(
+            theirs, right[0].images(), digits, matching.reordered) or matching.causes_at_vertices(
                 result, count, lambda part: any(fits(way, [part]) for way in right),
                 lambda parts: [way.cause for way in single_mistakes(parts)])
         verdict.remarks += filter(None, [ways.place(result)])
@@ -88,7 +88,7 @@ def used_digits(theirs):
 
 def nearest(ways, theirs, digits):
     """What differs from the nearest points that some Ways give."""
-    return min((differences(theirs.points, digits, images) for way in ways for images in way.images(ALL)),
+    return min((differences(theirs.points, digits, images) for way in ways for images in way.images()),
                key=len)
 
 

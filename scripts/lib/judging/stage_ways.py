@@ -12,7 +12,6 @@ from lib.judging.scene import NO_UNITS
 from lib.judging.verdict import Cause, cause_of, cause_of_all
 from lib.maths.vectors import cross
 
-ALL = slice(None)
 UNTOUCHED = "The points are those of the scene: no transformation is carried out"
 PI = "pi is taken as {:.8g}"
 
@@ -25,7 +24,7 @@ def exact_reading(points):
 @dataclasses.dataclass
 class Way:
     """`cause` is the mistake, or the rule of a right way; `images` makes lists of (point, slacks of its
-    coordinates) of a slice, one for each reading; `memory` makes the exact points, None if not known."""
+    coordinates), one for each reading; `memory` makes the exact points, None if they are not known."""
     cause: Cause
     images: object
     memory: object
@@ -46,16 +45,12 @@ class ModelWays:
         self.scene_lines = scene.triangle_lines
         exact = [(p, slacks) for p, (_, slacks) in zip(exact_world, scene.world())]
         self.right = [
-            Way(Cause("", ""), lambda part: [exact[part]], lambda: exact_world),
+            Way(Cause("", ""), lambda: [exact], lambda: exact_world),
             *(self.way(Cause("", PI.format(pi)), Habit(radians=lambda degrees, pi=pi: degrees * pi / 180))
               for pi in ROUGH_PIS)]
 
     def way(self, cause, habit):
-        def images(part):
-            points = self.scene.world(habit)
-            return [points if part == ALL else list(points)[part]]
-
-        return Way(cause, images, lambda: [p for p, _ in self.scene.world(habit)])
+        return Way(cause, lambda: [self.scene.world(habit)], lambda: [p for p, _ in self.scene.world(habit)])
 
     def has_count(self, count):
         return count == 3 * len(self.scene_lines)
@@ -100,11 +95,11 @@ class MatrixWays:
         self.right = [self.way(Cause("", rule), m, is_divided) for rule, m, is_divided in right]
 
     def way(self, cause, m, is_divided):
-        def images(reading, part):
-            for p, units in zip(*(values[part] for values in reading)):
+        def images(reading):
+            for p, units in zip(*reading):
                 yield image(m, p, is_divided), [x + self.reach for x in slack(m, p, units, is_divided)]
 
-        return Way(cause, lambda part: [images(reading, part) for reading in self.readings],
+        return Way(cause, lambda: map(images, self.readings),
                    lambda: exact_images(m, is_divided, self.readings[-1][0]))
 
     def has_count(self, count):
