@@ -37,19 +37,13 @@ def plain(name):
     return re.sub(r"[-_ ]", "", name.lower())
 
 
-def rank(name, kind):
-    """The assignment's own name first, then short names, then by their numbers."""
-    numbers = [int(digits[:18]) for digits in re.findall(r"\d+", name)]
-    return name != KINDS[kind][0], len(numbers), numbers, name
-
-
 def fitting_names(names):
-    """{kind: the names that look like it, the most likely first}."""
-    plain_names = [(name, plain(name)) for name in names]
+    """{kind: names that look like it}: the assignment's own first, then short ones, then by their numbers."""
+    numbers = {name: [int(digits[:18]) for digits in re.findall(r"\d+", name)] for name in names}
+    ranked = sorted(names, key=lambda name: (len(numbers[name]), numbers[name], name))
     return {
-        kind: sorted((name for name, short in plain_names if pattern.fullmatch(short)),
-                     key=lambda name: rank(name, kind))
-        for kind, (_, pattern) in KINDS.items()}
+        kind: sorted(filter(lambda name: pattern.fullmatch(plain(name)), ranked), key=own.__ne__)
+        for kind, (own, pattern) in KINDS.items()}
 
 
 def find_files(folder):

@@ -58,15 +58,15 @@ def sentence(verdict):
     first = [
         file for file in failed
         if (file.stage, file.verdict, file.causes) == (failed[0].stage, failed[0].verdict, failed[0].causes)]
-    rest = [file for file in failed if file not in first]
+    missing, rest = ([
+        file for file in failed if file not in first and (file.verdict == MISSING) == is_missing]
+                     for is_missing in (True, False))
     words = (f"the first stage that went wrong is {first[0].stage} ({names_of(first)} "
              f"{'is' if len(first) == 1 else 'are'} {first[0].verdict})")
     if first[0].cause:
         words += f": {first[0].cause}"
-    open_words = "".join(f"; {file.file}: {file.verdict}" for file in undecided)
-    missing = [file for file in rest if file.verdict == MISSING]
-    rest = [file for file in rest if file.verdict != MISSING]
-    open_words = (f"; not handed in: {names_of(missing)}" if missing else "") + open_words
+    open_words = (f"; not handed in: {names_of(missing)}" if missing else "") + "".join(
+        f"; {file.file}: {file.verdict}" for file in undecided)
     if rest:
         return f"{words}; also wrong, by themselves: {listed_with_causes(rest)}{open_words}"
     last = [file for file in verdict.files if file.verdict not in OPEN and file not in missing][-1]
