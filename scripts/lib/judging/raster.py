@@ -145,12 +145,12 @@ class Triangles:
             low, high = sorted((corners[i], corners[(i + 1) % 3]), key=lambda p: (p[1], p[0], p[2]))
             if low[1] == high[1] or not low[1] <= inside <= high[1]:
                 continue
-            t_y = (y - low[1]) / (high[1] - low[1])
-            x, z = (high[0], high[2]) if y == high[1] else (low[0] + t_y * (high[0] - low[0]),
-                                                            low[2] + t_y * (high[2] - low[2]))
-            reach, stretch = abs(high[0] - low[0]), 1 + 2 * max(0.0, -t_y)
-            met.append((x, z, (unit + min(reach, reach / (high[1] - low[1]) * unit)) * stretch,
-                        abs(high[2] - low[2]) / (high[1] - low[1]) * unit * stretch))
+            dx, dy, dz = (b - a for a, b in zip(low, high))
+            t_y = (y - low[1]) / dy
+            x, z = (high[0], high[2]) if y == high[1] else (low[0] + t_y * dx, low[2] + t_y * dz)
+            stretch = 1 + 2 * max(0.0, -t_y)
+            met.append((x, z, (unit + min(abs(dx),
+                                          abs(dx) / dy * unit)) * stretch, abs(dz) / dy * unit * stretch))
         if len(met) < 2:  # a horizontal line
             ends = sorted(corners)
             met, is_certain = [(*ends[0][::2], unit, 0.0), (*ends[2][::2], unit, 0.0)], False
@@ -158,12 +158,10 @@ class Triangles:
         left, right = grid.column_at(x_left), grid.column_at(x_right)
         slack_left, slack_right = slack_left / grid.dx + ROUNDING, slack_right / grid.dx + ROUNDING
         width = max(right - left, NARROW)
-        per_column = abs(z_right - z_left) / width
         reach_z = max(p[2] for p in corners) - min(p[2] for p in corners)
-        slack_z = (unit + min(dz_left + dz_right, reach_z)) * (1 + 2 / width) + per_column * (slack_left +
-                                                                                              slack_right)
-        is_wide = right - left > slack_left + slack_right
-        if not is_wide and not self.winding(t):
+        slack_z = (unit + min(dz_left + dz_right, reach_z)) * (1 + 2 / width)
+        slack_z += abs(z_right - z_left) / width * (slack_left + slack_right)
+        if right - left <= slack_left + slack_right and not self.winding(t):
             is_certain, slack_z = False, slack_z + abs(z_right - z_left)
         return Span(t, left, right, z_left, z_right, slack_left, slack_right, slack_z,
                     row == math.floor(grid.row_at(lowest) + ROUNDING), y >= middle, met[0] != min(met),
@@ -215,25 +213,6 @@ def ends_of(span, rule, width, slack=0.0):
     return first - rule.columns_before + rule.shift[0], last + rule.column_more + rule.shift[0]
 
 
-def depth_line(span, rule, width):
-    """The depth as (z at column 0, z per column)."""
-    left, right, z_left, z_right = span.left, span.right, span.z_left, span.z_right
-    if rule.ends_z == "exchanged" or rule.ends_z and span.is_met_from_right:
-        z_left, z_right = z_right, z_left
-    if rule.depth == "between ends":
-        left, right = ENDS[rule.left](left), ENDS[rule.right](right)
-        if rule.clamp is not None:
-            left, right = (max(-rule.clamp, min(end, width - 1 + rule.clamp)) for end in (left, right))
-    if right - left < NARROW:
-        return min(z_left, z_right), 0.0
-    slope = (z_right - z_left) / (right - left)
-    if rule.depth == "from left":
-        left = ENDS[rule.left](left)
-        left = max(left, 0) if rule.clamp == 0 else left
-    left += rule.shift[0]
-    return z_left - left * slope, slope
-
-
 class Drawing:
     """The rows of a picture under a rule. `limits` is front and rear, `work` has the number of pixels and
     spans that may yet be looked at."""
@@ -254,11 +233,26 @@ class Drawing:
                     or span.triangle in rule.without)]
 
     def line(self, span):
-        if not self.rule.flat:
-            return depth_line(span, self.rule, self.width)
-        zs, ends = [p[2] for p in self.triangles.corners[span.triangle]], (span.z_left, span.z_right)
-        values = (sum(zs) / 3, *zs, min(zs), max(zs), *ends, sum(ends) / 2)
-        return values[(FLAT_TRIANGLE + FLAT_ROW).index(self.rule.flat)], 0.0
+        """The depth as (z at column 0, z per column)."""
+        rule, left, right, z_left, z_right = self.rule, span.left, span.right, span.z_left, span.z_right
+        if rule.flat:
+            zs = [p[2] for p in self.triangles.corners[span.triangle]]
+            values = (sum(zs) / 3, *zs, min(zs), max(zs), z_left, z_right, (z_left + z_right) / 2)
+            return values[(FLAT_TRIANGLE + FLAT_ROW).index(rule.flat)], 0.0
+        if rule.ends_z == "exchanged" or rule.ends_z and span.is_met_from_right:
+            z_left, z_right = z_right, z_left
+        if rule.depth == "between ends":
+            left, right = ENDS[rule.left](left), ENDS[rule.right](right)
+            if rule.clamp is not None:
+                left, right = (max(-rule.clamp, min(end, self.width - 1 + rule.clamp))
+                               for end in (left, right))
+        if right - left < NARROW:
+            return min(z_left, z_right), 0.0
+        slope = (z_right - z_left) / (right - left)
+        if rule.depth == "from left":
+            left = max(ENDS[rule.left](left), 0 if rule.clamp == 0 else -math.inf)
+        left += rule.shift[0]
+        return z_left - left * slope, slope
 
     def row(self, row):
         """The triangle (or -1) and the depth of each pixel of a row, and the range of columns with any."""
