@@ -17,6 +17,10 @@ FLIPS = {
     "": lambda rows: rows, "upside down": lambda rows: rows[::-1],
     "mirrored": lambda rows: [row[::-1] for row in rows],
     "turned": lambda rows: [row[::-1] for row in rows[::-1]], "transposed": lambda rows: list(zip(*rows))}
+# The visible triangle of each pixel, row by row. `drawn` and `colors` are None without a picture; a row of
+# `depths` is None if the pixels of its numbers are unknown: those are in `listed`. `seen` pairs `drawn`
+# (without a picture, the pixels with depths) with the range of columns that show any; None if unknown.
+Pixels = collections.namedtuple("Pixels", "drawn colors depths listed seen")
 
 
 @dataclasses.dataclass
@@ -49,8 +53,7 @@ def read_depths(data, name):
 
 
 def read_colors(data, name, size, background):
-    """Rows of colors, three bytes each; transparent pixels show the background. Raises a PictureError, also
-    if the picture has another size (width, height)."""
+    """Rows of colors, three bytes each, of a picture of a given (width, height) over the background."""
     rows = picture_of(data, name, background, size)[2]
     return [[row[i:i + 3] for i in range(0, 3 * size[0], 3)] for row in rows]
 
@@ -64,18 +67,6 @@ class Rows:
         if row >= self.count:
             raise IndexError
         return self.make(row)
-
-
-@dataclasses.dataclass
-class Pixels:
-    """The visible triangle of each pixel, row by row. `drawn` and `colors` are None without a picture; a row
-    of `depths` is None if the pixels of its numbers are unknown: those are in `listed`. `seen` pairs `drawn`
-    (without a picture, the pixels with depths) with the range of columns that show any; None if unknown."""
-    drawn: list
-    colors: list
-    depths: list
-    listed: list
-    seen: list
 
 
 class Shown:

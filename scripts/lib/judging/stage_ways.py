@@ -1,4 +1,5 @@
 """The ways in which a text of stage 1, 2 or 3 may have come about: right, or with mistakes."""
+import collections
 import dataclasses
 import itertools
 import math
@@ -14,20 +15,14 @@ from lib.maths.vectors import cross
 
 UNTOUCHED = "The points are those of the scene: no transformation is carried out"
 PI = "pi is taken as {:.8g}"
+# `cause` is the mistake, or the rule of a right way; `images` makes lists of (point, slacks of its
+# coordinates), one for each reading; `memory` makes the exact points, None if they are not known.
+Way = collections.namedtuple("Way", "cause images memory")
 
 
 def exact_reading(points):
     """A possible input of a stage is (points, how far each coordinate may be off)."""
     return points, [NO_UNITS] * len(points)
-
-
-@dataclasses.dataclass
-class Way:
-    """`cause` is the mistake, or the rule of a right way; `images` makes lists of (point, slacks of its
-    coordinates), one for each reading; `memory` makes the exact points, None if they are not known."""
-    cause: Cause
-    images: object
-    memory: object
 
 
 def exact_images(m, is_divided, points):
