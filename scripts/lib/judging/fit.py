@@ -143,13 +143,6 @@ def scaled_like(m, ours):
     return tuple(tuple(factor * x for x in row) for row in m)
 
 
-def misses(m, before, after, units, is_divided):
-    """True if a matrix takes a point to another place than it went, by more than rounding explains."""
-    return any(not abs(x - y) <= MISFIT_IN_UNITS * unit + MISFIT * max(1.0, abs(y))
-               for p, q, limits in zip(before, after, units)
-               for x, y, unit in zip(image(m, p, is_divided), q, limits))
-
-
 def compare(before, after, units, ours, is_divided):
     """The Comparison of the matrix from `before` to `after` with ours; None if the points allow several."""
     step = max(1, len(before) // MOST_POINTS)
@@ -166,7 +159,9 @@ def compare(before, after, units, ours, is_divided):
     except (ZeroDivisionError, OverflowError):
         return None
     theirs, *others = [scaled_like(m, ours) for m in fits] if is_divided else fits
-    if misses(theirs, before, after, units, is_divided):
+    if any(not abs(x - y) <= MISFIT_IN_UNITS * unit + MISFIT * max(1.0, abs(y))
+           for p, q, limits in zip(before, after, units)
+           for x, y, unit in zip(image(theirs, p, is_divided), q, limits)):
         return Comparison(None, ours, set())
     spread = [[2 * max(abs(m[i][j] - theirs[i][j]) for m in others) for j in range(4)] for i in range(4)]
     if any(not max(moves) <= WORST_SPREAD * max(1e-3, *map(abs, row)) for moves, row in zip(spread, theirs)):

@@ -81,8 +81,7 @@ def cross_with_another_sign(a, b):
 
 
 def view_matrix(eye, look, up, mistakes=(), spelling=0):
-    """The matrix of view, right or with the mistakes of these names. Some mistakes are made in more than one
-    way: `spelling` is the number of the way."""
+    """The matrix of view, right or with mistakes of these names, made in the way `spelling`, 0 or 1."""
     cross = cross_with_another_sign if "cross-product-sign" in mistakes else right_cross
     if "eye-and-look-exchanged" in mistakes:
         eye, look = look, eye

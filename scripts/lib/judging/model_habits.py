@@ -17,13 +17,9 @@ def with_wrong_element(m, row):
     return tuple((*line[:2], line[1], line[3]) if i == row else line for i, line in enumerate(m))
 
 
-def by_euler_angles(order):
-    """Makes turns about x, y and z of an angle and an axis, multiplied in this order."""
-    def turn(radians, axis):
-        about = [rotation(radians * x, row[:3]) for x, row in zip(axis, IDENTITY)]
-        return functools.reduce(product, (about[i] for i in order))
-
-    return turn
+def by_euler_angles(order, radians, axis):
+    """The turns about x, y and z that an angle and an axis stand for, multiplied in this order."""
+    return functools.reduce(product, (rotation(radians * axis[i], IDENTITY[i][:3]) for i in order))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -82,7 +78,7 @@ MODEL_MISTAKES = {
                         lambda c, s: (0, 1 - c, s))],
     "rotation-on-the-left": [Habit(order="left if a rotation")],
     "rotation-by-euler-angles": [
-        Habit(form=by_euler_angles(order), axis=axis) for axis in (normalized, tuple)
+        Habit(form=functools.partial(by_euler_angles, order), axis=axis) for axis in (normalized, tuple)
         for order in itertools.permutations(range(3))],}
 
 

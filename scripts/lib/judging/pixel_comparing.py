@@ -127,9 +127,7 @@ class Context:
 
     def explained(self, reading, rule, rows):
         """The empty Mismatch of a rule that explains everything, else None. `rows` are looked at first."""
-        attempt = Attempt(self, reading, rule)
-        return None if any(
-            True for row in rows for _ in attempt.differences(row)) else self.compare(reading, rule, limit=0)
+        return None if Attempt(self, reading, rule).count(rows, 0) else self.compare(reading, rule, limit=0)
 
     def compare(self, reading, rule, limit=math.inf):
         """The Mismatch of a rule; None if more than `limit` pixels are not explained."""
@@ -227,10 +225,10 @@ class Attempt:
         del result.areas[-1]
         result.drawn, result.doubtful = sum(result.areas.values()), self.doubtful
         if pixels.colors:
-            for t, color in [*pairs]:
-                if t < 0 or color == self.background:
-                    del pairs[t, color]
-            self.add_colors(result, pairs, limit)
+            shown = {
+                pair: count
+                for pair, count in pairs.items() if pair[0] >= 0 and pair[1] != self.background}
+            self.add_colors(result, collections.Counter(shown), limit)
         return result if len(result.pixels) <= limit else None
 
     def add(self, result, row, column, kind, drawn_row):
@@ -248,9 +246,8 @@ class Attempt:
     def add_colors(self, result, pairs, limit):
         """Gives every triangle the color that most of its pixels have, and adds the pixels that show another
         triangle, until there are more than `limit`. `pairs` counts (triangle, color)."""
-        for (t, color), _ in reversed(pairs.most_common()):
+        for (t, color), count in reversed(pairs.most_common()):
             result.colors[t] = color
-        for (t, _), count in pairs.items():
             result.visible[t] += count
         if all(result.colors[t] == color for t, color in pairs):
             return

@@ -19,7 +19,6 @@ from conform_parts.workers import end_all  # noqa: E402, F401
 
 STAGES = {"model": None, "view": "stage1", "project": "stage2",
           "zbuf": "stage3"}  # with the kind of file that each reads
-RANDOM = "Some numbers are random: two runs of the program on the same text differ"
 WRITES = {"model": "stage1", "view": "stage2", "project": "stage3", "zbuf": "depths"}
 
 
@@ -98,8 +97,9 @@ def expect_repetition(stage, verdict, files, run):
         return
     with contextlib.suppress(ProgramError):
         if run()[WRITES[stage]].data != files[WRITES[stage]].data:
+            numbers = Cause("", "Some numbers are random: two runs of the program on the same text differ")
             for file in wrong:
-                file.causes = [cause_of("zbuf/random-pixels") if stage == "zbuf" else Cause("", RANDOM)]
+                file.causes = [cause_of("zbuf/random-pixels") if stage == "zbuf" else numbers]
 
 
 def read_file(name, folder, others):

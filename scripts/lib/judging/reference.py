@@ -1,4 +1,5 @@
 """Our own tools' results for a scene and a config, once for all hand-ins that are judged by them."""
+import contextlib
 import functools
 import itertools
 import math
@@ -50,14 +51,12 @@ class Reference:
             return text, self.tools.output("model", *EXACT, stdin=data)
         except ToolFailure as failure:
             older = without_old_lines(text)
-            try:
+            with contextlib.suppress(ToolFailure):
                 if older is not None:
                     model = self.tools.output("model", *EXACT, stdin=older.encode(
                         "utf-8", errors="surrogateescape"))
                     self.remarks.append(OLD_FORMAT)
                     return older, model
-            except ToolFailure:
-                pass
             raise JudgeError(f"the scene is refused: {failure}") from None
 
     def expect_no_spheres(self, text, model):
@@ -148,15 +147,11 @@ def without_old_lines(text):
     background beside the camera, and a color after each triangle."""
     lines = text.split("\n")
     filled = [(i, words) for i, line in enumerate(lines) if (words := line.split("#")[0].split())]
-    head = [*itertools.takewhile(lambda line: not is_word(line), filled)]
+    head = [*itertools.takewhile(lambda line: not line[1][0][0].isalpha(), filled)]
     dropped = {i for i, words in head if len(words) == 2}  # the size; the background is the line after it
     if len(head) > 5:
         dropped |= {i for (_, size), (i, _) in zip(head, head[1:]) if len(size) == 2}
     for (_, word), *numbers in zip(*(filled[len(head) + k:] for k in range(5))):
-        if word == ["triangle"] and not any(map(is_word, numbers)):
+        if word == ["triangle"] and not any(words[0][0].isalpha() for _, words in numbers):
             dropped.add(numbers[-1][0])
     return "\n".join(line for i, line in enumerate(lines) if i not in dropped) if dropped else None
-
-
-def is_word(line):
-    return line[1][0][0].isalpha()

@@ -136,8 +136,7 @@ def wrong(stage, name, theirs, result):
 
 
 def verdict_on_few_digits(ways, name, theirs):
-    """The verdict on a text with too few digits to name a mistake by. It is wrong if it differs from all
-    that is right by more than those digits hide."""
+    """The verdict on too few digits to name a mistake by: wrong if they differ by more than those hide."""
     result = nearest(ways.right, theirs, theirs.digits)
     if not result:
         return FileVerdict(ways.stage, name, TOO_FEW_DIGITS, remarks=[f"it shows {theirs.digits}"])
