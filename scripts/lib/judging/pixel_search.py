@@ -218,13 +218,10 @@ def at_borders(context, best):
 
 def of_blank(context, plain):
     """The Finding where nothing is drawn, with all that would do that; of depths beside a picture, none."""
-    def draws_nothing(changes):
-        drawing = context.drawing(context.first, Rule(**changes))
-        return not any(t >= 0 for row in range(context.window.height) for t in drawing.row(row)[0])
-
     blank = BLANK[:-1] if context.shown.depths else BLANK  # the last one is of pictures alone
-    finding, names = unknown(plain), dict.fromkeys(
-        name for (name, *_), changes in MISTAKES if name in blank and draws_nothing(changes))
+    ways = ((name, context.compare(context.first, Rule(**changes), limit=0))
+            for (name, *_), changes in MISTAKES if name in blank)
+    finding, names = unknown(plain), dict.fromkeys(name for name, one in ways if one and not one.drawn)
     if context.is_one_of_two:
         names = BLANK[-1:] if context.shown.colors else ()
     elif plain.triangle_count == 1:
