@@ -458,12 +458,13 @@ class Shared(unittest.TestCase):
         self.assertEqual(shared.sentence(shared.wrong_points(*depths, False)),
                          "6 of 6 wrong numbers: the depths are negated")
 
-    def test_is_shown_before_mistakes(self):
+    def test_is_shown_without_a_guess(self):
         program = sh(f"{BIN}/model --bare | awk 'NF {{$1 = -$1; $3 = -$3}} {{print}}'")
         done = subprocess.run([
-            sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model", "--only", "translate-*",
+            sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model", "--only", "r*",
             "--assignment", "--", *program], stdout=subprocess.PIPE, text=True)
         self.assertRegex(done.stdout, r"\A.+\n.+\n\n\d+ of \d+ wrong numbers: x and z are negated\n")
+        self.assertNotIn("most like", done.stdout)
 
     def test_a_random_output_is_told(self):
         random = "$(od -An -N3 -tu4 /dev/urandom | tr -d ' ')"

@@ -117,9 +117,8 @@ def shared_by_most(results):
 def table(results, mistakes, chance):
     """The failing cases by mistake, each with the one of the shortest input, its reason, and what it expected
     and found; before them, what most share, and the sentence `chance`."""
-    lines = []
-    for sentence in filter(None, (chance, shared_by_most(results))):
-        lines += ["#", f"# {sentence}"]
+    known = [*filter(None, (chance, shared_by_most(results)))]  # beside which there is nothing to guess
+    lines = [line for sentence in known for line in ("#", f"# {sentence}")]
     wrong = [result.difference.other_rule for result in results if result.state == "wrong"]
     if wrong and wrong[0] and wrong.count(wrong[0]) == len(wrong):
         lines += ["#", f"# By --rule {wrong[0]} all of these are right."]
@@ -128,7 +127,7 @@ def table(results, mistakes, chance):
         count = f"{len(heading.results)} case{'s' * (len(heading.results) > 1)}"
         lines += ["#", "# " + " or ".join(heading.names or [heading.title]) + ": " + count]
         lines += ["#   " + mistakes[name] for name in heading.names]
-        names = [] if chance else most_like(heading, results)
+        names = [] if known else most_like(heading, results)
         lines += [f"#   most like {name}: {mistakes[name]}" for name in names]
         lines += [
             f"#   first, by length: {first.case.name}",
