@@ -1,18 +1,5 @@
-#!/usr/bin/env python3
-"""Writes the completion of pipeline and its commands for bash, zsh and fish, from their --help.
-
-PREFIX is a build folder or an installation: it has libexec/pipeline.
-"""
-import pathlib
+"""The completion of pipeline and its commands for bash, zsh and fish, from their --help."""
 import re
-import sys
-
-sys.dont_write_bytecode = True  # the source folder stays free of Python's caches
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))  # lib is in scripts
-
-from lib.rim.arguments import CommandParser
-from lib.rim.command import run_command
-from parts.help_text import commands_in, help_of
 
 FUNCTION = r"""
 # Prints the words that may stand for the first one, after the others, of which the first is a command;
@@ -34,7 +21,7 @@ _pipeline_words() {
 }
 """
 # Bash completes names of files where the function leaves COMPREPLY empty (-o default).
-BASH = r"""# Completion for bash of pipeline and its commands, made by make-completion.
+BASH = r"""# Completion for bash of pipeline and its commands, made by make-pages.
 %(function)s
 _pipeline() {
   local word=${COMP_WORDS[COMP_CWORD]} words=("${COMP_WORDS[@]:0:COMP_CWORD}") found IFS=$' \t\n'
@@ -70,7 +57,7 @@ _pipeline_short_names
 unset -f _pipeline_short_names
 """
 ZSH = r"""#compdef pipeline
-# Completion for zsh, made by make-completion.
+# Completion for zsh, made by make-pages.
 %(function)s
 _pipeline() {
   local before=(${words[2,CURRENT-1]}) found
@@ -87,7 +74,7 @@ _pipeline() {
 }
 _pipeline "$@"
 """
-FISH = r"""# Completion for fish, made by make-completion.
+FISH = r"""# Completion for fish, made by make-pages.
 function __pipeline_is
   set -l words (commandline -opc)
   test "$words[2]" = "$argv[1]"
@@ -133,24 +120,11 @@ def fish_lines(helps):
             yield f"complete -c pipeline -n '__pipeline_is {text.name}'{names}{rest}\n"
 
 
-def main():
-    parser = CommandParser(description=__doc__)
-    parser.add_argument("prefix", metavar="PREFIX", type=pathlib.Path)
-    parser.add_argument("share", metavar="FOLDER", type=pathlib.Path, help="the share folder for them")
-    words = parser.parse_args()
-    folder = words.prefix.resolve() / "libexec/pipeline"
-    names = commands_in(folder)
-    helps = [help_of(folder / name, name) for name in names]
+def completion(helps):
+    """{place in a share: text} for each shell."""
     values, options = cases(helps)
     parts = {
-        "values": values, "options": options, "lines": "".join(fish_lines(helps)),
-        "commands": " ".join(names), "words": WORDS}
+        "values": values, "options": options, "lines": "".join(fish_lines(helps)), "commands": " ".join(
+            text.name for text in helps), "words": WORDS}
     parts["function"] = FUNCTION % parts
-    for name, text in FILES.items():
-        file = words.share / name
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text % parts)
-
-
-if __name__ == "__main__":
-    run_command(main, "make-completion")
+    return {name: text % parts for name, text in FILES.items()}
