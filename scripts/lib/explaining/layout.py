@@ -8,18 +8,14 @@ MIN_LEFT_WIDTH = 42
 INDENT = "  "
 
 
-def aligned(rows):
+def aligned(rows, justified=str.rjust, gap="  "):
     """Rows of words as lines, each column aligned on the right."""
     widths = [max(map(len, column)) for column in zip(*rows)]
-    return [
-        INDENT + "  ".join(word.rjust(width) for word, width in zip(row, widths)).rstrip() for row in rows]
+    return [INDENT + gap.join(map(justified, row, widths)).rstrip() for row in rows]
 
 
 def aligned_left(rows):
-    """Rows of words as lines, each column aligned on the left."""
-    widths = [max(map(len, column)) for column in zip(*rows)]
-    return [
-        INDENT + "   ".join(word.ljust(width) for word, width in zip(row, widths)).rstrip() for row in rows]
+    return aligned(rows, str.ljust, "   ")
 
 
 def on_the_point(column):

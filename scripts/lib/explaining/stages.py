@@ -15,7 +15,7 @@ from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.running.tool_options import words_of_project
 from lib.text.stage_text import header_and_body, parse_stage_text, text_of
 
-FRAGMENT = re.compile(r"zbuf: \d+,\d+: triangle (\d+), depth (\S+): (.*)")
+FRAGMENT = re.compile(r"(\d+),(\d+): triangle (\d+), depth (\S+): (.*)")
 EXACT = ("--digits", "exact")
 
 
@@ -87,7 +87,7 @@ class Stages:
     def fragments(self, column, row):
         """Every Fragment of the whole scene at a pixel, in the order of arrival."""
         report = self.zbuf(self.projected_whole(EXACT), "--probe", f"{column},{row}")
-        return [Fragment(int(n), depth, fate) for n, depth, fate in FRAGMENT.findall(report)]
+        return [Fragment(int(n), depth, fate) for _, _, n, depth, fate in FRAGMENT.findall(report)]
 
     def projected_whole(self, digits, *of_model):
         """The text of project for the whole scene; `digits` are words for model and view."""
