@@ -1,13 +1,14 @@
 #include "libpipeline/coverage/edge_pixels.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "libpipeline/numbers/fixed_int.h"
 
 namespace pipeline {
 namespace {
 
-/// The rows or the columns, with the corners' distances from the first one.
+/// The columns or the rows.
 template <typename Int>
 struct Axis {
   const std::array<Int, 3>& corners;
@@ -15,60 +16,40 @@ struct Axis {
   RowRange range;
 };
 
-template <typename Product>
-Product size(const Product& value) {
-  return value < 0 ? -value : value;
-}
-
-/// Calls `visit(i, k, t)` for each pixel, i counted along the edge and k across it. The pixel lies at the
-/// fraction t of the way from the end `low` to the end `high`.
-template <typename Product, typename Int, typename Visitor>
-void for_each_on_edge(const Axis<Int>& along, const Axis<Int>& across, std::size_t low, std::size_t high,
-                      int width, Visitor&& visit) {
-  const Product length = Product(along.corners[high] - along.corners[low]);
+/// Adds the pixels of the edge that begins at the corner `from`.
+template <typename Product, typename Int>
+void add_edge(const GridTriangle<Int>& t, const Triangle& p_ndc, std::size_t from, const RowRange& columns,
+              const RowRange& rows, int width, std::vector<EdgePixel>& pixels) {
+  std::size_t low = from, high = (from + 1) % 3;
+  const Product du = Product(t.u[high] - t.u[low]), dv = Product(t.v[high] - t.v[low]);
+  if (du == 0 && dv == 0) return;
+  const auto size = [](const Product& value) { return value < 0 ? -value : value; };
+  const bool is_flat = size(du) * Product(t.row_step.value()) >= size(dv) * Product(t.column_step.value());
+  // Both triangles at the edge begin at the same end.
+  if ((is_flat ? du : dv) < 0) std::swap(low, high);
+  const Axis<Int> horizontal = {t.u, t.column_step, columns}, vertical = {t.v, t.row_step, rows};
+  const Axis<Int>& along = is_flat ? horizontal : vertical;
+  const Axis<Int>& across = is_flat ? vertical : horizontal;
+  const Product length = size(is_flat ? du : dv);
   const Product rise = Product(across.corners[high] - across.corners[low]);
   const Product start = Product(across.corners[low]) * length;
   // Twice the distances, so that half a step is whole.
   const Divisor<Product> step(2 * (Product(across.step.value()) * length));
   const Product reach = width * (Product(across.step.value()) * length);
   const int bits = bit_length(length);
+  const auto [least, greatest] = std::minmax(p_ndc[low].z, p_ndc[high].z);
   const int first = along.step.quotient_rounded_up(along.corners[low], along.range.end);
   const int end = along.step.quotient_rounded_up(along.corners[high] + 1, along.range.end);
   for (int i = std::max(first, along.range.first); i < end; ++i) {
     const Product way = Product(i * along.step.value() - along.corners[low]);
+    const double part = to_double(way, bits) / to_double(length, bits);
+    const double depth = std::clamp((1 - part) * p_ndc[low].z + part * p_ndc[high].z, least, greatest);
     const Product crossing = 2 * (start + way * rise);
     const int first_across = step.quotient_rounded_up(crossing - reach, across.range.end);
     const int end_across = step.quotient_rounded_up(crossing + reach, across.range.end);
-    const double t = to_double(way, bits) / to_double(length, bits);
-    for (int k = std::max(first_across, across.range.first); k < end_across; ++k) visit(i, k, t);
+    for (int k = std::max(first_across, across.range.first); k < end_across; ++k)
+      pixels.push_back(is_flat ? EdgePixel{k, i, depth} : EdgePixel{i, k, depth});
   }
-}
-
-double depth_between(double z_low, double z_high, double t) {
-  const auto [least, greatest] = std::minmax(z_low, z_high);
-  return std::clamp((1 - t) * z_low + t * z_high, least, greatest);
-}
-
-template <typename Product, typename Int>
-void add_edge(const GridTriangle<Int>& t, const Triangle& p_ndc, std::size_t from, const RowRange& columns,
-              const RowRange& rows, int width, std::vector<EdgePixel>& pixels) {
-  const std::size_t to = (from + 1) % 3;
-  const Product du = Product(t.u[to] - t.u[from]), dv = Product(t.v[to] - t.v[from]);
-  if (du == 0 && dv == 0) return;
-  const Axis<Int> across_columns = {t.u, t.column_step, columns}, across_rows = {t.v, t.row_step, rows};
-  const bool is_flat = size(du) * Product(t.row_step.value()) >= size(dv) * Product(t.column_step.value());
-  // Both triangles at the edge begin at the same end.
-  const bool is_rising = is_flat ? du > 0 : dv > 0;
-  const std::size_t low = is_rising ? from : to, high = is_rising ? to : from;
-  const auto depth = [&](double part) { return depth_between(p_ndc[low].z, p_ndc[high].z, part); };
-  if (is_flat)
-    for_each_on_edge<Product>(across_columns, across_rows, low, high, width, [&](int i, int k, double part) {
-      pixels.push_back({k, i, depth(part)});
-    });
-  else
-    for_each_on_edge<Product>(across_rows, across_columns, low, high, width, [&](int i, int k, double part) {
-      pixels.push_back({i, k, depth(part)});
-    });
 }
 
 }  // namespace

@@ -9,14 +9,9 @@ constexpr int kRowsOfThread = 8;
 
 }  // namespace
 
-ColoredRows::ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, Wireframe* wireframe,
-                         int first_row, int thread_count, PictureOutputs& outputs)
-    : store_(store),
-      shader_(shader),
-      wireframe_(wireframe),
-      outputs_(outputs),
-      row_(first_row),
-      pool_(shader ? thread_count : 1) {
+ColoredRows::ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, int first_row,
+                         int thread_count, PictureOutputs& outputs)
+    : store_(store), shader_(shader), outputs_(outputs), row_(first_row), pool_(shader ? thread_count : 1) {
   waiting_.resize(static_cast<std::size_t>(kRowsOfThread * pool_.size()));
   colored_.resize(waiting_.size());
   if (shader) shader->set_workers(pool_.size());
@@ -30,7 +25,7 @@ void ColoredRows::add(const VisibleRow& seen) {
     return outputs_.write_colors(colors_);
   }
   const int row = row_ + static_cast<int>(count_);
-  if (wireframe_ != nullptr) tags = wireframe_->row(row, seen);
+  if (Wireframe* edges = store_.wireframe()) tags = edges->row(row, seen);
   waiting_[count_].tags.assign(tags.begin(), tags.end());
   if (++count_ == waiting_.size()) color();
 }

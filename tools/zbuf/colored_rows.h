@@ -8,7 +8,6 @@
 #include "libpipeline/stream/thread_pool.h"
 #include "tools/zbuf/picture_outputs.h"
 #include "tools/zbuf/triangle_store.h"
-#include "tools/zbuf/wireframe.h"
 
 namespace pipeline {
 
@@ -16,9 +15,9 @@ namespace pipeline {
 /// some rows while the rows before them are written.
 class ColoredRows {
  public:
-  /// Without a shader, the store has the colors; `wireframe` may be null.
-  ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, Wireframe* wireframe, int first_row,
-              int thread_count, PictureOutputs& outputs);
+  /// Without a shader, the store has the colors.
+  ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, int first_row, int thread_count,
+              PictureOutputs& outputs);
 
   /// Takes the next row.
   void add(const VisibleRow& seen);
@@ -34,7 +33,6 @@ class ColoredRows {
 
   TriangleStore& store_;
   std::optional<SurfaceShader>& shader_;
-  Wireframe* wireframe_;
   PictureOutputs& outputs_;
   std::vector<Color> colors_;  // without a shader
   int row_;                    // the first row not yet colored

@@ -121,15 +121,14 @@ void set_exact_depths(const AnyCoverage& coverage, const TriangleStore& store, i
 /// Writes the outputs. True if all pixels show one triangle.
 bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewport& screen,
                const SampledDrawing& drawing, const StageReader& reader, TriangleStore& store,
-               std::optional<SurfaceShader>& shader, Wireframe* wireframe,
-               std::optional<CertainPixels>& certainty) {
+               std::optional<SurfaceShader>& shader, std::optional<CertainPixels>& certainty) {
   // Lighting a sample by one light takes as long as drawing four.
   const std::size_t cost = shader ? 1 + 4 * shader->setup().lighting.lights.size() : 0;
   outputs.open(screen, chosen.sample_count, store.background_color());
   TextWriter* const seen_text = outputs.open_text(chosen.seen_path);
   TextWriter* const certainty_text = outputs.open_text(chosen.certainty_path);
   const Viewport of_samples = sample_screen(screen, chosen.sample_count);
-  ColoredRows colors(store, shader, wireframe, chosen.sample_count * screen.drawn_rows().first,
+  ColoredRows colors(store, shader, chosen.sample_count * screen.drawn_rows().first,
                      chosen.threads_for(cost * pixel_count(of_samples)), outputs);
   std::vector<std::int64_t> numbers;
   KeptIds seen(store.id_count());
@@ -164,8 +163,6 @@ bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
     });
   }
   colors.finish();
-  if (wireframe != nullptr && seen_text != nullptr)
-    wireframe->for_each_id([&](PixelTag id) { seen.keep(id); });
   if (seen_text != nullptr) store.write_seen(*seen_text, reader, seen);
   if (certainty) certainty_text->append(certainty->report());
   outputs.finish(covered_count);
@@ -224,16 +221,25 @@ CertainPixels certain_pixels(const StageReader& reader, const Viewport& screen) 
   return {screen, header.bounds->value, header.projected->value};
 }
 
-TriangleStore::Setup kept(const ZbufOptions& chosen, const StageReader& reader, const Viewport& of_samples,
-                          Wireframe* wireframe) {
+/// The wireframe, if an output shows edges.
+std::unique_ptr<Wireframe> wireframe(const ZbufOptions& chosen, const Appearance& appearance,
+                                     const Viewport& of_samples) {
+  if (!chosen.wireframe || (!chosen.has_image() && chosen.seen_path.empty())) return nullptr;
+  return std::make_unique<Wireframe>(
+      chosen.rules, of_samples,
+      Wireframe::Setup{chosen.has_all_edges, !appearance.lights.empty(), chosen.sample_count});
+}
+
+TriangleStore::Setup kept(const ZbufOptions& chosen, const Appearance& appearance,
+                          const Viewport& of_samples) {
   return {.keeps_text = !chosen.seen_path.empty(),
           .keeps_numbers = !chosen.triangle_array_path.empty() || !chosen.certainty_path.empty(),
           .keeps_corners = !(chosen.z_buffer_path == "none" && chosen.depth_array_path.empty()) &&
                            std::max(-of_samples.front, of_samples.rear) > kMaxDepthInDoubles &&
                            std::holds_alternative<TypeValue<DepthF64>>(chosen.rules.depth),
-          .background = background_color(reader.header().appearance, parse_color(chosen.background)),
+          .background = background_color(appearance, parse_color(chosen.background)),
           .pixel_count = pixel_count(of_samples),
-          .wireframe = wireframe};
+          .wireframe = wireframe(chosen, appearance, of_samples)};
 }
 
 }  // namespace
@@ -252,13 +258,7 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
   tool.timing().lap(&Timing::read_seconds);
   Reports reports(chosen, screen, statistics.is_wanted(), outputs.open_fragments(chosen.fragments_path));
   if (!chosen.certainty_path.empty()) reports.certainty = certain_pixels(reader, screen);
-  std::unique_ptr<Wireframe> wireframe;
-  if (chosen.wireframe && (chosen.has_image() || !chosen.seen_path.empty()))
-    wireframe = std::make_unique<Wireframe>(
-        chosen.rules, of_samples,
-        Wireframe::Setup{chosen.has_all_edges, !reader.header().appearance.lights.empty(),
-                         chosen.sample_count});
-  TriangleStore store(kept(chosen, reader, of_samples, wireframe.get()), shader);
+  TriangleStore store(kept(chosen, reader.header().appearance, of_samples), shader);
   const bool is_one_by_one = chosen.algorithm == Algorithm::scanline;
   ThreadPool pool(is_one_by_one ? 1 : chosen.threads_for(pixel_count(of_samples)));
   SampledDrawing drawing(chosen, screen, store.background(), pool);
@@ -269,7 +269,7 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
   outputs.close_reports();
   tool.timing().lap(&Timing::work_seconds);
   const bool shows_one_triangle =
-      write_all(outputs, chosen, screen, drawing, reader, store, shader, wireframe.get(), reports.certainty);
+      write_all(outputs, chosen, screen, drawing, reader, store, shader, reports.certainty);
   if (chosen.has_image())
     note_odd_picture(tool, chosen, reports.drawing, screen, shader, reader.header(), shows_one_triangle);
 }

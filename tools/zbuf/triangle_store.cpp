@@ -13,10 +13,10 @@ constexpr std::size_t kPixelsPerTriangle = 4;
 
 }  // namespace
 
-TriangleStore::TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader)
-    : setup_(setup),
+TriangleStore::TriangleStore(Setup setup, std::optional<SurfaceShader>& shader)
+    : setup_(std::move(setup)),
       shader_(shader),
-      min_capacity_(std::max(setup.pixel_count / kPixelsPerTriangle, kMinCapacity)),
+      min_capacity_(std::max(setup_.pixel_count / kPixelsPerTriangle, kMinCapacity)),
       capacity_(min_capacity_) {}
 
 void TriangleStore::color(std::span<const PixelTag> tags, std::span<Color> colors) {
@@ -62,6 +62,7 @@ void TriangleStore::complete(KeptIds& kept, bool may_go_on) const {
 }
 
 void TriangleStore::write_seen(TextWriter& text, const StageReader& reader, KeptIds& seen) const {
+  if (setup_.wireframe != nullptr) setup_.wireframe->for_each_id([&](PixelTag id) { seen.keep(id); });
   text.append(reader.header_text());
   complete(seen, false);
   std::uint64_t next_number = 0;

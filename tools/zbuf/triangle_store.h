@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,8 +37,8 @@ class TriangleStore {
     bool keeps_numbers = false;  // the triangles' numbers, for set_numbers
     bool keeps_corners = false;  // the triangles' corners, for `corners`
     Color background;
-    std::size_t pixel_count = 0;  // of the picture, or of its samples
-    Wireframe* wireframe = nullptr;
+    std::size_t pixel_count = 0;           // of the picture, or of its samples
+    std::unique_ptr<Wireframe> wireframe;  // null unless edges are drawn
   };
 
   /// The corners of an ExactTriangle.
@@ -46,13 +47,14 @@ class TriangleStore {
     std::uint16_t decimal_marks;
   };
 
-  TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader);
+  TriangleStore(Setup setup, std::optional<SurfaceShader>& shader);
 
   /// The tag of a pixel without a triangle.
   [[nodiscard]] PixelTag background() const {
     return has_ids() ? KeptIds::kNoTriangle : setup_.background.rgb();
   }
   [[nodiscard]] Color background_color() const { return setup_.background; }
+  [[nodiscard]] Wireframe* wireframe() const { return setup_.wireframe.get(); }
   /// Makes the store keep the texts of triangles for which `is_needed` is true, even hidden ones.
   void keep_where(std::function<bool(const ExactTriangle&)> is_needed) { is_needed_ = std::move(is_needed); }
   /// Sets the tags of the next triangles.
