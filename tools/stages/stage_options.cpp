@@ -17,6 +17,12 @@ std::string joined(const std::vector<std::string>& words) {
   return text.append(kDecimalNumberSlack, ' ');
 }
 
+void add_light(const std::string& option, const std::vector<std::string>& words, Appearance& appearance) {
+  const std::string text = joined(words);
+  LineScanner line(text, option, 0);
+  read_appearance_part("light", {option}, line, AttributeSource::stage_text, appearance);
+}
+
 }  // namespace
 
 NumberOptions::NumberOptions(CommandLine& options) {
@@ -96,28 +102,21 @@ LightOption::LightOption(CommandLine& options) {
                     "Move light N of the scene, counted from 0, to a point in world space");
 }
 
-void LightOption::move_in(Appearance& appearance) const {
-  const std::size_t count = appearance.lights.size();
-  std::uint64_t number = 0;
-  if (!parse_count(at_[0], number) || number >= count)
-    throw UsageError("--light-at: " +
-                     expected_but_found(count == 0   ? "a scene with a light"
-                                        : count == 1 ? "0, the scene's one light"
-                                                     : "a light from 0 to " + std::to_string(count - 1),
-                                        pipeline::quoted(at_[0])));
-  const std::string text = joined({at_.begin() + 1, at_.end()}) + " 0 0 0", name = "--light-at";
-  LineScanner line(text, name, 0);
-  Appearance moved;
-  read_appearance_part("light", {name}, line, AttributeSource::stage_text, moved);
-  appearance.lights[number].value.position = moved.lights[0].value.position;
-}
-
 void LightOption::apply_to(Appearance& appearance) const {
-  if (!at_.empty()) move_in(appearance);
-  if (words_.empty()) return;
-  const std::string text = joined(words_), name = "--light";
-  LineScanner line(text, name, 0);
-  read_appearance_part("light", {name}, line, AttributeSource::stage_text, appearance);
+  if (!at_.empty()) {
+    const std::size_t count = appearance.lights.size();
+    std::uint64_t number = 0;
+    if (!parse_count(at_[0], number) || number >= count)
+      throw UsageError("--light-at: " +
+                       expected_but_found(count == 0   ? "a scene with a light"
+                                          : count == 1 ? "0, the scene's one light"
+                                                       : "a light from 0 to " + std::to_string(count - 1),
+                                          pipeline::quoted(at_[0])));
+    Appearance moved;
+    add_light("--light-at", {at_[1], at_[2], at_[3], "0", "0", "0"}, moved);
+    appearance.lights[number].value.position = moved.lights[0].value.position;
+  }
+  if (!words_.empty()) add_light("--light", words_, appearance);
 }
 
 ProjectionOptions::ProjectionOptions(CommandLine& options)

@@ -63,8 +63,6 @@ class LightOption {
   void apply_to(Appearance& appearance) const;
 
  private:
-  void move_in(Appearance& appearance) const;
-
   std::vector<std::string> words_, at_;
 };
 
