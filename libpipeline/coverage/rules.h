@@ -26,7 +26,7 @@ namespace pipeline {
 struct NearestCoverage {
   static constexpr std::string_view
       kName = "nearest",
-      kMeaning = "on each row, those nearest to where it enters and leaves the triangle, and between";
+      kMeaning = "on each row, from the pixel nearest its left end to the one nearest its right end";
   static constexpr bool kUsesDecimals = false;
   using Rows = NearestRows;
   explicit NearestCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(kNearestKernels)) {}

@@ -38,7 +38,7 @@ inline std::optional<Vec3> refracted(const Vec3& direction, const Vec3& normal, 
 /// e to the power -x for x >= 0, the same on every system to the last bit: 1 for 0, and 0 if it is too small
 /// for a double. The whole multiples of log 2 in x become a power of two; the rest r, |r| <= 0.35, goes into
 /// the first 14 terms of the series, whose sum is off by less than 2^-52 (the next term is below 0.35^14 /
-/// 14! = 2^-57). All in all, the relative error is below 2^-50.
+/// 14! < 2^-57). All in all, the relative error is below 2^-50.
 inline double decay(double x) {
   if (!(x < 745.2)) return 0;
   // log 2 in two parts; the first has so few digits that its products with whole numbers are exact.

@@ -16,7 +16,7 @@ namespace pipeline {
 class ModelFiles {
  public:
   /// Reads a model and changes to the folder of `path`, as given; or reads standard input if `path` is "-",
-  /// which has no folder and no other files. All files together may have at most these megabytes, and none
+  /// which has no folder and no other files. All files together may have at most `megabytes`, and none
   /// may be standard output or one of `written`.
   ModelFiles(const std::string& path, std::size_t megabytes, const std::vector<std::string>& written);
 

@@ -49,7 +49,7 @@ class BorderRule:
             return None
         slope = abs(per_column) + abs(per_row)
         if edges is None:
-            # Thinner than a pixel: open where it is drawn, and which of its depths is extrapolated.
+            # Thinner than a pixel: where it is drawn and which depth is extrapolated are open.
             slack = slope * REACH + tolerance
             return (t, of_z[0] - slack, of_z[1] + slack), False
         inside = self.inside(t, row, column)
@@ -87,8 +87,8 @@ class BorderRule:
 
     @property
     def shows_each_triangle(self):
-        """True if it shows half the visible pixels of each triangle with one REACH or more inside its
-        outline, and one of the smaller triangles."""
+        """True if it shows half the visible pixels of each triangle that has one REACH inside its outline,
+        and at least one smaller triangle."""
         visible, agreeing, deep = collections.Counter(), collections.Counter(), set()
         for row in range(self.triangles.grid.height):
             for column, t in enumerate(self.drawing.row(row)[0]):
@@ -107,7 +107,7 @@ class BorderRule:
         mismatch, kind = self.mismatch, self.mismatch.pixels.get((row, column))
         if kind != "depth" or not self.pixels.colors:
             return kind is not None
-        if not self.pixels.depths[row]:  # it is open whose depth differs
+        if not self.pixels.depths[row]:  # which pixel differs is open
             return False
         color, z = self.pixels.colors[row][column], self.pixels.depths[row][column]
         if mismatch.colors.get(t) == color and t not in mismatch.unplaced:

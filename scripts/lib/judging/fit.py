@@ -47,7 +47,7 @@ def cause_of_element(i, j, value, right, digits=6):
 
 def cause_of_elements(comparison, rows=range(4)):
     """The cause if a Comparison shows that one element in some rows is another number, or that the first two
-    of the diagonal have a factor too much; a list of at most one."""
+    of the diagonal have an extra factor; a list of at most one."""
     differing = sorted(place for place in getattr(comparison, "differing", ()) if place[0] in rows)
     if len(differing) == 1:
         (i, j), = differing

@@ -7,8 +7,8 @@ from lib.judging.verdict import WRONG, cause_of, joined
 
 
 def blames_many_colors(verdict, shown, context, mismatch):
-    """Makes many colors the cause of a picture's FileVerdict, or a further one; False if fewer pixels have
-    another color than most of their triangle, where a Mismatch leaves the outlines right, than differ."""
+    """Makes many colors the cause of a picture's FileVerdict, or a further one; False unless more pixels
+    have another color than most of their triangle, where a Mismatch leaves outlines right, than differ."""
     drawing = context.drawing(mismatch.reading, mismatch.rule)
     pixels = shown.pixels(mismatch.rule.picture_flip, mismatch.rule.text_flip)
     seen = {(row, column): (t, pixels.colors[row][column])

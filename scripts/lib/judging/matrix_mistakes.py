@@ -1,5 +1,5 @@
 """The matrices that view or project may have by mistake. Each candidate is (Cause, matrix, whether it
-divides); numbers that several fit do not distinguish these. Mistakes in different rows are found row by row,
+divides); numbers that fit several do not tell them apart. Mistakes in different rows are found row by row,
 and their names are joined."""
 import contextlib
 import itertools
@@ -80,7 +80,7 @@ def changed_elements(stage, ours):
 
 
 def causes_by_rows(ways, theirs, digits, comparison):
-    """The Causes of Points that are each one mistake or more, if every coordinate that is wrong is explained
+    """The Causes of Points, each of one mistake or more, if every coordinate that is wrong is explained
     by one that leaves the others as they are. `comparison` is the fitted matrix beside ours."""
     def fits(way, axes):
         return any(not differs(theirs.points, digits, images, axes) for images in way.images())

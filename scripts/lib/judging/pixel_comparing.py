@@ -10,7 +10,7 @@ from lib.judging import pixel_rules
 from lib.judging.raster import Drawing, Grid, Rule, Triangles, spend
 from lib.judging.shown import DEPTH_BASE
 
-PIXELS_LOOKED_AT = 30_000  # the most differing pixels that are checked for all they could show
+PIXELS_LOOKED_AT = 30_000  # limits how many differing pixels are checked for all they show
 # Pixels of triangles and spans that are looked at, in the search for a cause and for the rules that are open.
 # They are counted: seconds would make a verdict depend on the machine.
 MOST_WORK, MOST_OPEN_WORK = 10_000_000, 60_000_000
@@ -23,8 +23,8 @@ class Mismatch:
     reading: str
     pixels: dict = dataclasses.field(default_factory=dict)
     drawn: int = 0  # pixels with a triangle, by the rule
-    doubtful: int = 0  # pixels whose shape is the hand-in's only within the rule's uncertainty
-    areas: collections.Counter = dataclasses.field(default_factory=collections.Counter)  # these by triangle
+    doubtful: int = 0  # pixels drawn or not as in the hand-in only by the rule's uncertainty
+    areas: collections.Counter = dataclasses.field(default_factory=collections.Counter)  # of each triangle
     offsets: dict = dataclasses.field(default_factory=dict)  # of depths, at these pixels
     colors: dict = dataclasses.field(default_factory=dict)  # of each triangle, by the majority of its pixels
     visible: collections.Counter = dataclasses.field(default_factory=collections.Counter)

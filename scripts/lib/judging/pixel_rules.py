@@ -11,7 +11,7 @@ ENDS = ({"left": left, "right": right}
 OPEN_ENDS = [*OUR_ENDS, *(ends for ends in ENDS if ends not in OUR_ENDS)]
 OPEN_DEPTHS = [{}, {"depth": "between ends"}, {"depth": "between ends", "clamp": 1}, {
     "depth": "between ends", "clamp": 0}, {"depth": "from left"}, {"depth": "from left", "clamp": 0}]
-# mistakes that draw nothing, most of them in many scenes alone
+# mistakes that draw nothing, most of them only in some scenes
 BLANK = ("starts-at-zero", "one-winding", "no-depth-passes", "black-picture")
 MOST_PAIRS = 4  # of mistakes that explain the same, before none is named
 

@@ -20,8 +20,8 @@ COLORS, SOME = 2, 8
 
 
 def pixel_readings(stage3, memory, right_ndc):
-    """{name: (points, units)} of all that a program may have drawn: the file, the numbers in memory, and the
-    right ones, also as a text has them after three roundings, if its stages are not."""
+    """{name: (points, units)} of all that a program may have drawn: the file, the numbers in memory and, if
+    its stages are wrong, the right ones, also as after three roundings."""
     readings = {}
     if stage3 is not None:
         readings["file"] = (stage3.points, stage3.units)
@@ -109,7 +109,7 @@ class PixelStage:
         return verdicts
 
     def is_uncovered(self):
-        """Rows of whether our picture of their points, or of ours, shows the background."""
+        """Rows, True where our picture of their points, or of ours, is background."""
         texts = [self.files["stage3"].data or b"", self.ours.stage3]
         rows = next(filter(None, map(self.ours.picture, texts)), [])
         return [[row[i:i + 3] == self.ours.background for i in range(0, len(row), 3)] for row in rows]

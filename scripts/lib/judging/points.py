@@ -84,7 +84,7 @@ def is_off(a, b, tolerance):
 
 def off(theirs, digits, expected, axes=range(3)):
     """(index of the point, axis, theirs, expected) of each coordinate that is off from the expected (point,
-    slacks of its coordinates), which are drawn one by one; where our number decides nothing, it is nan."""
+    slacks of its coordinates), which are taken one by one; where our number decides nothing, it is nan."""
     for i, (p, (q, slacks)) in enumerate(zip(theirs, expected)):
         printed = printed_tolerance(q, digits)
         for axis in axes:

@@ -60,7 +60,7 @@ class Reference:
             raise JudgeError(f"the scene is refused: {failure}") from None
 
     def expect_no_spheres(self, text, model):
-        """Refuses spheres, which assignments lack, by model's message, which names the place in the scene."""
+        """Refuses spheres, which assignments lack, with model's message, which names their place."""
         if b"\nsphere\n" in model:
             try:
                 self.tools.run("model", "--bare", stdin=text.encode("utf-8", errors="surrogateescape"))

@@ -41,7 +41,7 @@ class Scene:
             stack.command(keyword)
 
     def shows(self, name):
-        """True if a mistake of model moves points here, in each of its forms; False for one without name."""
+        """True if a mistake of model moves points here, in each of its forms; False for an unnamed one."""
         return name in model_habits.MODEL_MISTAKES and all(
             any(math.dist(p, q) > 1e-3 for (p, _), (q, _) in zip(self.world(), self.world(habit)))
             for habit in model_habits.MODEL_MISTAKES[name])
