@@ -938,7 +938,8 @@ class Readers(ToolTest):
          ": some of its vertices have no color: they get the color of their mesh\n"
          "a.obj: it has colors that are negative or no numbers: they are left out", USUAL),
         ("a.gltf", "[" * 100000, 0,
-         OTHER + "another: assimp export a.gltf a.glb converts it (Debian: assimp-utils)"),
+         OTHER + "another, perhaps one that assimp reads: assimp export a.gltf a.glb converts it (Debian: "
+         "assimp-utils)"),
         ("a.gltf", '{"a":' * 1000000, 0,
          ":1:5000001: expected JSON (unexpected end of input; expected '[', '{', or a literal), found the "
          "end of the file"),
@@ -951,7 +952,8 @@ class Readers(ToolTest):
          ": expected extensions that are supported, found 'ACME_shape', which the file requires"),
         ("a.obj", "version https://git-lfs.github.com/spec/v1\n", 0,
          OTHER + "a Git LFS pointer, which stands for the model: git lfs pull gets it"),
-        ("a.obj", b"\x1f\x8b\x08", 0, OTHER + "a file packed by gzip: gunzip unpacks it"),
+        ("a.obj", b"\x1f\x8b\x08", 0, OTHER + "a file packed by gzip: zcat unpacks it"),
+        ("a.obj", b"PK\x03\x04", 0, OTHER + "a ZIP archive: unzip unpacks it"),
         ("a.obj", V.encode("utf-16"), 0, OTHER + "text in UTF-16: iconv -f UTF-16 -t UTF-8 converts it"),
         ("a.obj", "\n<!DOCTYPE html><html>", 0, OTHER + "a page of HTML in place of the file"),
         ("a.dae", "<?xml version='1.0'?><COLLADA/>", 0, OTHER + "XML, such as COLLADA, X3D or AMF: assimp "

@@ -19,7 +19,7 @@ struct OtherFormat {
 };
 constexpr std::array<OtherFormat, 16> kOtherFormats = {{
     {"version https://git-lfs", "a Git LFS pointer, which stands for the model", "git lfs pull gets it"},
-    {"\x1f\x8b", "a file packed by gzip", "gunzip unpacks it"},
+    {"\x1f\x8b", "a file packed by gzip", "zcat unpacks it"},
     {"\xff\xfe", "text in UTF-16", "iconv -f UTF-16 -t UTF-8 converts it"},
     {"\xfe\xff", "text in UTF-16", "iconv -f UTF-16 -t UTF-8 converts it"},
     {"<!doctype html", "a page of HTML in place of the file", ""},
@@ -28,7 +28,7 @@ constexpr std::array<OtherFormat, 16> kOtherFormats = {{
     {"\xff\xd8", "a JPEG picture", ""},
     {"iso-10303-21", "a STEP file", "a CAD program such as FreeCAD makes an STL file of it"},
     {"blender", "a Blender file", "Blender exports glTF"},
-    {"pk\x03\x04", "3MF or another ZIP archive", kAssimp},
+    {"pk\x03\x04", "3MF", kAssimp},
     {"kaydara fbx", "FBX", kAssimp},
     {"; fbx", "FBX", kAssimp},
     {"off", "OFF", kAssimp},
@@ -66,8 +66,10 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
   const bool is_binary_stl = is_whole_binary_stl(bytes);  // even if its header begins with "solid"
   for (const auto& [known, what, cure] : kOtherFormats)
     if (!is_binary_stl && (in_lower_case(bytes.substr(0, known.size())) == known ||
-                           in_lower_case(begin.substr(0, known.size())) == known))
+                           in_lower_case(begin.substr(0, known.size())) == known)) {
+      if (known.starts_with("pk") && !name.ends_with(".3mf")) refuse("a ZIP archive", "unzip unpacks it");
       refuse(what, cure);
+    }
   if (is_binary_stl)
     model.format = "STL", read_stl(bytes, model);
   else if (begin.starts_with("ply"))
@@ -79,7 +81,8 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
   else if (is_obj(model.name, bytes) || name.ends_with(".obj"))
     model.format = "OBJ", read_obj(bytes, files, model);
   else
-    refuse(begin.empty() ? "an empty file" : "another", begin.empty() ? "" : kAssimp);
+    refuse(begin.empty() ? "an empty file" : "another, perhaps one that assimp reads",
+           begin.empty() ? "" : kAssimp);
   if (!files.refusal().empty()) model.note(files.refusal() + ": left out");
   complete(model);
   add_normals(model, crease_degrees);
