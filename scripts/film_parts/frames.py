@@ -9,12 +9,13 @@ import subprocess
 import tempfile
 
 from film_parts.scene import number
+from lib.rim.child import run
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import read_input
 from lib.rim.output_file import OutputFile, write_file
 from lib.rim.parallel import Job, run_parallel
 from lib.rim.work_folder import OURS, WorkFolder
-from lib.running.pipe_tools import STAGES_IN_SHELL, failure_of_jobs
+from lib.running.pipe_tools import STAGES_IN_SHELL, Done, failure_of_jobs
 from lib.showing.pictures import PNG_SIGNATURE, png, png_chunk, png_chunks
 
 FRAMES_PER_JOB = 8
@@ -62,10 +63,9 @@ def encode(folder, film, fps, frame_count):
         str(frame_count)]
     if not film.lower().endswith(".gif"):
         words += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
-    done = subprocess.run([*words, film], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
-                          text=True)
+    done = run([*words, film], cwd=folder, stdin=subprocess.DEVNULL)
     if done.returncode != 0:
-        reasons = done.stderr.strip().splitlines() or [f"status {done.returncode}"]
+        reasons = Done("ffmpeg", done.returncode, done.stderr).reasons or [f"status {done.returncode}"]
         raise CommandFailure(f"ffmpeg: {reasons[-1]}")
 
 

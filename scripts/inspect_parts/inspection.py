@@ -11,7 +11,8 @@ from inspect_parts.explanations import explanations
 from inspect_parts.packing import packed
 from inspect_parts.stage_lines import NUMBER_BEGINS, StageLines
 from lib.rim.input_file import read_input
-from lib.running.pipe_tools import FRAMING, ToolFailure, bare_blocks, of_bare_text, opaque_background
+from lib.running.pipe_tools import (FRAMING, ToolCrash, ToolFailure, bare_blocks, expect_rows, of_bare_text,
+                                    opaque_background)
 from lib.showing.pictures import read_picture
 from lib.text.projection import line_of
 from lib.text.square import note_on_squares
@@ -28,9 +29,12 @@ TITLES = {"model": "world space", "view": "view space", "project": "normalized d
 BEGINS = (*NUMBER_BEGINS, "triangle ", "clipped", "sphere")  # of the lines after a header
 
 
-def time_told(stderr):
+def time_told(tool, stderr):
     """Seconds of a --timing line."""
-    return float(re.search(r"triangles? in (\d+\.\d+) s", stderr).group(1))
+    found = re.search(r"triangles? in (\d+\.\d+) s", stderr)
+    if not found:
+        raise ToolCrash(f"{tool}: has not written the time it took, though it ended well")
+    return float(found[1])
 
 
 def notes_told(stderr):
@@ -112,7 +116,7 @@ class Inspection:
         self.notes += notes_told(stderr)
         lines = self.thinned(read) if self.step > 1 else [(0, line) for line in read.lines]
         return {
-            "tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(
+            "tool": tool, "title": title, "seconds": time_told(tool, stderr), "triangles": len(
                 read.names), "missing": self.count - len(set(read.names)), "bytes": len(done.stdout),
             "statistics": self.statistics[tool], "text": "\n".join(line for _, line in lines),
             "numbers": packed("i", [number for number, _ in lines]) if self.step > 1 else None}
@@ -139,9 +143,10 @@ class Inspection:
                        "--fragments", log, "--stats", folder / "zbuf", stdin=stage3)
         self.notes += notes_told(timed)
         self.columns, self.rows, pixels = read_picture(image)
+        expect_rows(z_buffer, self.rows)
         text = z_buffer.read_text()
         self.stages.append({
-            "tool": "zbuf", "title": "pixels", "seconds": time_told(timed), "triangles": len(
+            "tool": "zbuf", "title": "pixels", "seconds": time_told("zbuf", timed), "triangles": len(
                 self.lines["project"].names), "bytes": len(text), "statistics": statistics(folder / "zbuf"),
             "text": text})
         self.pixels = base64.b64encode(b"".join(pixels)).decode()

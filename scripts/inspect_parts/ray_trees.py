@@ -6,6 +6,7 @@ import re
 import tempfile
 
 from lib.maths.vectors import axes
+from lib.rim.input_file import MAX_BYTES
 from lib.running.pipe_tools import opaque_background
 from lib.showing.pictures import read_picture
 
@@ -34,7 +35,8 @@ class RayTrees:
         with tempfile.TemporaryDirectory() as folder:
             image = pathlib.Path(folder, "out.ppm")
             done = inspection.tools.run("trace", inspection.config, *words, *opaque_background(stage2),
-                                        *probes, "--z-buffer", "none", "--image", image, stdin=stage2)
+                                        *probes, "--z-buffer", "none", "--image", image, stdin=stage2,
+                                        most=MAX_BYTES)
             _, _, pixels = read_picture(image)
         self.pixels = base64.b64encode(b"".join(pixels)).decode()
         self.notes, self.lines = [], []

@@ -85,14 +85,14 @@ class CertainPicture:
 
     def run(self, digits):
         with tempfile.TemporaryDirectory() as folder:
-            image, report, owners = (os.path.join(folder, name)
+            image, report, owners = (pathlib.Path(folder, name)
                                      for name in (f"image.{self.kind}", "certain.txt", "owners.npy"))
             is_last = digits != DIGITS
             notes = self.draw(
                 self.with_options(output=image, bounds=["--bounds"], digits=["--digits", digits], certify=[
                     "--certify", report, *["--triangle-array", owners] * is_last]))
             self.expect_unchanged()
-            picture = pathlib.Path(image).read_bytes()
+            picture = image.read_bytes()
             certainty = Certainty(report, size_of(picture)[0])
             return Run(digits, notes, certainty, picture, owners_in(owners) if is_last else None)
 
@@ -130,10 +130,10 @@ class CertainPicture:
     def draw_text(self, text):
         """The picture file of a text of project, and the numbers of the triangles seen."""
         with tempfile.TemporaryDirectory() as folder:
-            image, owners = os.path.join(folder, f"image.{self.kind}"), os.path.join(folder, "owners.npy")
+            image, owners = pathlib.Path(folder, f"image.{self.kind}"), pathlib.Path(folder, "owners.npy")
             *_, words = self.commands(self.with_options(output=image, certify=["--triangle-array", owners]))
             self.tools.run(*words, stdin=text)
-            return pathlib.Path(image).read_bytes(), owners_in(owners)
+            return image.read_bytes(), owners_in(owners)
 
 
 def draw_for_certain(options, *tools_and_calls):

@@ -40,13 +40,15 @@ COMMANDS = {
 # What is there before: all that one of them replaces.
 OLDER = ("x.gif", "x.png", "z.txt", "x.html", "x.svg",
          *(f"kept/{name}" for name in ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")))
-FRAMED = ("film", "farm", "picture", "stages", "inspect")  # which expect all of a text, whoever ends well
+# Which expect all of a text and of a file, whoever ends well; and of depths.
+FRAMED, DEPTHS = ("film", "farm", "picture", "stages", "inspect", "trade"), ("farm", "stages", "inspect")
 # Folders of the test, and of what can be gone on with.
 KEPT = ("bin", "x.gif.frames", "x.png.farm", "film/.pipeline-film-work")
 KILLED, FAILED = "ended by SIGKILL", "exit status 3"
 KILLS = {"at once": KILLED, "in the middle": KILLED, "after all": KILLED, "fails": FAILED}
-# A tool that is killed: at once, or with half of its text out, or in, or with all and a note; or fails then;
-# or does not end; or ends well with a part.
+MORE = "(the rest of its stderr is left out)"
+# A tool that is killed: at once, or with half of its text out, or in, or with all and a note; or fails then,
+# or after much on stderr; or does not end; or ends well with a part, or with half of the depths.
 TOOL = f'''#!{sys.executable} -I
 import os, signal, subprocess, sys
 words = ["{BIN}/TOOL", *sys.argv[1:]]
@@ -68,13 +70,21 @@ elif "MOMENT" == "ends well":
     if "TOOL" in ("model", "view", "project"):  # without the last triangle, and the frame
         os.write(1, subprocess.run(words, stdout=subprocess.PIPE).stdout.rsplit(b"\\n\\n", 2)[0] + b"\\n\\n")
     sys.exit()
+elif "MOMENT" == "babbles":
+    sys.stderr.write("TOOL: once more\\n" * (1 << 19))
+    sys.exit(3)
+elif "MOMENT" == "half":
+    text = subprocess.run(words, stdout=subprocess.PIPE).stdout
+    os.write(1, text[:len(text) // 2])
+    for option, path in zip(words, words[1:]):
+        if option == "--z-buffer" and os.path.isfile(path): os.truncate(path, os.path.getsize(path) // 2)
+    sys.exit()
 elif "MOMENT" in ("after all", "fails"):
     status = subprocess.run(words).returncode
     if "MOMENT" == "after all": print("TOOL: note: a\\n\\nzbuf: status 7\\n", file=sys.stderr)
     if "MOMENT" == "fails": sys.exit(status or 3)
 os.kill(os.getpid(), signal.SIGKILL)
 '''
-
 
 class KilledStages(ToolTest):
     def check(self, command):
@@ -103,12 +113,26 @@ class KilledStages(ToolTest):
         for stage in stages if command.split()[0] in FRAMED else ():
             with self.subTest(stage=stage, moment="ends well"):
                 self.make_tools(stage, "ends well")
-                self.kill(r"\S.*", *command.split(), *words.split())
+                self.kill(r"(?!.*\.pipeline-)\S.*", *command.split(), *words.split())
                 self.assertEqual(self.contents(), before)
+        if command in DEPTHS:
+            self.make_tools("zbuf", "half")
+            self.kill("zbuf: has not written all of the depths, .*", *command.split(), *words.split())
+            self.assertEqual(self.contents(), before)
         number = list(COMMANDS).index(command)
         with self.subTest(signal=signals[number % 3], stage=stages[number % len(stages)]):
             self.make_tools(stages[number % len(stages)], "never")
             self.end(signals[number % 3], *command.split(), *words.replace("kept", "new/five").split())
+            self.assertEqual(self.contents(), before)
+        # compare takes what the others of its tools say for a scene that they refuse.
+        stage = stages[number % len(stages) if command != "compare" else 0]
+        with self.subTest(babbles=stage):
+            self.make_tools(stage, "babbles")
+            done = run_script(*command.split(), *words.split(), env=self.places())
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(f"once more\n{stage}: once", done.stderr)
+            self.assertIn(MORE, done.stderr)
+            self.assertLess(len(done.stderr), 1 << 17)
             self.assertEqual(self.contents(), before)
 
     def test_fly_and_a_framed_pipe_of_ones_own_show_nothing_of_a_part(self):

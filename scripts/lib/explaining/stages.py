@@ -10,7 +10,7 @@ import tempfile
 from lib.maths.exact import double
 from lib.maths.window import Window
 from lib.rim.command import CommandFailure
-from lib.rim.input_file import read_input
+from lib.rim.input_file import MAX_BYTES, read_input
 from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.running.tool_options import words_of_project
 from lib.text.stage_text import header_and_body, parse_stage_text, text_of
@@ -81,7 +81,7 @@ class Stages:
             image = pathlib.Path(folder, "out.ppm")
             done = self.tools.run("zbuf", "--coverage", self.settings.coverage,
                                   "--image", image, "--z-buffer", "/dev/null", *options,
-                                  *opaque_background(text), self.config, stdin=text)
+                                  *opaque_background(text), self.config, stdin=text, most=MAX_BYTES)
             return done.stderr.decode(errors="replace")
 
     def fragments(self, column, row):

@@ -3,7 +3,9 @@ import contextlib
 import functools
 import itertools
 import math
+import pathlib
 import re
+import tempfile
 
 from lib.judging.hand_in import KINDS
 from lib.judging.matrices import image
@@ -108,10 +110,11 @@ class Reference:
     def picture(self, stage3, coverage="nearest"):
         """Our zbuf's picture for a stage text, as rows of bytes; None if it refuses the text."""
         try:
-            with self.tools.file(self.config) as config, self.tools.file(b"") as image:
+            with self.tools.file(self.config) as config, tempfile.TemporaryDirectory() as folder:
+                drawn = pathlib.Path(folder, "out.ppm")
                 self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image",
-                               f"ppm:{image}", *opaque_background(stage3), stdin=stage3)
-                return read_picture(image)[2]
+                               drawn, *opaque_background(stage3), stdin=stage3)
+                return read_picture(drawn)[2]
         except ToolOutOfMemory:
             raise
         except ToolFailure:

@@ -1,12 +1,49 @@
-"""Child processes: the cost of one, and the end of all."""
+"""Child processes: the stderr and the cost of one, and the end of all."""
 import contextlib
 import ctypes
+import fcntl
 import os
 import signal
+import subprocess
 import time
 
 PATIENCE = 3  # seconds before a process that does not end is killed
 PR_SET_CHILD_SUBREAPER = 36
+MOST_SAID = 1 << 16  # bytes of a process's stderr that are kept
+MORE = "(the rest of its stderr is left out)"
+
+
+class Said:
+    """A file in memory for the stderr of a process, which can write little more than `most` bytes: at the
+    end of the `with`, `text` is the first of them, and MORE if there were more. The disk may be full, and
+    memory too short for a thread that reads a pipe."""
+    def __init__(self, most=MOST_SAID):
+        self.most = most
+        self.file = os.memfd_create("stderr", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
+        with contextlib.suppress(OSError):  # the system refuses files of this size: no stderr gets there
+            os.truncate(self.file, most + MOST_SAID)
+            fcntl.fcntl(self.file, fcntl.F_ADD_SEALS, fcntl.F_SEAL_GROW | fcntl.F_SEAL_SHRINK)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        length = min(os.lseek(self.file, 0, os.SEEK_CUR), self.most + 1)
+        self.text = beginning(os.pread(self.file, length, 0), self.most)
+        os.close(self.file)
+
+
+def beginning(data, most=MOST_SAID):
+    """The first of these bytes, and MORE if there are more."""
+    return bytes(data[:most]) + f"\n{MORE}\n".encode() * (len(data) > most)
+
+
+def run(words, most=MOST_SAID, **settings):
+    """subprocess.run, with the stderr of a Said."""
+    with Said(most) as said:
+        done = subprocess.run(words, stderr=said.file, **settings)
+    done.stderr = said.text
+    return done
 
 
 def finished(process):

@@ -6,6 +6,7 @@ import re
 import shlex
 import subprocess
 
+from lib.rim.child import run
 from lib.running.owners import owners_in
 from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.showing.pictures import read_picture
@@ -177,7 +178,7 @@ class Pipe:
             output = ["--image", self.folder / "out.bmp", self.config] if tool == "zbuf" else []
             command = self.tools.command(tool, [*words, *output, source or scene or self.scene])
             with open(target, "wb") as file:
-                done = subprocess.run([*CALLGRIND, *command], stdout=file, stderr=subprocess.PIPE)
+                done = run([*CALLGRIND, *command], stdout=file)
             found = re.search(rb"Collected : (\d+)", done.stderr)
             if done.returncode or not found:
                 raise ToolFailure(f"{tool}: valgrind counts nothing (status {done.returncode})")

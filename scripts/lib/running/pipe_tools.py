@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-from lib.rim.child import cpu_seconds, finished
+from lib.rim.child import MORE, MOST_SAID, Said, beginning, cpu_seconds, finished, run
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import digest
 
@@ -98,9 +98,14 @@ stage() {
   echo "$1: status $(($2 > 128 && $2 <= 192 ? 128 - $2 : $2))" >&3
   return 1
 }
+kept() {
+  head -c MOST
+  [ "$(head -c 1 | wc -c)" -eq 0 ] || printf '\n%s' 'MORE'
+  cat > /dev/null
+}
 run() {
   record=$({
-    log=$("$@" 3>&4 4>&- 2>&1 > /dev/null)
+    log=$("$@" 3>&4 4>&- 2>&1 > /dev/null | kept)
     printf '%s' "$log" | sed 's/^/  /'
   } 4>&1)
   case $record in [!\ ]*) return 1 ;; esac
@@ -109,7 +114,7 @@ fail() {
   printf '\f%s\n%s\n\n' "$2" "$record"
   rm -f "$1"
 }
-'''
+'''.replace("MOST", str(MOST_SAID)).replace("MORE", MORE)
 # Where a tool names a line of its framed input.
 FRAMED_LINE = re.compile(rb"^((?:view|project|zbuf|trace): .*?<stdin>:)(\d+)", re.M)
 STATUS = r"^(\w+): status (-?\d+)$"
@@ -121,8 +126,8 @@ class Done:
     """A tool that has ended: its name, its status and the lines of its stderr."""
     def __init__(self, name, status, stderr):
         self.name, self.status = name, status
-        lines = list(map(shown, stderr.decode(errors="surrogateescape").strip().splitlines()))
-        self.notes = [line for line in lines if ": note: " in line]
+        lines = list(map(shown, beginning(stderr).decode(errors="surrogateescape").strip().splitlines()))
+        self.notes = [line for line in lines if ": note: " in line or line == MORE]
         self.reasons = [line for line in lines if not NO_REASON.search(line)]
 
 
@@ -149,7 +154,7 @@ def failure_of_jobs(printed):
     """The reason why the first job failed in which a tool failed; empty if there is none."""
     job, _, record = printed.split("\n\n")[0].partition("\n")
     statuses, log = dict(re.findall(STATUS, record, re.M)), re.findall("^  (.*)", record, re.M)
-    own = {tool: "\n".join(line for line in log if f"{tool}: " in line) for tool in statuses}
+    own = {tool: "\n".join(line for line in log if f"{tool}: " in line or line == MORE) for tool in statuses}
     try:
         expect_success(*(Done(tool, int(statuses[tool]), own[tool].encode()) for tool in PIPE if tool in own))
     except CommandFailure as failure:
@@ -157,10 +162,26 @@ def failure_of_jobs(printed):
     return ""
 
 
-def checked(done, tool):
-    """The finished run of a tool, or its error (expect_success)."""
+def checked(done, tool, words=()):
+    """The finished run of a tool, or its error (expect_success, expect_files)."""
     expect_success(Done(tool, done.returncode, done.stderr))
+    expect_files(tool, words)
     return done
+
+
+def expect_files(tool, words):
+    """Raises an error if a file of the command's own, a Path among the words, is not there after the run."""
+    for word in words:
+        if isinstance(word, pathlib.Path) and not word.exists():
+            raise ToolCrash(f"{tool}: has not written {word.name}, though it ended well")
+
+
+def expect_rows(depths, count):
+    """Raises an error if a text of depths, unless it is a device or a pipe, lacks rows."""
+    if os.path.isfile(depths):
+        with open(depths, "rb") as file:
+            if sum(1 for _ in file) != count:
+                raise ToolCrash("zbuf: has not written all of the depths, though it ended well")
 
 
 class Tools:
@@ -189,9 +210,10 @@ class Tools:
     def command(self, tool, words):
         return [self.folder / tool, *(self.one_thread if tool in ("zbuf", "trace") else []), *map(str, words)]
 
-    def run(self, tool, *words, stdin=b""):
-        """A finished run with the bytes `stdin` as input, its stdout and stderr as bytes."""
-        return checked(subprocess.run(self.command(tool, words), input=stdin, capture_output=True), tool)
+    def run(self, tool, *words, stdin=b"", most=MOST_SAID):
+        """A finished run with the bytes `stdin` as input, its stdout and `most` of its stderr as bytes."""
+        done = run(self.command(tool, words), most, input=stdin, stdout=subprocess.PIPE)
+        return checked(done, tool, words)
 
     def output(self, tool, *words, stdin=b""):
         return self.run(tool, *words, stdin=stdin).stdout
@@ -207,24 +229,23 @@ class Tools:
             for tool, *words in calls:
                 framing = FRAMING.get(tool, []) if len(calls) > 1 or is_kept else []
                 is_last = len(runs) == len(calls) - 1
-                # In memory: the disk may be full.
-                errors = stack.enter_context(os.fdopen(os.memfd_create("stderr"), "w+b"))
+                said = stack.enter_context(Said())
                 if runs:
                     stack.callback(source.close)  # also if the next tool cannot be started
                 process = subprocess.Popen(self.command(tool, [*framing, *words]), cwd=cwd, stdin=source,
-                                           stdout=stdout if is_last else subprocess.PIPE, stderr=errors)
+                                           stdout=stdout if is_last else subprocess.PIPE, stderr=said.file)
                 if runs:
                     source.close()
                 source = None if is_last else tee(process.stdout)
-                runs.append((process, errors))
-            done = []
-            for (process, errors), (tool, *_) in zip(runs, calls):
-                seconds = cpu_seconds(finished(process))
-                errors.seek(0)
-                said = of_bare_text(errors.read()) if is_kept else errors.read()
-                done.append(Done(tool, process.returncode, said))
-                done[-1].seconds = seconds
+                runs.append((process, said))
+            seconds = [cpu_seconds(finished(process)) for process, _ in runs]
+        done = [
+            Done(tool, process.returncode,
+                 of_bare_text(said.text) if is_kept else said.text)
+            for (process, said), (tool, *_) in zip(runs, calls)]
         expect_success(*done)
+        for each, each.seconds, (tool, *words) in zip(done, seconds, calls):
+            expect_files(tool, words)
         return done
 
     def through(self, *runs, stdin=b""):
