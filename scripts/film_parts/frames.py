@@ -10,7 +10,7 @@ import tempfile
 
 from film_parts.scene import number
 from lib.rim.child import run
-from lib.rim.command import CommandFailure, shown
+from lib.rim.command import CommandFailure, shown, unbroken
 from lib.rim.input_file import read_input
 from lib.rim.output_file import OutputFile, write_file
 from lib.rim.parallel import Job, run_parallel
@@ -148,12 +148,13 @@ class Frames:
             right, stale = self.stock(out)
             self.draw(work, options_of_parallel, right)
             new = self.frames.keys() - right
-            # If we are killed here, the list names every frame, and no older one as one of this film's.
-            out.write("frames.txt", self.list_of([*stale | new, *map(self.lines.get, right)]))
-            work.move([*sorted(new), *COMMON], out)
-            out.remove_files((stale - new).__contains__)
-            work.move(["frames.txt"], out)
-            work.remove(self.frames.__contains__)
+            with unbroken():
+                # If we are killed here, the list names every frame, and no older one as one of this film's.
+                out.write("frames.txt", self.list_of([*stale | new, *map(self.lines.get, right)]))
+                work.move([*sorted(new), *COMMON], out)
+                out.remove_files((stale - new).__contains__)
+                work.move(["frames.txt"], out)
+                work.remove(self.frames.__contains__)
 
     def make_film(self, path, fps, options_of_parallel):
         made = "film" + pathlib.Path(path).suffix

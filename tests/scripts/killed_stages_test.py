@@ -86,6 +86,24 @@ elif "MOMENT" in ("after all", "fails"):
 os.kill(os.getpid(), signal.SIGKILL)
 '''
 
+# A command, with a call in it that first sends it a signal, outside of a folder for retries.
+SIGNALED = '''
+import fcntl, os, re, runpy, signal, sys
+def signaled(*arguments):
+    if not re.search("(farm|work)/", str(arguments[-1])):
+        setattr(module, name, real)
+        os.kill(os.getpid(), signal.SIGTERM)
+    return real(*arguments)
+call, command = sys.argv[1:3]
+module, name = globals()[call.split(".")[0]], call.split(".")[1]
+real = getattr(module, name)
+setattr(module, name, signaled)
+sys.argv[:3] = [sys.path[0]] = [os.environ["SCRIPTS"] + "/" + command]
+sys.path[0] = os.environ["SCRIPTS"]
+runpy.run_path(sys.argv[0], run_name="__main__")
+'''
+
+
 class KilledStages(ToolTest):
     def check(self, command):
         words, stages = COMMANDS[command]
@@ -134,6 +152,35 @@ class KilledStages(ToolTest):
             self.assertIn(MORE, done.stderr)
             self.assertLess(len(done.stderr), 1 << 17)
             self.assertEqual(self.contents(), before)
+
+    def test_what_appears_together_waits_for_no_signal(self):
+        """Sent at the first call that puts an output in place, or that takes the folder of work."""
+        os.mkdir("tests")
+        shutil.copytree(".", "tests/only", ignore=shutil.ignore_patterns("tests"))
+        run_script("stages", "scene.txt", "config.txt", "class/a", check=True)
+        for call, words, outputs in (("os.replace", "stages scene.txt config.txt new",
+                                      5), ("os.replace",
+                                           "picture scene.txt config.txt --stages new -o new/x.png", 4),
+                                     ("os.replace",
+                                      "farm scene.txt config.txt --parts 1 --z-buffer new/z.txt -o new/x.png",
+                                      2), ("os.replace",
+                                           "film scene.txt config.txt --turn 1 --fps 2 -o new/f",
+                                           6), ("os.replace", "grade class tests -o new/g", 5),
+                                     ("fcntl.flock", "film scene.txt config.txt --turn 1 --fps 2 -o new/f",
+                                      0), ("fcntl.flock", "farm scene.txt config.txt -o new/x.png",
+                                           0), ("fcntl.flock", "grade class tests -o new/g", 0)):
+            with self.subTest(call=call, words=words):
+                if words.split()[0] in ("farm", "film") and not shutil.which("parallel"):
+                    continue
+                shutil.rmtree("new", ignore_errors=True)
+                os.mkdir("new")
+                command = [sys.executable, "-c", SIGNALED, call, *words.split()]
+                done = subprocess.run(command, capture_output=True, text=True,
+                                      env={**os.environ, "BIN": str(BIN), "SCRIPTS": str(SOURCE / "scripts")})
+                self.assertIn(f"{words.split()[0]}: ended by SIGTERM\n", done.stderr)
+                made = [path for path, data in self.contents().items() if path.startswith("new/") and data]
+                made = [path for path in made if not (outputs and "farm/" in path)]  # for the retry
+                self.assertEqual(len(made), outputs, made)
 
     def test_fly_and_a_framed_pipe_of_ones_own_show_nothing_of_a_part(self):
         pathlib.Path("out.bmp").write_text("older")

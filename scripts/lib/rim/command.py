@@ -105,6 +105,16 @@ def prepare():
             break
 
 
+@contextlib.contextmanager
+def unbroken():
+    """Lets a signal wait for the end of the block, which starts no process: one would let it wait, too."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def end(signal_number, _):
     heed_no_signal()
     end_children()

@@ -6,7 +6,7 @@ import re
 import secrets
 import stat
 
-from lib.rim.command import CommandFailure, leftovers, shown
+from lib.rim.command import CommandFailure, leftovers, shown, unbroken
 
 MAX_LINKS = 40  # the kernel's limit
 OWN_FILE = re.compile(r"/dev/(?:(stdout)|(stderr)|fd/(\d+))|/proc/self/fd/(\d+)")
@@ -158,10 +158,20 @@ def write_file(path, data):
         file.commit()
 
 
+def commit_all(files):
+    """Puts OutputFiles in place together, whatever signal comes meanwhile."""
+    for file in files:
+        file.close()
+    with unbroken():
+        for file in files:
+            file.commit()
+
+
 @contextlib.contextmanager
-def replaced_at_end(*paths):
+def replaced_at_end(*paths, others=()):
     """Temporary paths beside `paths` for tools to write to. The files replace those at `paths` if the block
-    succeeds; errors name `paths`. Devices, pipes and files that cannot be written are left to the tools."""
+    succeeds, and the OutputFiles `others` appear; errors name `paths`. Devices, pipes and files that cannot
+    be written are left to the tools."""
     with contextlib.ExitStack() as stack:
         files = {}
         for path in paths:
@@ -177,10 +187,10 @@ def replaced_at_end(*paths):
                 text = text.replace(shown(temporary), shown(path))
             failure.args = (text,)
             raise
-        for path in beside:
-            files[path].expect_something()
-        for path in beside:
-            files[path].commit()
+        written = [files[path] for path in beside]
+        for file in written:
+            file.expect_something()
+        commit_all([*written, *others])
 
 
 def expect_writable(path):

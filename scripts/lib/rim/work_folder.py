@@ -5,7 +5,7 @@ import os
 import pathlib
 import stat
 
-from lib.rim.command import CommandFailure, shown
+from lib.rim.command import CommandFailure, shown, unbroken
 from lib.rim.output_file import OutputError, make_folders, write_file
 
 OURS = ".pipeline-"  # how a mark begins, and what a killed tool may leave
@@ -26,11 +26,14 @@ class WorkFolder:
     def taken(self, is_own=lambda _: False):
         """Takes the folder for a block. If the block fails, removes the folder if it holds nothing but the
         mark; and, with its own files, if it was new and an output cannot be written."""
-        self.take()
         try:
+            with unbroken():
+                self.take()
             yield
         except BaseException as failure:
-            self.remove(is_own) if self.is_new and isinstance(failure, OutputError) else self.remove_bare()
+            if self.lock is not None:
+                self.remove(is_own) if self.is_new and isinstance(failure,
+                                                                  OutputError) else self.remove_bare()
             raise
 
     def take(self):
@@ -41,10 +44,12 @@ class WorkFolder:
                 os.mkdir(self.path)
             self.expect_ours()
             self.is_new = not self.mark.exists()
-            self.lock = os.open(self.mark, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
-            fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if not (self.mark.exists() and os.path.samestat(os.fstat(self.lock), os.lstat(self.mark))):
-                os.close(self.lock)  # another run has just removed the folder
+            lock = os.open(self.mark, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if self.mark.exists() and os.path.samestat(os.fstat(lock), os.lstat(self.mark)):
+                self.lock = lock
+            else:
+                os.close(lock)  # another run has just removed the folder
                 self.take()
         except BlockingIOError:
             raise CommandFailure(f"another {self.command} works in {shown(self.path)}") from None
