@@ -30,7 +30,8 @@ class Firefox:
         self.stream = self.socket.makefile("rb")
         self.count = 0
         self.read()  # who it is
-        self.call("WebDriver:NewSession", {"capabilities": {"alwaysMatch": {"timeouts": {"script": 120000}}}})
+        self.call("WebDriver:NewSession", {})
+        self.call("WebDriver:SetTimeouts", {"script": 120000})
 
     def __exit__(self, *_):
         self.stream.close()
