@@ -68,8 +68,7 @@ std::string prefix_of(const std::string& path) {
 
 /// The extension that names the format, as a prefix or at the end.
 std::string format_extension_of(const std::string& path) {
-  const std::string prefix = prefix_of(path);
-  if (!prefix.empty()) return prefix;
+  if (std::string prefix = prefix_of(path); !prefix.empty()) return prefix;
   return is_device_without_extension(path) ? std::string(kPpm.extension) : extension_of(path);
 }
 

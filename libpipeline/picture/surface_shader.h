@@ -114,7 +114,8 @@ class SurfaceShader {
   [[nodiscard]] int row_stride() const { return grid_.rows > 256 ? 4 : 1; }
   /// With this many visible pixels, the others no longer matter.
   [[nodiscard]] double enough_visible() const {
-    return ShownColors::kVisibleShare * grid_.columns * (grid_.rows / row_stride());
+    const int row_count = grid_.rows / row_stride();
+    return ShownColors::kVisibleShare * grid_.columns * row_count;
   }
   [[nodiscard]] DarkSurface dark_surface(const KeptTriangle& kept, const Surface& surface) const;
   [[nodiscard]] double light_in_front_of(const Surface& surface) const;

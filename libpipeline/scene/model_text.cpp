@@ -36,7 +36,7 @@ std::string_view ModelText::word() {
   for (;;) {
     skip_blanks();
     const char* const begin = p_;
-    if (p_ == end_ || *p_ == '#') return {begin, 0};
+    if (p_ == end_ || *p_ == '#') return {begin, p_};
     while (p_ != end_ && !is_space(*p_)) ++p_;
     const std::string_view word(begin, p_);
     if (!word.ends_with('\\')) return word;

@@ -128,7 +128,8 @@ using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, st
 extern const KernelTable<WriteFixedColumns> kFixedPrintingKernels;
 
 /// The groups, and on each of three lines w and a material with a separator after each.
-constexpr std::size_t kMaxFixedColumnsLength = kMaxGroups * kMaxFixedTriangleLength + 3 * (26 + 11);
+constexpr std::size_t kMaxFixedColumnsLength =
+    kMaxGroups * kMaxFixedTriangleLength + std::size_t{3} * (26 + 11);
 
 // The codec of vertex lines. Besides the fixed form, it has a fast path for numbers with different counts of
 // decimals, as `--digits exact` and people write them: without exponents, and with single blanks between

@@ -66,7 +66,7 @@ LostDigits::LostDigits(const ProjectionTransform& projection, std::optional<int>
       decimals_read_(decimals_read.value_or(decimals.value_or(kMostDecimals + 1))) {}
 
 std::size_t LostDigits::Steps::from(double value) const {
-  const double index = (value - kMiddle) * per_unit + static_cast<double>(count / 2);
+  const double index = (value - kMiddle) * per_unit + (static_cast<double>(count) - 1) / 2;
   return static_cast<std::size_t>(std::ceil(std::clamp(index, 0.0, static_cast<double>(count))));
 }
 

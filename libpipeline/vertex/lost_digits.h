@@ -79,7 +79,7 @@ class LostDigits {
   struct Steps {
     static constexpr double kMiddle = 0.0037, kOdd = 0.13;  // so that they hit no grid of vertices
     [[nodiscard]] double at(std::size_t index) const {
-      return (static_cast<double>(index) - static_cast<double>(count / 2)) / per_unit + kMiddle;
+      return (static_cast<double>(index) - (static_cast<double>(count) - 1) / 2) / per_unit + kMiddle;
     }
     /// The index of the first step that is at least `value`.
     [[nodiscard]] std::size_t from(double value) const;
@@ -89,7 +89,7 @@ class LostDigits {
       per_unit /= 3;
     }
 
-    std::size_t count = 81;  // a power of 3
+    std::size_t count = 81;  // a power of 3: odd
     double per_unit = (81 + kOdd) / 2;
   };
   /// A place where the decimals cannot tell which surface is nearer.

@@ -189,6 +189,7 @@ const KernelTable<FillSpan<Depth>>& span_fill_kernels() {
   return kKernels;
 }
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): Depth is a type
 #define PIPELINE_INSTANTIATE(Depth) template const KernelTable<FillSpan<Depth>>& span_fill_kernels<Depth>();
 PIPELINE_FOR_EACH_DEPTH_FORMAT(PIPELINE_INSTANTIATE)
 #undef PIPELINE_INSTANTIATE

@@ -258,7 +258,7 @@ class GltfReader {
         fraction((0.04 + metal * (fraction(largest_in(color)) - 0.04)) * (material.shininess + 2) / 8);
     material.diffuse = 1 - metal / 2;
     if (const std::string& mode = json["alphaMode"].text();
-        (base[3].number(1) < 1 && mode.size() > 0 && mode != "OPAQUE") ||
+        (base[3].number(1) < 1 && !mode.empty() && mode != "OPAQUE") ||
         json["extensions"]["KHR_materials_transmission"]["transmissionFactor"].number() > 0)
       model_.unheld.insert("transparency");
   }

@@ -70,6 +70,7 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
       if (known.starts_with("pk") && !name.ends_with(".3mf")) refuse("a ZIP archive", "unzip unpacks it");
       refuse(what, cure);
     }
+  // NOLINTNEXTLINE(bugprone-branch-clone): some files are STL for sure, others only if nothing else
   if (is_binary_stl)
     model.format = "STL", read_stl(bytes, model);
   else if (begin.starts_with("ply"))

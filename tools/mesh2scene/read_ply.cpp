@@ -170,10 +170,10 @@ class PlyReader {
 
   void read_list(const Property& p, bool may_restart) {
     const double count = next(*p.count_type, true);
-    if (!(count >= 0) || count != std::floor(count)) fail("a count", count);
+    if (!(count >= 0 && count < 0x1p53) || count != std::floor(count)) fail("a count", count);
     const bool are_indices = p.slot == kIndices && has_points_;
     if (are_indices) indices_.clear();
-    for (double n = 0; n < count; ++n) {
+    for (auto left = static_cast<std::uint64_t>(count); left > 0; --left) {
       const double index = next(p.type, are_indices);
       if (!are_indices) continue;
       const bool is_restart = may_restart && (index == -1 || index == kRestart);

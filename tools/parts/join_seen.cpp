@@ -75,6 +75,7 @@ int join_seen_main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (parts.empty()) throw UsageError(expected_but_found("an operand PART or more", "none"));
     std::vector<NamedFile> inputs;
+    inputs.reserve(parts.size());
     for (const std::string& path : parts) inputs.push_back(file_or_stream("PART", path, kStandardInput));
     tool.expect_separate({kStandardOutput}, inputs);
     join(parts, expects_frame, tool);
