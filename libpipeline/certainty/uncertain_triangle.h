@@ -31,7 +31,7 @@ struct UncertainTriangle {
   /// A row of the triangle. Columns are counted from the first one.
   struct Row {
     RowRange possible, sure;             // columns; sure ones are also possible
-    double nearest_at_0, farthest_at_0;  // bounds at column 0, unless those on all depths are closer
+    double nearest_at_0, farthest_at_0;  // bounds at column 0; those on all depths may be tighter
   };
 
   void add(const Side& side) { sides[side_count++] = side; }

@@ -52,7 +52,7 @@ struct AxisLanes {
   HWY_INLINE Doubles scaled(Doubles coordinate) const {
     return hn::Round(coordinate * all(kGridUnitsPerOne)) * factor;
   }
-  /// True if calculated distances from pixel 0 between these extremes are exact.
+  /// True if all distances from pixel 0 in [least, most] are calculated exactly.
   HWY_INLINE Mask fit(Doubles least, Doubles most) const {
     return hn::Le(hn::Max(hn::Abs(most), hn::Abs(least)), largest);
   }

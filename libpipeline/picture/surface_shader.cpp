@@ -9,7 +9,7 @@
 namespace pipeline {
 namespace {
 
-// The count of surfaces ready to be shaded; they take 150 KiB.
+// The count of surfaces ready to be shaded.
 constexpr std::size_t kMaxCached = 512;
 
 SurfacePoint middle(const std::array<SurfacePoint, 3>& p) {

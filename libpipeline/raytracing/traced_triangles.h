@@ -42,7 +42,7 @@ class ExactProjection {
   TriangleBatch p_ndc_;
 };
 
-/// A sphere of a text in view space; it takes 248 bytes.
+/// A sphere of a text in view space.
 struct TracedSphere {
   Ellipsoid surface;
   std::optional<Vec3> color;  // none if the text has no colors

@@ -8,10 +8,10 @@
 
 namespace pipeline {
 
-/// The reason why a triangle or a sphere shows at no pixel: the first that applies, in this order.
+/// Why a triangle or sphere shows nowhere: the first that applies; fragments after without_area.
 enum class UnseenPlace {
   behind,  // all of it behind the eye
-  near,    // all of it, or a fragment and no visible one, before the near plane or front limit
+  near,    // all of it before the near plane or front limit, or a fragment and none visible
   far,     // likewise beyond the far plane or rear limit
   left,    // all of it left of the view volume or the window
   right,   // likewise ...

@@ -36,7 +36,7 @@ struct FixedTextPart {
 /// Readers may load up to this many characters past the end of the text; their values do not matter.
 constexpr std::size_t kFixedTextSlack = 448;
 
-/// The maximum length of a triangle in fixed form: nine numbers, each with a sign, 16 digits, a point and a
+/// A bound on the length of a triangle in fixed form: nine numbers, each with a sign, 16 digits, a point, a
 /// separator, and a line end.
 constexpr std::size_t kMaxFixedTriangleLength = 9 * 19 + 1;
 

@@ -14,7 +14,7 @@ namespace {
 
 #if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
 
-/// std::from_chars for a double, by strtod, as libc++ has it only from version 20 on; for a word that begins
+/// Stands in for std::from_chars of a double, which libc++ lacks before 20, by strtod; for words that begin
 /// with a digit, a point or a minus. A number too small for a double becomes 0. strtod rounds to nearest, and
 /// no code here sets a locale other than "C".
 std::from_chars_result double_from_chars(const char* first, const char* last, double& value) {

@@ -15,14 +15,14 @@ namespace pipeline {
 namespace {
 
 // Over the limit of work, one row in three stays. A unit of work is about ten instructions. Beyond
-// kSmallScene triangles, the limit (plus a unit per kTrianglesAUnit triangles) is below 1 % of `project`'s.
+// kSmallScene triangles, the limit (plus a unit per kTrianglesAUnit) is below 1 % of the work of `project`.
 constexpr std::size_t kSmallestScene = 256, kSmallScene = 1024, kLeastRows = 3;
 constexpr std::size_t kMostWork = 90'000, kWorkForLarge = 5'500, kWorkForRows = 6'000, kTrianglesAUnit = 5;
 constexpr unsigned kTrialCount = 5;
 constexpr std::size_t kAskedForDecimals = 8;
 constexpr int kMostDecimals = 12;       // more cost as much as all digits
 constexpr int kFewestDecimals = 6;      // numbers with fewer were typed, unless the text written has as few
-constexpr double kFewUnits = 2000;      // over the window's height: a last decimal is half a row
+constexpr double kFewUnits = 2000;      // over the window's height: half a row each, of 1000
 constexpr double kLeastShare = 0.005;   // below it, no loss is reported
 constexpr double kNoPixel = 5e-7;       // a share
 constexpr double kDoubleError = 1e-14;  // of a depth

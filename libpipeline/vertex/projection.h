@@ -17,7 +17,7 @@ namespace pipeline {
 
 /// The choice of triangles to cut or drop before the perspective divide.
 enum class ClipMode {
-  automatic,  // clips triangles with a vertex nearer to the eye plane than near / 1024, at the near plane
+  automatic,  // clips triangles with a vertex less than near / 1024 before the eye, at the near plane
   near,       // clips every triangle at the near plane
   frustum,    // clips every triangle at all six planes
   reject,     // drops triangles wholly outside one plane, clips none

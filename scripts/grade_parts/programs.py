@@ -111,7 +111,7 @@ def remove_what_is_left(users, since):
     queues of System V, and message queues of POSIX."""
     theirs = [word for user in users for word in ("-o", "-uid", str(user))][1:]
     others = ["-uid", f"-{FIRST_USER}", "-o", "-uid", f"+{FIRST_USER + USERS - 1}"]
-    # by -execdir, as a program may put links in place of folders; it takes only absolute ones on the PATH
+    # by -execdir, as programs may put links in place of folders; it refuses relative folders on the PATH
     subprocess.run([
         "find", *places_for_all(), "-mindepth", "1", "(", *theirs, ")", "-newerct", f"@{since}", "-prune",
         "-execdir", "rm", "-rf", "--", "{}", "+", "-o", "(", *others, ")", "-prune"],

@@ -23,7 +23,7 @@ function joined(a, b) {
 
 export class Wireframe {
   // `pane` has a canvas and another one above it, for marks. The first view is `pose`, if there is one, else `start`. `kindOf(name)` is
-  // the fate of a triangle or a sphere, one of KINDS. It is drawn only while `isOnScreen(pane)`, and made up for by drawIfLate().
+  // the fate of a triangle or a sphere, one of KINDS. It is drawn only while `isOnScreen(pane)`, else later by drawIfLate().
   constructor(pane, stage, {start, pose, isOnScreen}, kindOf, palette) {
     Object.assign(this, {pane, stage, isOnScreen, palette, names: stage.names, guide: stage.guide, highlighted: -1, rays: [], theirs: null, index: null, isDirty: false});
     [this.canvas, this.mark] = pane.querySelectorAll("canvas");
@@ -210,7 +210,7 @@ export class Wireframe {
     }
   }
 
-  // The number of the triangle or sphere under a point of the canvas whose center is nearest to the viewer; -1 if there is none.
+  // Of the triangles and spheres under a point of the canvas, the number of the one with the nearest center; -1 for none.
   triangleAt(x, y) {
     this.index = this.index || new GridIndex(this.x, this.y, this.names.length, this.canvas.width, this.canvas.height);
     let [found, nearest] = this.stage.spheres.at(x, y);

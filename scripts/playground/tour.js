@@ -7,7 +7,7 @@ export const STEPS = [
   {text: "view moves the world so that the eye is at the origin and looks down -z. Every z has become smaller by 2: that is where the eye was."},
   {text: "project divides by the distance. What the camera sees lies between -1 and 1 now, and nearer is a smaller z."},
   {text: "zbuf makes pixels: for each one the nearest triangle. Click a pixel of the image to see its depth and every fragment that competed for it."},
-  {text: "Let us move the camera: the eye, in line 2 of the scene, is now 1 1 3. Only the stages from there on have run again.", edit: text => text.replace("0 0 2 ", "1 1 3 ")},
+  {text: "Let us move the camera: the eye, in line 2 of the scene, is now 1 1 3. All stages have run again.", edit: text => text.replace("0 0 2 ", "1 1 3 ")},
   {text: "And now it looks the wrong way: the point looked at, in line 3, is 1 1 6. The picture is black, and the message says why. Mend it.", edit: text => text.replace("0 0 0 ", "1 1 6 ")},
   {text: "Ctrl+Z takes edits back, those of this tour, too. Save writes all of it to a file: scene, config, options and stages of your own. Send it to someone, or choose a larger sample and look into it."},
 ];

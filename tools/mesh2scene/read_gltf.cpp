@@ -199,7 +199,7 @@ class GltfReader {
     return values;
   }
 
-  /// Counts numbers, and refuses small files that stand for gigabytes as accessors share their bytes.
+  /// Counts numbers, and refuses small files whose accessors share bytes to stand for gigabytes.
   void take(std::size_t numbers, const std::string& where) {
     taken_ += numbers;
     if (taken_ > 4'000'000 + 16 * files_.size())

@@ -80,7 +80,7 @@ class SampleColors {
  private:
   using Id = TracedTriangles::Id;
 
-  // Neighboring samples show the same few triangles; 75 KiB.
+  // Neighboring samples show the same few triangles.
   static constexpr std::size_t kCached = 256;
   struct CachedSurface {
     std::optional<Id> id;

@@ -11,8 +11,8 @@ DEPTH_REACH = 1.0  # pixels along which the depth of a triangle may be taken
 
 
 class BorderRule:
-    """Triangles in pixels, with all that a pixel may show if its center may move by REACH, beside the
-    Mismatch of the nearest of our two rules in a pixel_comparing.Context of a picture."""
+    """What a pixel may show if its center may move by REACH: triangles in pixels, beside the Mismatch of
+    the nearest of our two rules in a picture's pixel_comparing.Context."""
     def __init__(self, context, mismatch):
         self.mismatch, self.pixels = mismatch, context.shown.pixels()
         self.tolerance = context.shown.depths.tolerance if context.shown.depths else lambda z: 0.0
@@ -88,7 +88,7 @@ class BorderRule:
     @property
     def shows_each_triangle(self):
         """True if it shows half the visible pixels of each triangle that has one REACH inside its outline,
-        and at least one smaller triangle."""
+        and a smaller one if there is any."""
         visible, agreeing, deep = collections.Counter(), collections.Counter(), set()
         for row in range(self.triangles.grid.height):
             for column, t in enumerate(self.drawing.row(row)[0]):

@@ -1,8 +1,8 @@
 """The 4 x 4 matrix that takes one list of points to another, fitted by least squares, and how it compares
 with ours.
 
-A matrix is shown only if the points determine it: fits to numbers that are moved within their last digit show
-how far rounding leaves it uncertain."""
+A matrix is shown only if the points determine it: more fits, to numbers moved within their last digit, show
+how uncertain rounding leaves it."""
 import dataclasses
 import itertools
 import math

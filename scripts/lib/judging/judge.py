@@ -19,8 +19,8 @@ from lib.showing.pictures import PictureError
 from lib.text.stage_text import StageTextError
 
 FAR = 1e15
-# triangles that clipping at six planes makes of one: more cannot come from the scene, and drawing them has no
-# end
+# most triangles that clipping at six planes makes of one; to draw more than the scene gives could take
+# forever
 MOST_PARTS = 7
 STAGES = (("stage1", "model"), ("stage2", "view"), ("stage3", "project"))
 

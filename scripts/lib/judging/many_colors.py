@@ -7,8 +7,8 @@ from lib.judging.verdict import WRONG, cause_of, joined
 
 
 def blames_many_colors(verdict, shown, context, mismatch):
-    """Makes many colors the cause of a picture's FileVerdict, or a further one; False unless more pixels
-    have another color than most of their triangle, where a Mismatch leaves outlines right, than differ."""
+    """Adds many colors to the causes in a picture's FileVerdict; False unless, where a Mismatch finds
+    nothing, more pixels lack their triangle's main color than the Mismatch has."""
     drawing = context.drawing(mismatch.reading, mismatch.rule)
     pixels = shown.pixels(mismatch.rule.picture_flip, mismatch.rule.text_flip)
     seen = {(row, column): (t, pixels.colors[row][column])

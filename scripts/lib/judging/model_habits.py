@@ -83,12 +83,12 @@ MODEL_MISTAKES = {
 
 
 class Stack:
-    """The current matrix and the saved ones, under a habit; two kinds save it after each transform."""
+    """The current and saved matrices, under a habit; kinds "one ..." also save after a transform."""
     def __init__(self, habit):
         self.matrix, self.saved = IDENTITY, []
         self.last, self.was_push, self.was_lost = "", False, False  # the last command; the last push or pop
         self.kind, _, self.rest = habit.partition(", ")
-        self.count = 1  # how many pop takes back; one count: all since the last push
+        self.count = 1  # how many pop takes back; in "one count", all since a push
 
     def is_lost(self):
         """True if a push that comes now saves nothing."""

@@ -23,7 +23,7 @@ class Mismatch:
     reading: str
     pixels: dict = dataclasses.field(default_factory=dict)
     drawn: int = 0  # pixels with a triangle, by the rule
-    doubtful: int = 0  # pixels drawn or not as in the hand-in only by the rule's uncertainty
+    doubtful: int = 0  # pixels that fit only thanks to the rule's uncertainty
     areas: collections.Counter = dataclasses.field(default_factory=collections.Counter)  # of each triangle
     offsets: dict = dataclasses.field(default_factory=dict)  # of depths, at these pixels
     colors: dict = dataclasses.field(default_factory=dict)  # of each triangle, by the majority of its pixels
@@ -59,7 +59,7 @@ class Mismatch:
         return self.by_color.get(color) or self.unplaced
 
     def shows_another(self, place, pixels):
-        """True if a pixel with a triangle has the color of another one than by the rule."""
+        """True if a drawn pixel has the color of another triangle than the rule's."""
         row, column = place
         return pixels.drawn[row][column] and self.owners.get(place, -1) not in self.of_color(
             pixels.colors[row][column])
@@ -91,7 +91,7 @@ class Context:
 
     @contextlib.contextmanager
     def limited(self):
-        """Counts the work of a block as search for a cause: it raises TooMuch when that is used up."""
+        """Limits a block to the work left for the search for a cause; beyond, it raises TooMuch."""
         kept, self.work[0] = self.work[0], self.left[0]
         try:
             yield
@@ -155,7 +155,7 @@ class Attempt:
                                                                 and None in pixels.depths)
 
     def could_show(self, row, column, is_drawn, z, triangles=None):
-        """True if a pixel could show this after all; of as many pixels as the budget has."""
+        """True if a pixel could show this after all; False once the budget is spent."""
         self.budget -= 1
         slack = self.depths.tolerance(z) if z is not None else 0.0
         return self.budget > 0 and any(
@@ -202,7 +202,7 @@ class Attempt:
                 yield column, "depth"
 
     def count(self, rows, most):
-        """How many pixels of some rows are not explained, up to most + 1; all of a row with other depths."""
+        """How many pixels of some rows are not explained, up to most + 1, as in a row of another length."""
         unexplained = (most + 1 if column == self.width else 1 for row in rows
                        for column, _ in self.differences(row))
         return sum(itertools.islice(unexplained, most + 1))

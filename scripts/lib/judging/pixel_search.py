@@ -144,7 +144,7 @@ def everything_explained(context, reading, rule, rows):
 
 def by_two_mistakes(context, rows):
     """Two mistakes at once that explain everything, by our two rules; nothing if more than MOST_PAIRS would
-    do. They are asked of both files together."""
+    do. Only for both files together."""
     found = {}
     some = () if context.is_one_of_two else pairs(context.mistakes)
     for (names, changes), ends in itertools.product(some, OUR_ENDS):
@@ -217,7 +217,7 @@ def at_borders(context, best):
 
 
 def of_blank(context, plain):
-    """The Finding where nothing is drawn, with all that would do that; of depths beside a picture, none."""
+    """The Finding where nothing is drawn, with all mistakes that do so; none for depths with a picture."""
     blank = BLANK[:-1] if context.shown.depths else BLANK  # the last one is of pictures alone
     ways = ((name, context.compare(context.first, Rule(**changes), limit=0))
             for (name, *_), changes in MISTAKES if name in blank)

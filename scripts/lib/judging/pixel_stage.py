@@ -64,8 +64,8 @@ class PixelStage:
         return FileVerdict("zbuf", self.files[kind].name, verdict, rule, **fields)
 
     def verdicts_of_many_colors(self, given, context):
-        """The verdicts on a picture of too many colors: its triangles have many, if that explains most of it;
-        no color is a triangle's, if even the outlines are others; else nothing."""
+        """The verdicts on a picture of too many colors: many colors, if that explains most of it; no cause,
+        if even the outlines are wrong; else no verdict."""
         shown = context.shown
         count = max(
             len(points) for points in (self.ours.world, *(some for some, _ in self.readings.values())))

@@ -92,8 +92,8 @@ FLAT_ROW = ("left of row", "right of row", "mean of row")
 
 
 def changed_corners(corners, change, grid):
-    """Corners moved to the centers of pixels, from the place in pixels rounded down, or to the nearest; or
-    sorted by y, with the depths in the order in which they came."""
+    """Corners moved to the centers of pixels, by rounding down or to the nearest; or sorted by y, with the
+    depths in the order in which they came."""
     if change.startswith("sorted"):
         by_height = sorted(corners, key=lambda p: p[1], reverse=change == "sorted down")
         return [(*p[:2], q[2]) for p, q in zip(by_height, corners)]

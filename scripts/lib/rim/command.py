@@ -107,7 +107,7 @@ def prepare():
 
 @contextlib.contextmanager
 def unbroken():
-    """Lets a signal wait for the end of the block, which starts no process: one would let it wait, too."""
+    """Delays signals to the end of the block, which must start no process: it would inherit that."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     try:
         yield

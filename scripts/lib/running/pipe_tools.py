@@ -221,7 +221,7 @@ class Tools:
     def pipe(self, *calls, stdin=subprocess.DEVNULL, stdout=None, tee=lambda source: source, cwd=None,
              is_kept=False):
         """Runs tools at once, each a list of its name and its words; each reads the output of the one before
-        it, by way of `tee`. Returns them as Done, with CPU `seconds`. Several tools frame their text, and so
+        it, by way of `tee`. Returns them as Done, with CPU `seconds`. If several run, they frame texts; so
         does one whose text `is_kept` by bare_blocks."""
         self.expect(*(tool for tool, *_ in calls))
         with contextlib.ExitStack() as stack:

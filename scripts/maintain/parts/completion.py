@@ -2,8 +2,8 @@
 import re
 
 FUNCTION = r"""
-# Prints the words that may stand for the first one, after the others, of which the first is a command;
-# nothing for a file's name, - for anything.
+# Prints the words that may stand in place of $1, after the words $2 (a command) and so on; nothing for a
+# file's name, - for anything.
 _pipeline_words() {
   local word=$1 command=${2-} before=
   shift
