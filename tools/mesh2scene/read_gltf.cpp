@@ -367,8 +367,10 @@ class GltfReader {
     if (!attributes["NORMAL"].is_there() && document_["meshes"][surface - 1]["primitives"][1].is_there())
       key["mesh"] = surface;
     const auto [known, is_new] = shapes_.try_emplace(std::move(key), model_.meshes.size());
-    if (is_new) read_shape(json, mesh);
-    if (!is_new) mesh.shape = known->second;
+    if (is_new)
+      read_shape(json, mesh);
+    else
+      mesh.shape = known->second;
     model_.meshes.push_back(std::move(mesh));
     return true;
   }
