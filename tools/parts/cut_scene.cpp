@@ -93,7 +93,7 @@ void cut(Tool& tool, const std::string& scene_path, std::uint64_t part_count, co
 
 int cut_scene_main(int argc, char** argv) {
   Tool tool({"cut-scene",
-             "Cuts a scene into scenes of about the same size, to be drawn side by side. Prints the file of "
+             "Cuts a scene into scenes of about the same size, to be drawn in parallel. Prints the file of "
              "each and the number of its first triangle, for model --first.",
              "The scene",
              {"cut-scene scene.txt 2", "cut-scene scene.txt 8 -o parts > list.txt"}},
@@ -103,7 +103,7 @@ int cut_scene_main(int argc, char** argv) {
   tool.options().set_usage("Usage: cut-scene [OPTIONS] SCENE PARTS");
   tool.options().add_operand("SCENE", scene_path, "The scene, a file");
   tool.options().add_operand("PARTS", part_count_word,
-                             "At most how many parts; each has a triangle if the scene has one");
+                             "The largest number of parts; each has a triangle if the scene has one");
   tool.options().begin_group("Output");
   tool.options().add_word("-o,--output", "FOLDER", folder,
                           "Where the parts go, a new folder or an empty one");

@@ -268,7 +268,7 @@ void CommandLine::add_whole(const std::string& name, int& number, int least, int
     number = static_cast<int>(found);
   };
   declare(name, [=, &number](CLI::App& app) {
-    app.add_option_function<std::string>(name, take, help + ", " + range)
+    app.add_option_function<std::string>(name, take, help + "; N is " + range)
         ->type_name("N")
         ->default_str(std::to_string(number));
   });
@@ -352,7 +352,7 @@ std::optional<std::string> CommandLine::parse(int argc, char** argv) {
   app_ = std::make_unique<CLI::App>(tool_.purpose, tool_.name);
   const auto help_form = std::make_shared<HelpForm>(tool_, usage_);
   app_->formatter(help_form)->allow_windows_style_options(false);  // there, too, /tmp/scene.txt is a file
-  app_->get_help_ptr()->group(kLastGroup)->description("Print this help and exit; --help-all: all of it");
+  app_->get_help_ptr()->group(kLastGroup)->description("Print this help and exit; --help-all: every option");
   app_->option_defaults()->group(kLastGroup);
   app_->set_version_flag("--version", version_, "Print the version and exit");
   std::vector<std::string> words = words_for_parsing(argc, argv, flag_words_);

@@ -40,8 +40,8 @@ void add_options(CommandLine& options, ModelOptions& chosen) {
   options.add_flag("--bounds", chosen.bounds,
                    "Write a bound on the error of the coordinates to the header, for zbuf --certify");
   options.add_word("--first", "N", chosen.first,
-                   "Number the triangles from N on: for a part of a scene (cut-scene), whose text is to be "
-                   "joined with others (default: 0)");
+                   "Number triangles from N on, for a part of a scene (cut-scene) to be joined with "
+                   "others (default: 0)");
   options.add_word("--facets", "N", chosen.belts,
                    "Turn every sphere into triangles: N belts of 2 N facets; all triangles get normals");
 }

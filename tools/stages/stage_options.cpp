@@ -36,7 +36,7 @@ NumberOptions::NumberOptions(CommandLine& options) {
                    expects("a number of decimals from 0 to 17, or exact", is_fine));
   options.add_choice<Precision>(
       "--precision", precision_, {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
-      "extended: every coordinate printed is correctly rounded, or noted; double: faster");
+      "extended: coordinates printed are correctly rounded, or a note names one; double: faster");
 }
 
 NumberFormat NumberOptions::format() const {
@@ -97,7 +97,7 @@ CameraParameters CameraOptions::camera(const CameraParameters& header, const Too
 LightOption::LightOption(CommandLine& options) {
   options.begin_group("Light");
   options.add_words("--light", 6, "X Y Z R G B", words_,
-                    "Add a light at a point in world space; the intensity 1 1 1 is full and white");
+                    "Add a light at a point in world space; R G B is its intensity, 1 1 1 full and white");
   options.add_words("--light-at", 4, "N X Y Z", at_,
                     "Move light N of the scene, counted from 0, to a point in world space");
 }

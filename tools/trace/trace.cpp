@@ -18,8 +18,8 @@ using namespace pipeline;
 int trace_main(int argc, char** argv) {
   Tool tool(
       {"trace",
-       "Traces rays to triangles in view space: writes the picture, and the depth of every pixel that "
-       "shows a triangle. Depths are those of project --digits exact and zbuf --coverage center.",
+       "Traces rays to triangles and spheres in view space: writes the picture, and the depth of every "
+       "pixel that shows one. Depths are as from project --digits exact and zbuf --coverage center.",
        "The output of view (or stage2.txt)",
        {"model scene.txt | view | trace config.txt -o picture.ppm > z_buffer.txt",
         "trace --size 400x300 --scene scene.txt stage2.txt"},

@@ -42,11 +42,11 @@ void TraceOptions::add_pixels(CommandLine& options) {
       "adaptive: jittered, but only the five cells in the corners and the middle where these look alike\n"
       "(default: regular)");
   options.add_whole("--samples", sample_count, 1, kMaxSamples,
-                    "Smooth edges: a pixel is the mean of N x N samples; " +
-                        std::to_string(kSamplesOfSampling) + " with --sampling; N");
+                    "Smooth edges: a pixel is the mean of N x N samples, with --sampling by default " +
+                        std::to_string(kSamplesOfSampling) + " x " + std::to_string(kSamplesOfSampling));
   options.add_whole("--threshold", threshold, 0, 255,
                     "With --sampling adaptive: take all samples where a channel of the first five differs by "
-                    "at least N levels; N");
+                    "at least N levels");
   options.add_whole("--threads", thread_count, 0, kMaxThreads,
                     "How many threads trace rays (0: all that help)");
 }

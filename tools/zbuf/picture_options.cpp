@@ -29,10 +29,10 @@ std::string named_standard_output(const std::string& image) {
 PictureOptions::PictureOptions(CommandLine& options, const std::string& tool, bool has_seen) {
   options.set_usage("Usage: " + tool + " [OPTIONS] CONFIG [INPUT]\n       " + tool +
                     " [OPTIONS] --size WIDTHxHEIGHT [CONFIG] [INPUT]");
-  options.add_operand(
-      "CONFIG", config_path,
-      "The screen (config.txt): WIDTH HEIGHT in pixels; perhaps three more lines: the left limit of x, the "
-      "bottom limit of y, the front and rear limits of z");
+  options.add_operand("CONFIG", config_path,
+                      "The screen (config.txt): WIDTH HEIGHT in pixels; optionally three more lines: the "
+                      "left limit of x, the "
+                      "bottom limit of y, the front and rear limits of z");
   options.begin_group("Output");
   options.add_word(
       "--size", "WIDTHxHEIGHT", size,

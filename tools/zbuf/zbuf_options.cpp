@@ -27,7 +27,7 @@ void add_type_choice(CommandLine& options, const std::string& name, TypeList<Typ
 ZbufOptions::ZbufOptions(CommandLine& options) : PictureOptions(options, "zbuf", true) {
   options.add_word(
       "--rows", "A:B", rows,
-      "Draw only the rows from A to before B, counted from 0 at the top; cat joins the depths of such bands, "
+      "Draw only rows A to B - 1, counted from 0 at the top; cat joins the depths of such bands, "
       "join-images the images",
       expects("A:B, such as 0:100", [](const std::string& word) { return !word.empty(); }));
   options.add_word("--seen", "FILE", seen_path,
@@ -59,7 +59,7 @@ void ZbufOptions::add_pixels(CommandLine& options) {
   options.begin_group("Pixels");
   add_type_choice(options, "--coverage", CoverageRules(), rules.coverage, "Which pixels a triangle covers.");
   options.add_whole("--samples", sample_count, 1, kMaxSamples,
-                    "Smooth edges: a pixel is the mean of N x N samples; N");
+                    "Smooth edges: a pixel is the mean of N x N samples");
   options.add_choice<Algorithm>("--algorithm", algorithm,
                                 {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
                                 "How the visible triangle is found; the output is the same.\n"

@@ -97,7 +97,7 @@ class CommandParser(argparse.ArgumentParser):
     def __init__(self, **settings):
         super().__init__(formatter_class=HelpFormatter, add_help=False, allow_abbrev=False, **settings)
         self._positionals.title, self._optionals.title = "Operands", "Options"
-        for *names, text in (("-h", "--help", "print this help and exit; --help-all: all of it"),
+        for *names, text in (("-h", "--help", "print this help and exit; --help-all: every option"),
                              ("--help-all", argparse.SUPPRESS)):
             self.add_argument(*names, action=HelpAction, nargs=0, default=argparse.SUPPRESS, help=text)
 

@@ -4,10 +4,10 @@ from lib.running.tool_options import given_words
 VALUES = {
     "--sampling": ("basic|regular|jittered|adaptive", "where the rays of a pixel go"),
     "--threshold": ("N", "with --sampling adaptive, how much samples may differ"),
-    "--min-contribution": ("E", "the least part of a pixel's color that a ray is cast for"),
+    "--min-contribution": ("E", "cast no ray for less than this part of a pixel's color"),
     "--max-depth": ("N", "how often a ray may be mirrored or refracted")}
 FLAGS = {
-    "--no-shadows": "light all that faces a lamp",
+    "--no-shadows": "light everything that faces a lamp",
     "--no-recursion": "draw mirrors and glass matte and opaque"}
 
 
