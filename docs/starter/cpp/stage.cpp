@@ -1,4 +1,4 @@
-// Three stages of the pipeline: text in and out is done, what they calculate is yours.
+// Three stages of the pipeline: reading and writing are done; the calculation is yours.
 //
 //     g++ -O2 -o stage stage.cpp && ./stage view < stage1.txt > stage2.txt
 //
@@ -17,17 +17,17 @@
 using Point = std::array<double, 3>;
 using Matrix = std::array<std::array<double, 4>, 4>;
 
-// Tells once what is missing, on stderr: stdout is for the next stage.
+// Says once on stderr what is missing; stdout is for the next stage.
 void to_do(const std::string& text) {
-  static std::set<std::string> told;
-  if (told.insert(text).second) std::cerr << "to do: " << text << "\n";
+  static std::set<std::string> said;
+  if (said.insert(text).second) std::cerr << "to do: " << text << "\n";
 }
 
-// What is yours: these four functions. What follows them is done.
+// Your part: these four functions. The rest is done.
 
 // The current matrix after translate X Y Z, scale X Y Z or rotate DEGREES X Y Z.
 Matrix transformed(const Matrix& matrix, const std::string& command, const std::vector<double>& numbers) {
-  to_do("transformed() in stage.cpp: multiply the matrix by that of the command, on its right");
+  to_do("transformed() in stage.cpp: multiply the matrix by the command's, which goes on the right");
   (void)command, (void)numbers;
   return matrix;
 }
@@ -48,7 +48,7 @@ Point to_view(Point eye, Point look, Point up, Point p) {
 
 // A point of view space in normalized device coordinates. The angle is in degrees.
 Point to_ndc(double fov_y, double aspect, double near, double far, Point p) {
-  to_do("to_ndc() in stage.cpp: multiply by the matrix of the perspective, then divide by w");
+  to_do("to_ndc() in stage.cpp: multiply by the perspective matrix, then divide by w");
   (void)fov_y, (void)aspect, (void)near, (void)far;
   return p;
 }

@@ -1,4 +1,4 @@
-// Three stages of the pipeline: text in and out is done, what they calculate is yours.
+// Three stages of the pipeline: reading and writing are done; the calculation is yours.
 //
 //     java Stage.java view < stage1.txt > stage2.txt
 //
@@ -9,18 +9,18 @@ import java.util.*;
 import java.util.stream.*;
 
 public class Stage {
-    static final Set<String> told = new HashSet<>();
+    static final Set<String> said = new HashSet<>();
 
-    // Tells once what is missing, on stderr: stdout is for the next stage.
+    // Says once on stderr what is missing; stdout is for the next stage.
     static void toDo(String text) {
-        if (told.add(text)) System.err.println("to do: " + text);
+        if (said.add(text)) System.err.println("to do: " + text);
     }
 
-    // What is yours. A point is an array of three numbers, a matrix one of four rows.
+    // Your part. A point is an array of three numbers, a matrix one of four rows.
 
     // The current matrix after translate X Y Z, scale X Y Z or rotate DEGREES X Y Z.
     static double[][] transformed(double[][] matrix, String command, double[] numbers) {
-        toDo("transformed() in Stage.java: multiply the matrix by that of the command, on its right");
+        toDo("transformed() in Stage.java: multiply the matrix by the command's, which goes on the right");
         return matrix;
     }
 
@@ -38,11 +38,11 @@ public class Stage {
 
     // A point of view space in normalized device coordinates. The angle is in degrees.
     static double[] toNdc(double fovY, double aspect, double near, double far, double[] p) {
-        toDo("toNdc() in Stage.java: multiply by the matrix of the perspective, then divide by w");
+        toDo("toNdc() in Stage.java: multiply by the perspective matrix, then divide by w");
         return p;
     }
 
-    // What is done.
+    // The rest is done.
 
     static int count = 0;
 

@@ -1,4 +1,4 @@
-"""Three stages of the pipeline: text in and out is done, what they calculate is yours.
+"""Three stages of the pipeline: reading and writing are done; the calculation is yours.
 
     python3 stage.py view < stage1.txt > stage2.txt
 
@@ -7,22 +7,22 @@ The first word is model, view or project. Try each with
 """
 import sys
 
-told = set()
+said = set()
 
 
 def to_do(text):
-    """Tells once what is missing, on stderr: stdout is for the next stage."""
-    if text not in told:
-        told.add(text)
+    """Says once on stderr what is missing; stdout is for the next stage."""
+    if text not in said:
+        said.add(text)
         print("to do: " + text, file=sys.stderr)
 
 
-# What is yours. A point is a list of three numbers, a matrix a list of four rows.
+# Your part. A point is a list of three numbers, a matrix a list of four rows.
 
 
 def transformed(matrix, command, numbers):
     """The current matrix after translate X Y Z, scale X Y Z or rotate DEGREES X Y Z."""
-    to_do("transformed() in stage.py: multiply the matrix by that of the command, on its right")
+    to_do("transformed() in stage.py: multiply the matrix by the command's, which goes on the right")
     return matrix
 
 
@@ -40,11 +40,11 @@ def to_view(eye, look, up, p):
 
 def to_ndc(fov_y, aspect, near, far, p):
     """A point of view space in normalized device coordinates. The angle is in degrees."""
-    to_do("to_ndc() in stage.py: multiply by the matrix of the perspective, then divide by w")
+    to_do("to_ndc() in stage.py: multiply by the perspective matrix, then divide by w")
     return p
 
 
-# What is done.
+# The rest is done.
 
 
 def write(p, count):
