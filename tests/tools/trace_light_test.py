@@ -639,7 +639,7 @@ class Reports(LightTest):
             r"million a second, \S+ million mirrored rays at \S+ million a second\n\Z")
 
     def test_zbuf_notes_what_it_does_not_draw(self):
-        note = ("zbuf: note: mirrors and glass are drawn as matt and opaque; trace, in place of project and "
+        note = ("zbuf: note: mirrors and glass are drawn as matte and opaque; trace, in place of project and "
                 "zbuf, follows the light\n")
         ndc = run("project", stdin=self.TEXT).stdout
         self.assertEqual(run("zbuf", "--size", "9x9", "-o", "drawn.ppm", stdin=ndc).stderr.decode(), note)

@@ -281,7 +281,7 @@ std::string unseen_spheres_note(const UnseenSpheres& spheres) {
 std::optional<std::string> opaque_note(const Appearance& appearance) {
   if (std::ranges::none_of(appearance.materials, &Material::sends_rays, &Located<Material>::value))
     return std::nullopt;
-  return "mirrors and glass are drawn as matt and opaque; trace, in place of project and zbuf, follows the "
+  return "mirrors and glass are drawn as matte and opaque; trace, in place of project and zbuf, follows the "
          "light";
 }
 
