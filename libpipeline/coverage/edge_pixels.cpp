@@ -27,9 +27,8 @@ void add_edge(const GridTriangle<Int>& t, const Triangle& p_ndc, std::size_t fro
   const bool is_flat = size(du) * Product(t.row_step.value()) >= size(dv) * Product(t.column_step.value());
   // Both triangles at the edge begin at the same end.
   if ((is_flat ? du : dv) < 0) std::swap(low, high);
-  const Axis<Int> horizontal = {t.u, t.column_step, columns}, vertical = {t.v, t.row_step, rows};
-  const Axis<Int>& along = is_flat ? horizontal : vertical;
-  const Axis<Int>& across = is_flat ? vertical : horizontal;
+  const std::array<Axis<Int>, 2> axes = {{{t.u, t.column_step, columns}, {t.v, t.row_step, rows}}};
+  const Axis<Int>&along = axes[is_flat ? 0 : 1], &across = axes[is_flat ? 1 : 0];
   const Product length = size(is_flat ? du : dv);
   const Product rise = Product(across.corners[high] - across.corners[low]);
   const Product start = Product(across.corners[low]) * length;
@@ -48,7 +47,7 @@ void add_edge(const GridTriangle<Int>& t, const Triangle& p_ndc, std::size_t fro
     const int first_across = step.quotient_rounded_up(crossing - reach, across.range.end);
     const int end_across = step.quotient_rounded_up(crossing + reach, across.range.end);
     for (int k = std::max(first_across, across.range.first); k < end_across; ++k)
-      pixels.push_back(is_flat ? EdgePixel{k, i, depth} : EdgePixel{i, k, depth});
+      pixels.push_back({is_flat ? k : i, is_flat ? i : k, depth, from});
   }
 }
 

@@ -12,6 +12,7 @@ struct EdgePixel {
   int row;
   int column;
   double depth;
+  std::size_t edge;
 };
 
 /// Adds the pixels of a triangle's edges; edge i goes from corner i to the next, and `is_drawn` chooses among

@@ -221,17 +221,10 @@ CertainPixels certain_pixels(const StageReader& reader, const Viewport& screen) 
   return {screen, header.bounds->value, header.projected->value};
 }
 
-/// The wireframe, if an output shows edges.
-std::unique_ptr<Wireframe> wireframe(const ZbufOptions& chosen, const Appearance& appearance,
-                                     const Viewport& of_samples) {
-  if (!chosen.wireframe || (!chosen.has_image() && chosen.seen_path.empty())) return nullptr;
-  return std::make_unique<Wireframe>(
-      chosen.rules, of_samples,
-      Wireframe::Setup{chosen.has_all_edges, !appearance.lights.empty(), chosen.sample_count});
-}
-
 TriangleStore::Setup kept(const ZbufOptions& chosen, const Appearance& appearance,
                           const Viewport& of_samples) {
+  const bool shows_edges = chosen.wireframe && (chosen.has_image() || !chosen.seen_path.empty());
+  const Wireframe::Setup edges = {chosen.has_all_edges, !appearance.lights.empty(), chosen.sample_count};
   return {.keeps_text = !chosen.seen_path.empty(),
           .keeps_numbers = !chosen.triangle_array_path.empty() || !chosen.certainty_path.empty(),
           .keeps_corners = !(chosen.z_buffer_path == "none" && chosen.depth_array_path.empty()) &&
@@ -239,7 +232,7 @@ TriangleStore::Setup kept(const ZbufOptions& chosen, const Appearance& appearanc
                            std::holds_alternative<TypeValue<DepthF64>>(chosen.rules.depth),
           .background = background_color(appearance, parse_color(chosen.background)),
           .pixel_count = pixel_count(of_samples),
-          .wireframe = wireframe(chosen, appearance, of_samples)};
+          .wireframe = shows_edges ? std::make_unique<Wireframe>(chosen.rules, of_samples, edges) : nullptr};
 }
 
 }  // namespace

@@ -39,17 +39,17 @@ Wireframe::Wireframe(const PixelRules& rules, const Viewport& screen, const Setu
 // T24b
 void Wireframe::add(const TriangleBatch& p_ndc, std::size_t index, PixelTag id) {
   const ExactTriangle triangle = exact_triangle(p_ndc, index);
-  Last next = {triangle.p_ndc, triangle.low_parts == nullptr ? Triangle() : *triangle.low_parts,
-               triangle.decimal_marks, p_ndc.numbers[index], id};
-  const Triangle& p = next.p_ndc;
-  if (!setup_.says_what_was_clipped || p_ndc.unclipped_of(index) != nullptr)
-    for (std::size_t i = 0; i < 3; ++i) next.is_drawn[i] = !is_in_clip_plane(p[i], p[(i + 1) % 3]);
+  const Triangle& p = triangle.p_ndc;
+  const std::uint64_t number = p_ndc.numbers[index];
   // Pieces are a fan around their first corner.
-  if (last_ && last_->number == next.number && last_->p_ndc[0] == p[0] && last_->p_ndc[2] == p[1])
-    next.is_drawn[0] = last_->is_drawn[2] = false;
-  draw_last();
+  const bool goes_on = last_ && last_->number == number && last_->p_ndc[0] == p[0] && last_->p_ndc[2] == p[1];
+  draw_last(!goes_on);
+  std::array<bool, 3> is_drawn = {!goes_on, true, true};
+  if (!setup_.says_what_was_clipped || p_ndc.unclipped_of(index) != nullptr)
+    for (std::size_t i = 0; i < 3; ++i) is_drawn[i] &= !is_in_clip_plane(p[i], p[(i + 1) % 3]);
+  add_edge_pixels(grid_, triangle, is_drawn, setup_.samples_per_pixel, edges_.row_range(), pixels_);
   surfaces_.push_back(surface(p));
-  last_ = next;
+  last_ = {p, number, id};
 }
 
 Wireframe::Surface Wireframe::surface(const Triangle& p) const {
@@ -65,18 +65,16 @@ Wireframe::Surface Wireframe::surface(const Triangle& p) const {
   return {most, kReach * setup_.samples_per_pixel * slopes + error, normal.z.sign() > 0};
 }
 
-void Wireframe::draw_last() {
-  if (!last_) return;
-  pixels_.clear();
-  add_edge_pixels(grid_, {last_->p_ndc, &last_->low_parts, last_->decimal_marks}, last_->is_drawn,
-                  setup_.samples_per_pixel, edges_.row_range(), pixels_);
-  const bool is_front = surfaces_[last_->id].is_front;
-  for (const EdgePixel& pixel : pixels_) {
-    if (!(pixel.depth >= screen_.front)) continue;
-    Edge& seen = edges_.row(pixel.row)[static_cast<std::size_t>(pixel.column)];
-    const bool is_better = pixel.depth == seen.depth ? is_front && !seen.is_front : pixel.depth < seen.depth;
-    if (is_better) seen = {pixel.depth, last_->id, is_front};
+/// `is_closed` is false if the last edge lies within a clipped triangle.
+void Wireframe::draw_last(bool is_closed) {
+  const bool is_front = last_ && surfaces_[last_->id].is_front;
+  for (const auto& [row, column, depth, edge] : pixels_) {
+    if (!(depth >= screen_.front) || (edge == 2 && !is_closed)) continue;
+    Edge& seen = edges_.row(row)[static_cast<std::size_t>(column)];
+    if (depth < seen.depth || (depth == seen.depth && is_front && !seen.is_front))
+      seen = {depth, last_->id, is_front};
   }
+  pixels_.clear();
   last_.reset();
 }
 
@@ -84,13 +82,12 @@ void Wireframe::draw_last() {
 std::span<const PixelTag> Wireframe::row(int row, const VisibleRow& surfaces) {
   draw_last();
   const std::span<const Edge> edges = edges_.row(row);
-  const auto is_hidden = [&](std::size_t i) {
-    const PixelTag id = surfaces.tags[i];
-    if (setup_.shows_hidden || id == kNone || edges[i].id == kNone) return false;
-    const Surface& surface = surfaces_[id];
-    return edges[i].depth > std::min(surface.most, surfaces.depths[i] + surface.reach);
-  };
-  for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = is_hidden(i) ? kNone : edges[i].id;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    ids_[i] = edges[i].id;
+    if (setup_.shows_hidden || surfaces.tags[i] == kNone || ids_[i] == kNone) continue;
+    const auto& [most, reach, is_front] = surfaces_[surfaces.tags[i]];
+    if (edges[i].depth > std::min(most, surfaces.depths[i] + reach)) ids_[i] = kNone;
+  }
   return ids_;
 }
 

@@ -58,15 +58,13 @@ class Wireframe {
     bool is_front;
   };
   struct Last {
-    Triangle p_ndc, low_parts;
-    std::uint16_t decimal_marks;
+    Triangle p_ndc;
     std::uint64_t number;
     PixelTag id;
-    std::array<bool, 3> is_drawn = {true, true, true};
   };
 
   [[nodiscard]] Surface surface(const Triangle& p_ndc) const;
-  void draw_last();
+  void draw_last(bool is_closed = true);
 
   Setup setup_;
   Viewport screen_;
@@ -75,7 +73,7 @@ class Wireframe {
   Raster<Edge> edges_;
   ChunkedArray<Surface> surfaces_;  // by the ids of their triangles
   std::optional<Last> last_;
-  std::vector<EdgePixel> pixels_;
+  std::vector<EdgePixel> pixels_;  // of the last triangle
   std::vector<PixelTag> ids_;
 };
 
