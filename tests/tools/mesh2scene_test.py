@@ -861,6 +861,7 @@ FACET = "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 
 BINARY = struct.pack("<12f", *[0] * 3, *[0] * 3, 1, 0, 0, 0, 1, 0)
 V = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 USUAL = "228 222 210"
+PARTLY_COLORED = ": some of its vertices have no color: they get the color of their mesh"
 
 
 def stl(count, bits=0, header=b""):
@@ -899,6 +900,9 @@ class Readers(ToolTest):
         ("a.ply", PLY % ("trianglestrips", "", "4 0 1 2 3"), 0,
          ": expected a model with triangles, found none, but element 'trianglestrips'"),
         ("a.ply", PLY % ("face", RGB, "4 0 1 3 2 250 20 10"), 2, "", "250 20 10"),
+        ("a.ply", PLY % ("face", "property uchar red\n", "3 0 1 2 9"), 1, PARTLY_COLORED, USUAL),
+        ("a.ply", (PLY % ("face", "", "3 0 1 2")).replace("z\n", "z\nproperty uchar red\n").replace(
+            " 0\n", " 0 9\n"), 1, PARTLY_COLORED, USUAL),
         ("a.ply", PLY % ("face", "element edge 1\nproperty int vertex1\n", "3 0 1 2\n0"), 1,
          ": no scene can hold its points and lines"),
         ("a.ply", (PLY % ("face", RGB, "3 0 1 3 250 20 10\n3 4 5 3 250 20 10")).replace(
@@ -935,8 +939,7 @@ class Readers(ToolTest):
         ("a.obj", V.replace(" 0\n", " 0 255 128 0\n") + "f 1 2 3\n", 1,
          ": its colors reach to 255: 255 is taken for full, not 1", "255 128 0"),
         ("a.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 nan 0 0\nf 1 2 3\n", 1,
-         ": some of its vertices have no color: they get the color of their mesh\n"
-         "a.obj: it has colors that are negative or no numbers: they are left out", USUAL),
+         PARTLY_COLORED + "\na.obj: it has colors that are negative or no numbers: they are left out", USUAL),
         ("a.gltf", "[" * 100000, 0,
          OTHER + "another, perhaps one that assimp reads: assimp export a.gltf a.glb converts it (Debian: "
          "assimp-utils)"),

@@ -136,7 +136,7 @@ class ObjReader {
     if (!model_.colors.empty()) {
       model_.colors.resize(model_.points.size(), kNoColor);
       if (std::ranges::any_of(model_.colors, [](const Floats& color) { return std::isnan(color[0]); }))
-        model_.note("some of its vertices have no color: they get the color of their mesh");
+        model_.note(kPartlyColored);
       scale_colors(model_, model_.colors, 1);
       for (ModelMesh& mesh : model_.meshes) mesh.has_colors = true;
     }

@@ -53,6 +53,10 @@ struct Element {
     const auto found = std::ranges::find(properties, slot, &Property::slot);
     return found == properties.end() ? nullptr : &*found;
   }
+  /// Of the three slots from `first` on, the count of those with a property.
+  [[nodiscard]] int count_of_three(std::size_t first) const {
+    return !!find(Slot(first)) + !!find(Slot(first + 1)) + !!find(Slot(first + 2));
+  }
 };
 
 class PlyReader {
@@ -188,13 +192,17 @@ class PlyReader {
     return {record_[first], record_[first + 1], record_[first + 2]};
   }
 
+  /// True if an element has colors; sets the value that is full.
+  bool find_colors(const Element& element) {
+    const int count = element.count_of_three(kRed);
+    if (count == 1 || count == 2) model_.note(kPartlyColored);
+    if (count == 3) full_color_ = element.find(kRed)->type.full;
+    return count == 3;
+  }
+
   void read_vertices(const Element& element) {
-    const auto has = [&](std::size_t first) {
-      return element.find(Slot(first)) && element.find(Slot(first + 1)) && element.find(Slot(first + 2));
-    };
-    if (!has(kX)) model_.fail("the properties x, y and z of element vertex", "others");
-    const bool has_normals = has(kNormal), has_colors = has(kRed);
-    if (has_colors) full_color_ = element.find(kRed)->type.full;
+    if (element.count_of_three(kX) < 3) model_.fail("the properties x, y and z of element vertex", "others");
+    const bool has_normals = element.count_of_three(kNormal) == 3, has_colors = find_colors(element);
     const Property* const alpha = element.find(kAlpha);
     const double opaque = alpha ? alpha->type.full : 0;
     read_records(element, [&] {
@@ -210,10 +218,9 @@ class PlyReader {
   /// Reads faces, or strips, which become faces of three corners.
   void read_faces(const Element& element) {
     const bool are_strips = element.name == "tristrips";
-    const Property* const red = model_.colors.empty() ? element.find(kRed) : nullptr;
-    if (red) full_color_ = red->type.full;
+    const bool has_colors = model_.colors.empty() && find_colors(element);
     read_records(element, [&] {
-      if (red) color_corners();
+      if (has_colors) color_corners();
       std::span<const std::uint32_t> rest = indices_;
       if (!are_strips) add_face();
       while (are_strips && !rest.empty()) {

@@ -19,6 +19,8 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
 /// 0 if no triangle has an area.
 void add_normals(Model& model, double crease_degrees);
 
+constexpr const char* kPartlyColored = "some of its vertices have no color: they get the color of their mesh";
+
 // The readers of formats fill a model that has only its name.
 
 void read_ply(std::string_view bytes, Model& model);
