@@ -20,14 +20,13 @@ def stack_lines(text, name):
     lines = [name, "", f"{'line  command':{LEFT}}stack, its top first"]
     shown = (command for command in commands(text) if command.keyword in (*DRAWN, "push", "pop", *TRANSFORMS))
     for is_drawn, run in itertools.groupby(shown, lambda command: command.keyword in DRAWN):
-        if is_drawn:
-            line, first, last = next(run).line, drawn_count, drawn_count + len([*run])
-            drawn_count = last + 1
-            words = f"triangle {first}" if first == last else f"triangles {first} to {last}"
-            lines += row(line, words, f"a point p becomes {product_name(stack[-1])} p")
         for command in run:
             keyword = words = command.keyword
-            if keyword == "push":
+            if is_drawn:
+                first, last = drawn_count, drawn_count + len([*run])  # ends the loop
+                drawn_count = last + 1
+                words = f"triangle {first}" if first == last else f"triangles {first} to {last}"
+            elif keyword == "push":
                 stack.append(stack[-1])
             elif keyword == "pop":
                 stack.pop()
@@ -37,7 +36,9 @@ def stack_lines(text, name):
                 matrices += ["", *matrix_lines(transform, command.matrix())]
                 stack[-1] += (transform,)
                 words = f"{transform} = {keyword} {' '.join(command.arguments[0])}"
-            lines += row(command.line, words, " | ".join(map(product_name, reversed(stack))))
+            products = [product_name(factors) for factors in reversed(stack)]
+            lines += row(command.line, words,
+                         f"a point p becomes {products[0]} p" if is_drawn else " | ".join(products))
     return [*lines, "", "I is the identity; the last factor is applied to a point first.", *matrices]
 
 
@@ -50,8 +51,7 @@ def product_name(factors):
 
 def row(line, words, stack):
     """The lines of a row; words too long for their column have a line of their own."""
-    above, left = [], f"{line:4}  {words}"
-    if len(left) >= LEFT:
-        above, left = textwrap.wrap(left, WIDTH, subsequent_indent=" " * 8), ""
-    return above + textwrap.wrap(stack, WIDTH, initial_indent=f"{left:{LEFT}}", subsequent_indent=" " * LEFT,
-                                 break_on_hyphens=False)
+    left = f"{line:4}  {words}"
+    above = textwrap.wrap(left, WIDTH, subsequent_indent=" " * 8) if len(left) >= LEFT else []
+    return above + textwrap.wrap(f"{'' if above else left:{LEFT}}{stack}", WIDTH,
+                                 subsequent_indent=" " * LEFT, break_on_hyphens=False)

@@ -2,6 +2,7 @@
 
 As in scripts/stages, every stage passes lossless text on and prints its numbers rounded once; zbuf reads what
 project printed."""
+import collections
 import dataclasses
 import pathlib
 import re
@@ -17,6 +18,9 @@ from lib.text.stage_text import header_and_body, parse_stage_text, text_of
 
 FRAGMENT = re.compile(r"(\d+),(\d+): triangle (\d+), depth (\S+): (.*)")
 EXACT = ("--digits", "exact")
+# The words of the tools' options; None is the tool's default.
+Settings = collections.namedtuple("Settings", "digits aspect clip cull coverage",
+                                  defaults=("7", None, None, None, "nearest"))
 
 
 @dataclasses.dataclass
@@ -28,20 +32,6 @@ class Fragment:
     @property
     def is_kept(self):
         return self.fate == "kept"
-
-
-@dataclasses.dataclass
-class Settings:
-    """The words of the tools' options; None is the tool's default."""
-    digits: str = "7"
-    aspect: str = None
-    clip: str = None
-    cull: str = None
-    coverage: str = "nearest"
-
-    @property
-    def of_project(self):
-        return words_of_project(self)
 
 
 class Stages:
@@ -68,7 +58,8 @@ class Stages:
                          for words in (EXACT, ["--bare", *digits]))
         self.view_lossless, self.view = (words_of_triangle(header_and_body(text)[1][:3], "view", number)
                                          for text in (in_view, bare))
-        self.projected = self.tools.output("project", *digits, *self.settings.of_project, stdin=in_view)
+        self.projected = self.tools.output("project", *digits, *words_of_project(self.settings),
+                                           stdin=in_view)
         self.ndc = [words_of(lines) for lines in vertex_lines(self.projected)]
 
     def window(self):
@@ -91,7 +82,7 @@ class Stages:
 
     def projected_whole(self, digits, *of_model):
         """The text of project for the whole scene; `digits` are words for model and view."""
-        project = ["project", "--digits", self.settings.digits, *self.settings.of_project]
+        project = ["project", "--digits", self.settings.digits, *words_of_project(self.settings)]
         return self.tools.through(["model", *digits, *of_model, self.scene], ["view", *digits], project)
 
     def bounds_if_uncertain(self, column, row):
