@@ -9,7 +9,7 @@ from lib.maths.matrices import TRANSFORMS
 from lib.text.scene import commands
 
 WIDTH = 79
-MAX_FACTORS = 8  # the most of a product that is written out
+HALF = 4  # the factors written out at each end of a long product
 LEFT = 34  # columns before the stack
 DRAWN = ("triangle", "sphere")
 
@@ -43,9 +43,8 @@ def stack_lines(text, name):
 
 
 def product_name(factors):
-    if len(factors) > MAX_FACTORS:
-        half = MAX_FACTORS // 2
-        return f"{' '.join(factors[:half])} ... {' '.join(factors[-half:])} ({len(factors)} factors)"
+    if len(factors) > 2 * HALF:
+        return f"{' '.join(factors[:HALF])} ... {' '.join(factors[-HALF:])} ({len(factors)} factors)"
     return " ".join(factors) or "I"
 
 
