@@ -20,7 +20,7 @@ namespace pipeline {
 //                     bands and buffers are chosen by the triangle's height;
 //   exact_depth(triangle, row, column)   the depth (NDC z) at a covered pixel, within 2^-97 of its own or the
 //                     vertices' largest |z|, whichever is larger. Slow: for digits that a Span may lack;
-//   spans(triangles, rows, begin)   only if there is a kernel for many triangles: writes the same spans.
+//   spans(triangles, rows, begin)   writes the same spans of many triangles, by a kernel (exact_grid.h).
 
 /// On each row, the pixels from the nearest to the triangle's left end to the nearest to its right end.
 struct NearestCoverage {
@@ -61,14 +61,5 @@ struct CenterCoverage {
 
 /// Every coverage rule, in the order of --help; the first is the default.
 using CoverageRules = TypeList<NearestCoverage, CenterCoverage>;
-
-/// Writes the spans of many triangles by any rule, in a kernel's way (exact_grid.h).
-template <typename Coverage>
-TaggedSpan* spans_by(const Coverage& rule, std::span<const TaggedTriangle> triangles, const RowRange& rows,
-                     TaggedSpan* spans) {
-  if constexpr (requires { rule.spans(triangles, rows, spans); }) return rule.spans(triangles, rows, spans);
-  for (const auto& [triangle, tag] : triangles) spans = append_spans(rule.rows(triangle), tag, rows, spans);
-  return spans;
-}
 
 }  // namespace pipeline
