@@ -6,8 +6,10 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,7 +17,7 @@
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/visibility/raster.h"
+#include "libpipeline/visibility/drawing.h"
 
 namespace pipeline {
 
@@ -188,24 +190,23 @@ class BandDrawing {
   ThreadPool& pool_;
 };
 
-/// Draws the triangles of a stream on the threads of a pool, batch by batch. The result is as if they were
-/// drawn one after the other, for any number of threads. `Visible` is as for BandDrawing.
+/// Draws on the threads of a pool. The result is as if the triangles were drawn one after the other, for any
+/// number of threads. `Visible` is as for BandDrawing, made from a screen and the background's tag.
 ///
 /// On one thread, batches of small triangles are drawn at once: their pixels are scattered over the picture
 /// anyway, and the triangles themselves are still in the cache. All others are drawn in bands.
 template <typename Visible>
-class TriangleDrawing {
+class TriangleDrawing final : public Drawing {
  public:
   /// The pool may do other work, too.
-  TriangleDrawing(Visible& visible, const Viewport& screen, ThreadPool& pool)
-      : grid_(screen), bands_(visible, screen, pool) {
-    if (pool.size() == 1) picture_.emplace(visible, screen.drawn_rows());
+  TriangleDrawing(const Viewport& screen, PixelTag background, ThreadPool& pool)
+      : grid_(screen), visible_(screen, background), bands_(visible_, screen, pool) {
+    if (pool.size() == 1) picture_.emplace(visible_, screen.drawn_rows());
   }
 
-  /// The place for the next batch, with a tag for each triangle.
-  [[nodiscard]] TaggedBatch& next() { return next_; }
-  /// Draws this batch, at the latest in finish().
-  void draw_next() {
+  [[nodiscard]] Visible& visible() { return visible_; }
+  TaggedBatch& next() override { return next_; }
+  void draw_next() override {
     assert(next_.tags.size() == next_.batch.size());
     if (!picture_ || !has_small_triangles(next_.batch)) return bands_.draw(next_);
     bands_.finish();
@@ -213,8 +214,13 @@ class TriangleDrawing {
       picture_->draw(exact_triangle(next_.batch, i), next_.tags[i]);
     picture_->finish();
   }
-  /// Draws all batches that still wait.
-  void finish() { bands_.finish(); }
+  void finish() override { bands_.finish(); }
+  void for_each_drawn_row(const std::function<void(std::span<PixelTag>)>& visit) override {
+    visible_.for_each_drawn_row(visit);
+  }
+  void for_each_row(const std::function<void(const VisibleRow&)>& visit) const override {
+    visible_.for_each_row(visit);
+  }
 
  private:
   /// True if the triangles are small, judged by every eighth.
@@ -231,6 +237,7 @@ class TriangleDrawing {
   }
 
   PixelGrid grid_;
+  Visible visible_;
   TaggedBatch next_;
   std::optional<typename Visible::Drawer> picture_;  // on one thread: for batches drawn at once
   BandDrawing<Visible> bands_;

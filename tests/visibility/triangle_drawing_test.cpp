@@ -61,10 +61,11 @@ std::vector<Triangle> scene_of_small_triangles(int triangle_count) {
 }
 
 template <typename Visible>
-void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const Viewport& screen,
-                     int thread_count, std::size_t batch_size) {
+Frame drawn_on_threads(const std::vector<Triangle>& scene, const Viewport& screen, int thread_count,
+                       std::size_t batch_size, double depth_epsilon = 0) {
   ThreadPool pool(thread_count);
-  TriangleDrawing drawing(visible, screen, pool);
+  TriangleDrawing<Visible> drawing(screen, {}, pool);
+  drawing.visible().set_depth_epsilon(depth_epsilon);
   for (std::size_t i = 0; i < scene.size();) {
     TaggedBatch& next = drawing.next();
     next.batch.clear();
@@ -76,14 +77,7 @@ void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const
     drawing.draw_next();
   }
   drawing.finish();
-}
-
-template <typename Visible>
-Frame drawn_on_threads(const std::vector<Triangle>& scene, const Viewport& screen, int thread_count,
-                       std::size_t batch_size) {
-  Visible visible(screen);
-  draw_on_threads(visible, scene, screen, thread_count, batch_size);
-  return frame_of(visible);
+  return frame_of(drawing);
 }
 
 template <typename Visible>
@@ -149,12 +143,12 @@ TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
   // From top to bottom, so that each thread starts on pixels that are still undrawn.
   std::vector<Triangle> scene = scene_of_small_triangles(30000);
   std::ranges::sort(scene, std::greater(), [](const Triangle& p) { return p[0].y; });
-  ZBufferAlgorithm<NearestCoverage, DepthF64> expected(kScreen), visible(kScreen);
-  expected.set_depth_epsilon(0.3);  // larger than the difference between two of the scene's depths
-  visible.set_depth_epsilon(0.3);
+  using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
+  constexpr double kEpsilon = 0.3;  // larger than the difference between two of the scene's depths
+  Visible expected(kScreen);
+  expected.set_depth_epsilon(kEpsilon);
   for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, high_tag_of(i));
-  draw_on_threads(visible, scene, kScreen, 2, 50);
-  EXPECT_TRUE(frame_of(visible) == frame_of(expected));
+  EXPECT_TRUE(drawn_on_threads<Visible>(scene, kScreen, 2, 50, kEpsilon) == frame_of(expected));
 }
 
 TEST(TriangleDrawing, NothingDrawnIsTheBackground) {
@@ -165,9 +159,8 @@ TEST(TriangleDrawing, NothingDrawnIsTheBackground) {
 
 TEST(TriangleDrawing, MayBeGivenUpInTheMiddle) {
   constexpr Viewport kScreen = {150, 300};
-  ZBufferAlgorithm<NearestCoverage, DepthF64> visible(kScreen);
   ThreadPool pool(3);
-  TriangleDrawing drawing(visible, kScreen, pool);
+  TriangleDrawing<ZBufferAlgorithm<NearestCoverage, DepthF64>> drawing(kScreen, {}, pool);
   for (int i = 0; i < 5; ++i) {
     drawing.next().batch.add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
     drawing.next().tags.resize(drawing.next().batch.size());
