@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <variant>
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
@@ -21,7 +22,7 @@ struct Pixel {
   friend bool operator==(const Pixel&, const Pixel&) = default;
 };
 
-/// The result of a fragment's depth test.
+/// The result of a fragment's depth test; those outside the depth limits come last.
 enum class DepthTestResult {
   kept,
   behind,        // the visible fragment is nearer
@@ -105,17 +106,32 @@ class FragmentLog {
         visit(test_.judge(row[static_cast<std::size_t>(column - columns_.first)], {column, span.row},
                           triangle, span.depth(column)));
     };
-    coverage_.visit([&](const auto& rule) { for_each_span(rule.rows(p_ndc), seen_.row_range(), add_span); });
+    std::visit([&](const auto& rule) { for_each_span(rule.rows(p_ndc), seen_.row_range(), add_span); },
+               coverage_);
+  }
+  /// Calls `visit(triangle)` for every pixel of the log that shows a triangle.
+  template <typename Visitor>
+  void for_each_seen(Visitor&& visit) const {
+    for (int row = seen_.row_range().first; row < seen_.row_range().end; ++row)
+      for (const FragmentTest::Seen& seen : seen_.row(row))
+        if (seen.depth < test_.nothing().depth) visit(seen.triangle);
+  }
+  /// True if the triangle covers a pixel of the screen, in the log or not.
+  [[nodiscard]] bool is_covering(const ExactTriangle& p_ndc) const {
+    bool found = false;
+    std::visit([&](const auto& rule) { for_each_span(rule.rows(p_ndc), [&](const Span&) { found = true; }); },
+               coverage_);
+    return found;
   }
 
  private:
   FragmentLog(const PixelRules& rules, const Viewport& screen, const RowRange& rows, const RowRange& columns)
-      : coverage_(rules, screen),
+      : coverage_(CoverageRules::made(rules.coverage, screen)),
         test_(rules, screen),
         columns_(columns),
         seen_(rows, columns.end - columns.first, test_.nothing()) {}
 
-  AnyCoverage coverage_;
+  CoverageRules::Object coverage_;
   FragmentTest test_;
   RowRange columns_;
   Raster<FragmentTest::Seen> seen_;

@@ -17,22 +17,6 @@ struct PixelRules {
   double depth_epsilon = 0;
 };
 
-/// A coverage rule chosen at run time, for code that is not worth compiling once per rule.
-class AnyCoverage {
- public:
-  AnyCoverage(const PixelRules& chosen, const Viewport& screen)
-      : rule_(CoverageRules::made(chosen.coverage, screen)) {}
-
-  /// Calls visit(rule) with the rule in use.
-  template <typename Visitor>
-  decltype(auto) visit(Visitor&& visitor) const {
-    return std::visit(visitor, rule_);
-  }
-
- private:
-  CoverageRules::Object rule_;
-};
-
 /// A depth format chosen at run time. Stored depths are doubles, which hold every format's values. Functions
 /// called for each fragment are inlined.
 class AnyDepth {

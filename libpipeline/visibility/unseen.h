@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <variant>
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/unseen_places.h"
+#include "libpipeline/visibility/fragment_log.h"
 #include "libpipeline/visibility/pixel_rules.h"
 #include "libpipeline/visibility/raster.h"
 
@@ -14,6 +16,12 @@ namespace pipeline {
 
 /// The sides of the depth limits on which a triangle has fragments.
 struct FragmentDepths {
+  void add(DepthTestResult result) {
+    before_front |= result == DepthTestResult::before_front;
+    beyond_rear |= result == DepthTestResult::beyond_rear;
+    visible |= result < DepthTestResult::before_front;
+  }
+
   bool before_front = false;
   bool visible = false;
   bool beyond_rear = false;
@@ -35,10 +43,7 @@ bool has_area(const Triangle& p_ndc);
 class EmptyPicture {
  public:
   EmptyPicture(const PixelRules& rules, const Viewport& screen)
-      : screen_(screen),
-        coverage_(rules, screen),
-        format_(rules, screen),
-        rear_(format_.store(screen.rear)) {}
+      : screen_(screen), coverage_(CoverageRules::made(rules.coverage, screen)), test_(rules, screen) {}
 
   /// Takes the next triangles, unless an earlier one shows an area.
   void add(const TriangleBatch& p_ndc) {
@@ -65,26 +70,22 @@ class EmptyPicture {
   /// The depths of a triangle's fragments, up to the first visible one.
   [[nodiscard]] FragmentDepths fragments(const ExactTriangle& triangle) const {
     FragmentDepths found;
-    coverage_.visit([&](const auto& rule) {
+    const auto add_rows = [&](const auto& rule) {
       const auto rows = rule.rows(triangle);
       for (int row = rows.first_row(); row <= rows.last_row() && !found.visible; ++row)
         if (const auto span = rows.span(row))
           for (int column = span->first_column; column <= span->last_column && !found.visible; ++column) {
-            const double z = span->depth(column);
-            const bool is_before_front = !is_drawn(z, screen_.front);
-            const bool is_beyond_rear = !is_nearer(format_.store(z), rear_);
-            found.before_front |= is_before_front;
-            found.beyond_rear |= is_beyond_rear;
-            found.visible |= !is_before_front && !is_beyond_rear;
+            FragmentTest::Seen nothing = test_.nothing();
+            found.add(test_.judge(nothing, {column, row}, 0, span->depth(column)).result);
           }
-    });
+    };
+    std::visit(add_rows, coverage_);
     return found;
   }
 
   Viewport screen_;
-  AnyCoverage coverage_;
-  AnyDepth format_;
-  double rear_;
+  CoverageRules::Object coverage_;
+  FragmentTest test_;
   bool is_empty_ = true, shows_area_ = false;
   UnseenPlaces triangles_;
 };

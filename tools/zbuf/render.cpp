@@ -104,17 +104,18 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Sta
 }
 
 /// Sets the exact depths of a row; they are meaningless where no triangle is visible.
-void set_exact_depths(const AnyCoverage& coverage, const TriangleStore& store, int row,
+void set_exact_depths(const CoverageRules::Object& coverage, const TriangleStore& store, int row,
                       std::span<const PixelTag> ids, std::vector<Ball>& depths) {
   depths.resize(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (ids[i] == KeptIds::kNoTriangle) continue;
     const auto& [p, low_parts, marks] = store.corners(ids[i]);
     const bool is_flat = p[0].z == p[1].z && p[0].z == p[2].z;
-    depths[i] =
-        is_flat ? Ball(p[0].z) : coverage.visit([&, &p = p, &low = low_parts, m = marks](const auto& rule) {
-          return rule.exact_depth({p, &low, m}, row, static_cast<int>(i));
-        });
+    const ExactTriangle triangle = {p, &low_parts, marks};
+    const auto depth = [&](const auto& rule) {
+      return rule.exact_depth(triangle, row, static_cast<int>(i));
+    };
+    depths[i] = is_flat ? Ball(p[0].z) : std::visit(depth, coverage);
   }
 }
 
@@ -138,7 +139,7 @@ bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
   std::uint64_t covered_count = 0;
   std::optional<PixelTag> only;  // the tag of all pixels so far
   bool is_one = true;
-  const AnyCoverage coverage(chosen.rules, screen);
+  const CoverageRules::Object coverage = CoverageRules::made(chosen.rules.coverage, screen);
   int number = screen.drawn_rows().first;
   std::vector<Ball> exact;
   drawing.centers().for_each_row([&](const VisibleRow& row) {
