@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "libpipeline/raytracing/ray_caster.h"
-#include "libpipeline/raytracing/sampling.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "tools/rim/empty_picture_note.h"
@@ -21,18 +20,6 @@
 
 namespace pipeline {
 namespace {
-
-PictureRays rays_of(const TraceOptions& chosen, const Viewport& screen) {
-  return {.screen = screen,
-          .sampling = chosen.sampling.value_or(Sampling::regular),
-          .sample_count = chosen.sample_count,
-          .threshold = chosen.threshold,
-          .has_colors = chosen.has_image(),
-          .has_depths = chosen.z_buffer_path != "none" || !chosen.depth_image_path.empty() ||
-                        !chosen.depth_array_path.empty(),
-          .has_triangles = !chosen.triangle_array_path.empty(),
-          .counts_covered = chosen.summarizes};
-}
 
 /// The number of threads: a ray, or a triangle of the hierarchy, takes as long as 256 samples of zbuf.
 int threads_for(const TraceOptions& chosen, const Viewport& screen, std::size_t triangle_count) {
@@ -87,21 +74,21 @@ class Rendering {
         statistics_(statistics),
         outputs_(tool, chosen, statistics),
         scene_(tool, chosen, screen, statistics.is_wanted()),
-        background_(background_color(scene_.header().appearance, parse_color(chosen.background))),
-        light_(light_transport_setup(chosen, scene_, background_)) {
-    if (rays_.has_colors)
-      shader_ = surface_shader(scene_.header(), scene_.header_end(), rays_.places().screen(),
-                               surface_options(chosen));
+        picture_{chosen, screen,
+                 background_color(scene_.header().appearance, parse_color(chosen.background))},
+        light_(light_transport_setup(chosen, scene_, picture_.background)) {
+    if (chosen.has_image())
+      shader_ = surface_shader(scene_.header(), scene_.header_end(), picture_.places().screen(), chosen);
     probed_ = probed_pixels(chosen, screen);
   }
 
   void read() {
-    const bool sends_rays = rays_.has_colors && needs_light_transport(light_);
+    const bool sends_rays = chosen_.has_image() && needs_light_transport(light_);
     casts_any_rays_ = sends_rays || !probed_.empty();
     scene_.read(casts_any_rays_);
     // zbuf's shader does not take spheres.
     has_spheres_ = !scene_.triangles().spheres().empty();
-    traces_light_ = sends_rays || (rays_.has_colors && has_spheres_);
+    traces_light_ = sends_rays || (chosen_.has_image() && has_spheres_);
     tool_.timing().lap(&Timing::read_seconds);
   }
 
@@ -116,8 +103,9 @@ class Rendering {
     if (!casts_any_rays_ && !traces_light_) scene_.keep_images_alone();
     const Bvh bvh(std::move(boxes), pool);
     const double build_seconds = seconds();
-    const ColorSetup colors = {background_, shader_ ? &*shader_ : nullptr, traces_light_ ? &light_ : nullptr};
-    TracedPicture picture = traced_picture(scene_, bvh, rays_, colors, pool);
+    if (shader_) picture_.shader = &*shader_;
+    if (traces_light_) picture_.light = &light_;
+    TracedPicture picture = traced_picture(scene_, bvh, picture_, pool);
     picture.work.build_seconds = build_seconds;
     picture.work.cast_seconds = seconds() - build_seconds;
     for (const Pixel& pixel : probed_) add_ray_lines(pixel, scene_, bvh, screen_, light_, probe_lines_);
@@ -129,9 +117,9 @@ class Rendering {
     add_statistics(picture.work);
     outputs_.close_reports();
     tool_.timing().lap(&Timing::work_seconds);
-    outputs_.open(screen_, 1, background_);
+    outputs_.open(screen_, 1, picture_.background);
     for (int row = 0; row < screen_.rows; ++row) {
-      if (rays_.has_depths) outputs_.write_depths(picture.row_of(picture.depths, row));
+      if (chosen_.has_depths()) outputs_.write_depths(picture.row_of(picture.depths, row));
       if (outputs_.wants_triangles()) outputs_.write_triangles(picture.row_of(picture.triangles, row));
       if (outputs_.wants_colors()) outputs_.write_colors(picture.row_of(picture.colors, row));
     }
@@ -141,7 +129,7 @@ class Rendering {
 
   /// Notes an empty or a squeezed image.
   void note(const TracedPicture& picture) const {
-    if (!rays_.has_colors) return;
+    if (!chosen_.has_image()) return;
     if (const auto note = invisible_note(picture.shown))
       tool_.note(*note);
     else if (const auto squeezed = squeezed_note(scene_.given_projection(), screen_))
@@ -164,17 +152,16 @@ class Rendering {
     if (has_spheres_ && shown.count() == 0) return unmet_note(scene_, tool_.timing().triangle_count);
     if (!has_spheres_)
       if (auto unseen = unseen_triangles_note(scene_)) return unseen;
-    return odd_colors_note(shown, {background_});
+    return odd_colors_note(shown, {picture_.background});
   }
 
   Tool& tool_;
   const TraceOptions& chosen_;
   const Viewport& screen_;
   Statistics& statistics_;
-  const PictureRays rays_ = rays_of(chosen_, screen_);
   PictureOutputs outputs_;
   TracedScene scene_;
-  Color background_;
+  PictureSetup picture_;
   std::optional<SurfaceShader> shader_;
   LightTransportSetup light_;
   std::vector<Pixel> probed_;

@@ -76,6 +76,7 @@ void TraceOptions::complete(const CommandLine& options, bool is_terminal) {
         "--threshold: " +
         expected_but_found("--sampling adaptive, which alone has one",
                            sampling ? kSamplings[static_cast<std::size_t>(*sampling)] : "no --sampling"));
+  if (!sampling) sampling = Sampling::regular;
 }
 
 }  // namespace pipeline

@@ -14,7 +14,7 @@ struct TraceOptions : PictureOptions {
   explicit TraceOptions(CommandLine& options);
 
   ProjectionOptions projection;
-  std::optional<Sampling> sampling;  // none: regular
+  std::optional<Sampling> sampling;  // `complete` chooses, if there is none
   int threshold = 8;                 // of adaptive sampling: the difference of colors, in levels of 255
   bool without_shadows = false;
   bool without_recursion = false;
@@ -24,6 +24,9 @@ struct TraceOptions : PictureOptions {
   /// Chooses the options that depend on others, and on whether standard output is a terminal. A UsageError if
   /// options exclude each other.
   void complete(const CommandLine& options, bool is_terminal);
+  [[nodiscard]] bool has_depths() const {
+    return z_buffer_path != "none" || !depth_image_path.empty() || !depth_array_path.empty();
+  }
 
  private:
   void add_pixels(CommandLine& options);

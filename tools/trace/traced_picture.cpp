@@ -50,7 +50,7 @@ namespace {
 /// picture's, or a finer one.
 class SampleColors {
  public:
-  SampleColors(const TracedScene& scene, const Bvh& bvh, const PixelRays& rays, const ColorSetup& setup)
+  SampleColors(const TracedScene& scene, const Bvh& bvh, const PixelRays& rays, const PictureSetup& setup)
       : triangles_(scene.triangles()), rays_(rays), setup_(setup), cache_(kCached) {
     if (setup.light != nullptr) light_.emplace(triangles_, bvh, *setup.light);
   }
@@ -101,7 +101,7 @@ class SampleColors {
 
   const TracedTriangles& triangles_;
   PixelRays rays_;
-  ColorSetup setup_;
+  const PictureSetup& setup_;
   std::optional<LightTransport> light_;
   TriangleColors own_colors_;
   std::vector<CachedSurface> cache_;
@@ -111,30 +111,32 @@ class SampleColors {
 /// The rays of one thread.
 class PixelTracer {
  public:
-  PixelTracer(const TracedScene& scene, const Bvh& bvh, const PictureRays& rays, const ColorSetup& colors)
+  PixelTracer(const TracedScene& scene, const Bvh& bvh, const PictureSetup& setup)
       : triangles_(scene.triangles()),
-        rays_(rays),
-        background_(colors.background),
-        places_(rays.places()),
-        order_(rays.sample_count),
-        colors_(scene, bvh, PixelRays(scene.projection(), places_.screen()), colors),
-        centers_(triangles_, bvh, scene.projection(), rays.screen),
+        chosen_(setup.chosen),
+        background_(setup.background),
+        places_(setup.places()),
+        order_(chosen_.sample_count),
+        is_random_(is_random(*chosen_.sampling)),
+        colors_(scene, bvh, PixelRays(scene.projection(), places_.screen()), setup),
+        centers_(triangles_, bvh, scene.projection(), setup.screen),
         samples_(triangles_, bvh, scene.projection(), places_.screen(),
-                 is_random(rays.sampling) ? 1 : rays.sample_count) {}
+                 is_random_ ? 1 : chosen_.sample_count) {}
 
   void trace(int row, int column, std::size_t pixel, TracedPicture& picture) {
-    const bool has_one_sample = rays_.sample_count == 1 && !is_random(rays_.sampling);
-    if (rays_.has_depths || rays_.has_triangles || rays_.counts_covered || has_one_sample) {
+    const bool has_colors = !picture.colors.empty(), has_depths = !picture.depths.empty(),
+               has_triangles = !picture.triangles.empty();
+    const bool has_one_sample = chosen_.sample_count == 1 && !is_random_;
+    if (has_depths || has_triangles || chosen_.summarizes || has_one_sample) {
       ++ray_count_;
       if (const auto seen = centers_.cast(row, column)) {
         ++covered_count_;
-        if (rays_.has_depths) picture.depths[pixel] = seen->depth;
-        if (rays_.has_triangles)
-          picture.triangles[pixel] = static_cast<std::int64_t>(triangles_.number(seen->id));
-        if (rays_.has_colors && has_one_sample) picture.colors[pixel] = colors_.color(row, column, *seen);
+        if (has_depths) picture.depths[pixel] = seen->depth;
+        if (has_triangles) picture.triangles[pixel] = static_cast<std::int64_t>(triangles_.number(seen->id));
+        if (has_colors && has_one_sample) picture.colors[pixel] = colors_.color(row, column, *seen);
       }
     }
-    if (rays_.has_colors && !has_one_sample) picture.colors[pixel] = mean_of(row, column);
+    if (has_colors && !has_one_sample) picture.colors[pixel] = mean_of(row, column);
   }
   [[nodiscard]] std::uint64_t ray_count() const { return ray_count_; }
   /// Adds this thread's counts and colors; to be called after all threads have finished.
@@ -149,14 +151,14 @@ class PixelTracer {
   Color mean_of(int row, int column) {
     std::span<const int> samples = order_.samples();
     ColorMean mean;
-    if (rays_.sampling == Sampling::adaptive) {
+    if (chosen_.sampling == Sampling::adaptive) {
       const std::size_t first_count = order_.first_count();
       ColorRange range;
       for_each_color(row, column, samples.first(first_count), [&](Color color) {
         mean.add(color);
         range.add(color);
       });
-      if (range.range() < rays_.threshold) return mean.mean();
+      if (range.range() < chosen_.threshold) return mean.mean();
       samples = samples.subspan(first_count);
     }
     for_each_color(row, column, samples, [&](Color color) { mean.add(color); });
@@ -173,10 +175,11 @@ class PixelTracer {
   }
 
   const TracedTriangles& triangles_;
-  PictureRays rays_;
+  const TraceOptions& chosen_;
   Color background_;
   SamplePlaces places_;
   SampleOrder order_;
+  bool is_random_;
   SampleColors colors_;
   RayCaster centers_, samples_;
   std::uint64_t ray_count_ = 0;
@@ -185,31 +188,31 @@ class PixelTracer {
 
 }  // namespace
 
-TracedPicture::TracedPicture(const PictureRays& rays, Color background) : screen(rays.screen) {
+TracedPicture::TracedPicture(const PictureSetup& setup) : screen(setup.screen) {
   const std::size_t pixel_count =
       static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns);
-  if (rays.has_colors) colors.assign(pixel_count, background);
-  if (rays.has_depths) depths.assign(pixel_count, screen.rear);
-  if (rays.has_triangles) triangles.assign(pixel_count, -1);
+  if (setup.chosen.has_image()) colors.assign(pixel_count, setup.background);
+  if (setup.chosen.has_depths()) depths.assign(pixel_count, screen.rear);
+  if (!setup.chosen.triangle_array_path.empty()) triangles.assign(pixel_count, -1);
 }
 
-TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const PictureRays& rays,
-                             const ColorSetup& colors, ThreadPool& pool) {
-  TracedPicture picture(rays, colors.background);
+TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const PictureSetup& setup,
+                             ThreadPool& pool) {
+  TracedPicture picture(setup);
   std::vector<std::unique_ptr<PixelTracer>> tracers(static_cast<std::size_t>(pool.size()));
   Progress progress("trace", "ray");
   std::atomic<std::uint64_t> ray_count = 0;
   std::atomic<int> row_count = 0;
-  pool.start(rays.screen.rows, [&](int row, int worker) {
+  pool.start(setup.screen.rows, [&](int row, int worker) {
     auto& tracer = tracers[static_cast<std::size_t>(worker)];
-    if (!tracer) tracer = std::make_unique<PixelTracer>(scene, bvh, rays, colors);
+    if (!tracer) tracer = std::make_unique<PixelTracer>(scene, bvh, setup);
     const std::uint64_t before = tracer->ray_count();
-    const auto columns = static_cast<std::size_t>(rays.screen.columns);
+    const auto columns = static_cast<std::size_t>(setup.screen.columns);
     for (std::size_t column = 0; column < columns; ++column)
       tracer->trace(row, static_cast<int>(column), static_cast<std::size_t>(row) * columns + column, picture);
     ray_count += tracer->ray_count() - before;
     ++row_count;
-    if (worker == 0) progress.show(ray_count, static_cast<double>(row_count) / rays.screen.rows);
+    if (worker == 0) progress.show(ray_count, static_cast<double>(row_count) / setup.screen.rows);
   });
   pool.finish();
   picture.work.primary_rays = ray_count;

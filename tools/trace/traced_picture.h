@@ -12,12 +12,20 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/thread_pool.h"
+#include "tools/trace/trace_options.h"
 #include "tools/trace/traced_scene.h"
 
 namespace pipeline {
 
-/// The source of the samples' colors.
-struct ColorSetup {
+/// A picture, and the source of its samples' colors.
+struct PictureSetup {
+  /// The places of the samples.
+  [[nodiscard]] SamplePlaces places() const {
+    return {screen, chosen.sample_count, is_random(*chosen.sampling)};
+  }
+
+  const TraceOptions& chosen;
+  const Viewport& screen;
   Color background;
   const SurfaceShader* shader = nullptr;       // zbuf's; if null, every triangle has its own color
   const LightTransportSetup* light = nullptr;  // if set, rays bring the colors, not the shader
@@ -34,24 +42,10 @@ struct TraceWork {
 /// The line of `--timing`.
 std::string to_text(const TraceWork& work);
 
-/// The rays to cast for a picture.
-struct PictureRays {
-  [[nodiscard]] SamplePlaces places() const { return {screen, sample_count, is_random(sampling)}; }
-
-  Viewport screen;
-  Sampling sampling = Sampling::basic;
-  int sample_count = 1;  // along each side of a pixel
-  int threshold = 0;     // of adaptive sampling: first samples that differ by it call for all
-  bool has_colors = true;
-  bool has_depths = true;
-  bool has_triangles = false;
-  bool counts_covered = false;
-};
-
 /// The triangles, depths and colors of a screen, row after row.
 struct TracedPicture {
   /// The picture without triangles.
-  TracedPicture(const PictureRays& rays, Color background);
+  explicit TracedPicture(const PictureSetup& setup);
   template <typename T>
   [[nodiscard]] std::span<const T> row_of(const std::vector<T>& entries, int row) const {
     const auto columns = static_cast<std::size_t>(screen.columns);
@@ -70,7 +64,7 @@ struct TracedPicture {
 
 /// Casts the rays of a picture on threads, whose number changes nothing. A shader's screen must be the one of
 /// the samples' places.
-TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const PictureRays& rays,
-                             const ColorSetup& colors, ThreadPool& pool);
+TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const PictureSetup& setup,
+                             ThreadPool& pool);
 
 }  // namespace pipeline

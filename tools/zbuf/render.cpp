@@ -112,9 +112,7 @@ void set_exact_depths(const CoverageRules::Object& coverage, const TriangleStore
     const auto& [p, low_parts, marks] = store.corners(ids[i]);
     const bool is_flat = p[0].z == p[1].z && p[0].z == p[2].z;
     const ExactTriangle triangle = {p, &low_parts, marks};
-    const auto depth = [&](const auto& rule) {
-      return rule.exact_depth(triangle, row, static_cast<int>(i));
-    };
+    const auto depth = [&](const auto& rule) { return rule.exact_depth(triangle, row, static_cast<int>(i)); };
     depths[i] = is_flat ? Ball(p[0].z) : std::visit(depth, coverage);
   }
 }
@@ -245,10 +243,9 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
       std::visit([]<typename Rule>(TypeValue<Rule>) { return Rule::kUsesDecimals; }, chosen.rules.coverage);
   StageReader reader = opened(tool, chosen, uses_decimals);
   const Viewport of_samples = sample_screen(screen, chosen.sample_count);
-  SurfaceOptions surfaces = surface_options(chosen);
-  surfaces.is_wireframe = chosen.wireframe;
   std::optional<SurfaceShader> shader;
-  if (chosen.has_image()) shader = surface_shader(reader.header(), reader.header_end(), of_samples, surfaces);
+  if (chosen.has_image())
+    shader = surface_shader(reader.header(), reader.header_end(), of_samples, chosen, chosen.wireframe);
   tool.timing().lap(&Timing::read_seconds);
   Reports reports(chosen, screen, statistics.is_wanted(), outputs.open_fragments(chosen.fragments_path));
   if (!chosen.certainty_path.empty()) reports.certainty = certain_pixels(reader, screen);

@@ -11,12 +11,6 @@
 
 namespace pipeline {
 
-SurfaceOptions surface_options(const PictureOptions& chosen) {
-  return {.model = chosen.shading,
-          .background = parse_color(chosen.background),
-          .holds_alpha = chosen.has_image() && can_hold_alpha(chosen.image_path)};
-}
-
 Lighting lighting_of(const Appearance& appearance, bool is_perspective) {
   Lighting lighting;
   if (appearance.ambient) lighting.ambient = appearance.ambient->value;
@@ -69,17 +63,18 @@ std::string expected_opaque_background() {
 }
 
 std::optional<SurfaceShader> surface_shader(const StageHeader& header, const SourceLocation& header_end,
-                                            const Viewport& screen, const SurfaceOptions& chosen) {
+                                            const Viewport& screen, const PictureOptions& chosen,
+                                            bool is_wireframe) {
   const Appearance& appearance = header.appearance;
   SurfaceShader::Setup setup;
-  setup.model = shading_model(appearance, chosen.model);
-  setup.background = background_color(appearance, chosen.background);
-  if (!setup.background.is_opaque() && !chosen.holds_alpha)
+  setup.model = shading_model(appearance, chosen.shading);
+  setup.background = background_color(appearance, parse_color(chosen.background));
+  if (!setup.background.is_opaque() && !can_hold_alpha(chosen.image_path))
     throw InputError(appearance.background ? appearance.background->location : header_end,
                      expected_but_found(expected_opaque_background(),
                                         "an alpha of " + std::to_string(setup.background.alpha())));
   if (setup.model == ShadingModel::none) {
-    if (!appearance.columns().color && !appearance.is_painted() && !chosen.is_wireframe) return std::nullopt;
+    if (!appearance.columns().color && !appearance.is_painted() && !is_wireframe) return std::nullopt;
     return SurfaceShader(screen, std::move(setup));
   }
   if (appearance.lights.empty())

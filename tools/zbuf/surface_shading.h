@@ -11,17 +11,6 @@
 
 namespace pipeline {
 
-/// A user's choices for a picture's surfaces; the text decides where they are nullopt.
-struct SurfaceOptions {
-  std::optional<ShadingModel> model;
-  bool is_wireframe = false;
-  std::optional<Color> background;
-  bool holds_alpha = false;  // true if the image has room for it
-};
-
-/// The choices of a command line, without the wireframe.
-SurfaceOptions surface_options(const PictureOptions& chosen);
-
 /// The words for what is expected instead of a background that is not opaque.
 std::string expected_opaque_background();
 
@@ -46,6 +35,7 @@ ShadingModel shading_model(const Appearance& appearance, std::optional<ShadingMo
 /// model needs lights and there are none, or if the header's background is not opaque and the image cannot
 /// hold an alpha. InputErrors name `header_end`, the place after the header.
 std::optional<SurfaceShader> surface_shader(const StageHeader& header, const SourceLocation& header_end,
-                                            const Viewport& screen, const SurfaceOptions& chosen);
+                                            const Viewport& screen, const PictureOptions& chosen,
+                                            bool is_wireframe = false);
 
 }  // namespace pipeline
