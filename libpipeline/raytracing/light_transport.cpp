@@ -57,9 +57,9 @@ void LightTransport::RayCounts::add(const RayCounts& other) {
 Vec3 LightTransport::radiance(SurfaceId seen, const Ray& ray) {
   cut_weight_ = 0;
   dark_ = {};
-  Path path = {1, 0, 0, 0};
+  const Path path = {1, 0, 0, log_ == nullptr ? 0 : log_->size()};
   if (log_ != nullptr)
-    path.log_entry = log_->add({.kind = RayKind::primary, .depth = 0, .weight = 1, .origin = ray.origin});
+    log_->push_back({.kind = RayKind::primary, .depth = 0, .weight = 1, .origin = ray.origin});
   const Vec3 color = color_of(caster_.seen(seen, ray), ray, path);
   counts_.largest_cut_weight = std::max(counts_.largest_cut_weight, cut_weight_);
   return color;
@@ -107,14 +107,14 @@ Vec3 LightTransport::surface_color(const SurfaceHit& hit, const Ray& ray, const 
 
 /// The radiance of a ray that starts on a surface, times `share`.
 Vec3 LightTransport::follow(RayKind kind, const SurfaceRay& ray, const Path& path, double share) {
-  Path next = {path.weight * share, path.depth + 1, path.length, 0};
+  const Path next = {path.weight * share, path.depth + 1, path.length, log_ == nullptr ? 0 : log_->size()};
   const bool is_cut = next.weight < setup_.min_contribution || next.depth > setup_.max_depth;
   if (log_ != nullptr)
-    next.log_entry = log_->add({.kind = kind,
-                                .depth = next.depth,
-                                .weight = next.weight,
-                                .origin = ray.ray.origin,
-                                .is_cut = is_cut});
+    log_->push_back({.kind = kind,
+                     .depth = next.depth,
+                     .weight = next.weight,
+                     .origin = ray.ray.origin,
+                     .is_cut = is_cut});
   if (is_cut) {
     ++counts_.cut;
     dark_.has_cut_rays = true;
@@ -169,12 +169,12 @@ Vec3 LightTransport::part_of_light(const SurfaceHit& hit, std::size_t light, con
   if (!setup_.has_shadows) return part;
   ++counts_.shadow;
   if (log_ != nullptr)
-    log_->add({.kind = RayKind::shadow,
-               .depth = path.depth + 1,
-               .weight = path.weight,
-               .origin = hit.point,
-               .light = light,
-               .brought = part});
+    log_->push_back({.kind = RayKind::shadow,
+                     .depth = path.depth + 1,
+                     .weight = path.weight,
+                     .origin = hit.point,
+                     .light = light,
+                     .brought = part});
   return part;
 }
 

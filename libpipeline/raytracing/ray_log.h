@@ -28,12 +28,6 @@ struct LoggedRay {
 };
 
 /// The rays that make the color of a pixel, each after its parent.
-struct RayLog : std::vector<LoggedRay> {
-  /// Adds a ray and returns its index.
-  std::size_t add(const LoggedRay& ray) {
-    push_back(ray);
-    return size() - 1;
-  }
-};
+using RayLog = std::vector<LoggedRay>;
 
 }  // namespace pipeline

@@ -1,6 +1,8 @@
 #include "libpipeline/raytracing/sampling.h"
 
+#include <algorithm>
 #include <cassert>
+#include <numeric>
 
 namespace pipeline {
 namespace {
@@ -39,15 +41,14 @@ SamplePlaces::Place SamplePlaces::of(int row, int column, int sample) const {
 }
 
 SampleOrder::SampleOrder(int count) {
-  const int last = count * count - 1;
-  samples_ = {0, count - 1, count / 2 * count + count / 2, last - (count - 1), last};
-  std::ranges::sort(samples_);
-  samples_.erase(std::unique(samples_.begin(), samples_.end()), samples_.end());
-  first_count_ = samples_.size();
-  for (int sample = 0; sample <= last; ++sample)
-    if (!std::ranges::binary_search(samples_.begin(),
-                                    samples_.begin() + static_cast<std::ptrdiff_t>(first_count_), sample))
-      samples_.push_back(sample);
+  samples_.resize(static_cast<std::size_t>(count * count));
+  std::iota(samples_.begin(), samples_.end(), 0);
+  const auto is_at_end = [&](int place) { return place == 0 || place == count - 1; };
+  const auto others = std::ranges::stable_partition(samples_, [&](int sample) {
+    return sample == count / 2 * count + count / 2 ||
+           (is_at_end(sample / count) && is_at_end(sample % count));
+  });
+  first_count_ = samples_.size() - others.size();
 }
 
 }  // namespace pipeline
