@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <cstdint>
@@ -28,11 +29,6 @@ std::size_t row_size(int columns) {
 bool can_seek(int descriptor) {
   const int flags = ::fcntl(descriptor, F_GETFL);
   return flags >= 0 && (flags & O_APPEND) == 0 && ::lseek(descriptor, 0, SEEK_CUR) == 0;
-}
-
-template <typename UInt>
-void append_little_endian(std::string& bytes, UInt value) {
-  for (std::size_t i = 0; i < sizeof value; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
 }
 
 /// Writes four pixels, blue, green and red each, to `out`; returns their end. Processors are little-endian
@@ -88,18 +84,19 @@ BmpWriter::BmpWriter(int descriptor, const std::string& path, int columns, int r
 void BmpWriter::write_header() {
   const auto pixels_size = static_cast<std::uint32_t>(row_size_ * static_cast<std::size_t>(rows_));
   const auto header_size = static_cast<std::uint32_t>(kHeaderSize);
+  const std::array<std::uint32_t, 13> numbers = {
+      header_size + pixels_size,
+      0,            // reserved
+      header_size,  // where the pixels start
+      40,           // size of the second header, BITMAPINFOHEADER
+      static_cast<std::uint32_t>(columns_),
+      static_cast<std::uint32_t>(rows_),  // positive: from the bottom
+      1 | 24 << 16,                       // planes, bits per pixel
+      0,                                  // not compressed
+      pixels_size,
+  };  // unspecified, 0: pixels per meter in x and y, palette size, important colors
   std::string header = "BM";
-  append_little_endian(header, header_size + pixels_size);
-  append_little_endian(header, std::uint32_t{0});   // reserved
-  append_little_endian(header, header_size);        // where the pixels start
-  append_little_endian(header, std::uint32_t{40});  // size of the second header, BITMAPINFOHEADER
-  append_little_endian(header, static_cast<std::uint32_t>(columns_));
-  append_little_endian(header, static_cast<std::uint32_t>(rows_));  // positive: from the bottom
-  append_little_endian(header, std::uint16_t{1});                   // planes
-  append_little_endian(header, std::uint16_t{24});                  // bits per pixel
-  append_little_endian(header, std::uint32_t{0});                   // not compressed
-  append_little_endian(header, pixels_size);
-  header.append(16, '\0');  // unspecified: pixels per meter in x and y, palette size, important colors
+  header.append(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
   write_all(descriptor_, header, path_);
 }
 

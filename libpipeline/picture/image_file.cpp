@@ -1,8 +1,10 @@
 #include "libpipeline/picture/image_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <filesystem>
+#include <utility>
 
 #include "libpipeline/picture/image_formats.h"
 #include "libpipeline/scene/spelling.h"
@@ -12,68 +14,51 @@ namespace pipeline {
 namespace {
 
 /// Writes formats with rows from the top and red first, by a writer of bytes.
-template <auto byte_writer, PixelBytes pixels = PixelBytes::rgb8>
 class RgbWriter final : public ImageWriter {
  public:
-  RgbWriter(int descriptor, const std::string& path, int columns, int rows)
-      : rows_(byte_writer(descriptor, path, pixels, columns, rows)),
-        bytes_(kBytesPerPixel * static_cast<std::size_t>(columns)) {}
+  RgbWriter(std::unique_ptr<ByteWriter> rows, bool has_alpha)
+      : rows_(std::move(rows)), has_alpha_(has_alpha) {}
 
   void write_row(std::span<const Color> colors) override {
-    assert(kBytesPerPixel * colors.size() == bytes_.size());
+    const bool has_alpha = has_alpha_;  // a copy: bytes that are written do not change it
+    bytes_.resize((has_alpha ? 4 : 3) * colors.size());
     unsigned char* out = bytes_.data();
     for (const Color color : colors) {
       *out++ = color.red();
       *out++ = color.green();
       *out++ = color.blue();
-      if (kBytesPerPixel == 4) *out++ = color.alpha();
+      if (has_alpha) *out++ = color.alpha();
     }
     rows_->write_row(bytes_);
   }
   void finish() override { rows_->finish(); }
 
  private:
-  static constexpr std::size_t kBytesPerPixel = pixels == PixelBytes::rgba8 ? 4 : 3;
-
   std::unique_ptr<ByteWriter> rows_;
+  bool has_alpha_;
   std::vector<unsigned char> bytes_;
 };
 
-struct ImageFormat {
-  std::string_view extension;
-  std::unique_ptr<ImageWriter> (*writer)(int descriptor, const std::string& path, int columns, int rows);
-  void (*check_size)(const std::string& path, int columns, int rows);
-};
-
-template <auto byte_writer, PixelBytes pixels = PixelBytes::rgb8>
-std::unique_ptr<ImageWriter> make(int descriptor, const std::string& path, int columns, int rows) {
-  return std::make_unique<RgbWriter<byte_writer, pixels>>(descriptor, path, columns, rows);
-}
-
-void take_any_size(const std::string&, int, int) {}
-
-constexpr ImageFormat kPpm = {".ppm", make<netpbm_writer>, take_any_size};
-constexpr ImageFormat kFormats[] = {{".bmp", bmp_writer, check_bmp_size}, kPpm};
-// Used only with libpng.
-constexpr ImageFormat kPng = {".png", make<png_writer>, take_any_size};
+// The last needs libpng.
+constexpr std::array<std::string_view, 3> kExtensions = {".bmp", ".ppm", ".png"};
 
 /// ".png" of "png:FILE"; empty without a prefix that names a format.
 std::string prefix_of(const std::string& path) {
   const std::size_t colon = path.find(':');
   if (colon == std::string::npos) return {};
   const std::string extension = "." + path.substr(0, colon);
-  const auto is_it = [&](const ImageFormat& format) { return format.extension == extension; };
-  return is_it(kPng) || std::ranges::any_of(kFormats, is_it) ? extension : std::string();
+  return std::ranges::find(kExtensions, extension) != kExtensions.end() ? extension : std::string();
 }
 
 /// The extension that names the format, as a prefix or at the end.
 std::string format_extension_of(const std::string& path) {
   if (std::string prefix = prefix_of(path); !prefix.empty()) return prefix;
-  return is_device_without_extension(path) ? std::string(kPpm.extension) : extension_of(path);
+  return is_device_without_extension(path) ? ".ppm" : extension_of(path);
 }
 
-const ImageFormat& format_of(const std::string& path) {
-  const std::string extension = format_extension_of(path);
+/// The extension likewise; throws the InputErrors of a name.
+std::string format_of(const std::string& path) {
+  std::string extension = format_extension_of(path);
   if (image_file_of(path).empty())
     throw InputError({path}, expected_but_found("a file name after the format", "nothing"));
   if (extension == ".bmp" && is_device_without_extension(image_file_of(path))) {
@@ -81,19 +66,16 @@ const ImageFormat& format_of(const std::string& path) {
     throw InputError({shown}, expected_but_found("ppm:- or png:-, as a BMP is written from its end",
                                                  pipeline::quoted(shown)));
   }
-  for (const ImageFormat& format : kFormats)
-    if (format.extension == extension) return format;
-  if (can_write_png() && kPng.extension == extension) return kPng;
-  reject_extension(path, "an image file", image_extensions());
+  const std::vector<std::string_view> extensions = image_extensions();
+  if (std::ranges::find(extensions, extension) == extensions.end())
+    reject_extension(path, "an image file", extensions);
+  return extension;
 }
 
 }  // namespace
 
 std::vector<std::string_view> image_extensions() {
-  std::vector<std::string_view> extensions;
-  for (const ImageFormat& format : kFormats) extensions.push_back(format.extension);
-  if (can_write_png()) extensions.push_back(kPng.extension);
-  return extensions;
+  return {kExtensions.begin(), kExtensions.end() - (can_write_png() ? 0 : 1)};
 }
 
 std::string image_file_of(const std::string& path) {
@@ -105,19 +87,21 @@ void check_image_name(const std::string& path) {
 }
 
 void check_image_size(const std::string& path, int columns, int rows) {
-  format_of(path).check_size(path, columns, rows);
+  if (format_of(path) == ".bmp") check_bmp_size(path, columns, rows);
 }
 
 bool can_hold_alpha(const std::string& path) {
-  return can_write_png() && format_extension_of(path) == kPng.extension;
+  return can_write_png() && format_extension_of(path) == ".png";
 }
 
 std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows,
                                           bool has_alpha) {
   assert(!has_alpha || can_hold_alpha(path));
-  const std::string file = image_file_of(path);
-  if (has_alpha) return make<png_writer, PixelBytes::rgba8>(descriptor, file, columns, rows);
-  return format_of(path).writer(descriptor, file, columns, rows);
+  const std::string file = image_file_of(path), format = format_of(path);
+  if (format == ".bmp") return bmp_writer(descriptor, file, columns, rows);
+  const auto byte_writer = format == ".png" ? png_writer : netpbm_writer;
+  const PixelBytes pixels = has_alpha ? PixelBytes::rgba8 : PixelBytes::rgb8;
+  return std::make_unique<RgbWriter>(byte_writer(descriptor, file, pixels, columns, rows), has_alpha);
 }
 
 std::string extension_of(const std::string& path) {
