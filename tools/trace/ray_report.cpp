@@ -34,9 +34,9 @@ std::string to_text(const LoggedRay& ray) {
 void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
                    const LightTransportSetup& setup, std::vector<std::string>& lines) {
   RayLog log;
-  const Ray ray = PixelRays(scene.projection(), screen).ray(pixel.row, pixel.column);
-  RayCaster primary(scene.triangles(), bvh, scene.projection(), screen);
-  LightTransport light(scene.triangles(), bvh, setup);
+  const Ray ray = PixelRays(scene.projection, screen).ray(pixel.row, pixel.column);
+  RayCaster primary(scene.triangles, bvh, scene.projection, screen);
+  LightTransport light(scene.triangles, bvh, setup);
   light.log_to(log);
   if (const auto seen = primary.cast(pixel.row, pixel.column))
     static_cast<void>(light.radiance(seen->id, ray));

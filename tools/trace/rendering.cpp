@@ -30,9 +30,9 @@ int threads_for(const TraceOptions& chosen, const Viewport& screen, std::size_t 
 
 LightTransportSetup light_transport_setup(const TraceOptions& chosen, const TracedScene& scene,
                                           Color background) {
-  const Appearance& appearance = scene.header().appearance;
+  const Appearance& appearance = scene.header.appearance;
   return {.model = shading_model(appearance, chosen.shading),
-          .lighting = lighting_of(appearance, scene.projection().is_perspective),
+          .lighting = lighting_of(appearance, scene.projection.is_perspective),
           .materials = materials_of(appearance),
           .background = to_vec3(background),
           .has_shadows = !chosen.without_shadows,
@@ -50,16 +50,16 @@ bool needs_light_transport(const LightTransportSetup& setup) {
 
 /// The reason why triangles do not show: the note of `project`, else that of `zbuf`.
 std::optional<std::string> unseen_triangles_note(const TracedScene& scene) {
-  const auto note = scene.view().note();
-  return note ? note : scene.drawing().empty_picture_note();
+  const auto note = scene.view.note();
+  return note ? note : scene.drawing.empty_picture_note();
 }
 
 /// The reason why a scene with spheres shows nothing: the notes on spheres and, if there are any, triangles.
 std::string unmet_note(const TracedScene& scene, std::uint64_t object_count) {
-  const std::string note = unseen_spheres_note(scene.spheres());
+  const std::string note = unseen_spheres_note(scene.spheres.spheres());
   const std::string triangles = unseen_triangles_note(scene).value_or("");
   const std::size_t reason = triangles.find("empty: ");
-  const bool has_triangles = object_count > scene.triangles().spheres().size();
+  const bool has_triangles = object_count > scene.triangles.spheres().size();
   return has_triangles && reason != std::string::npos ? note + "; " + triangles.substr(reason + 7) : note;
 }
 
@@ -74,20 +74,19 @@ class Rendering {
         statistics_(statistics),
         outputs_(tool, chosen, statistics),
         scene_(tool, chosen, screen, statistics.is_wanted()),
-        picture_{chosen, screen,
-                 background_color(scene_.header().appearance, parse_color(chosen.background))},
+        picture_{chosen, screen, background_color(scene_.header.appearance, parse_color(chosen.background))},
         light_(light_transport_setup(chosen, scene_, picture_.background)) {
     if (chosen.has_image())
-      shader_ = surface_shader(scene_.header(), scene_.header_end(), picture_.places().screen(), chosen);
+      shader_ = surface_shader(scene_.header, scene_.reader.header_end(), picture_.places().screen(), chosen);
     probed_ = probed_pixels(chosen, screen);
   }
 
   void read() {
     const bool sends_rays = chosen_.has_image() && needs_light_transport(light_);
     casts_any_rays_ = sends_rays || !probed_.empty();
-    scene_.read(casts_any_rays_);
+    scene_.read(tool_, casts_any_rays_);
     // zbuf's shader does not take spheres.
-    has_spheres_ = !scene_.triangles().spheres().empty();
+    has_spheres_ = !scene_.triangles.spheres().empty();
     traces_light_ = sends_rays || (chosen_.has_image() && has_spheres_);
     tool_.timing().lap(&Timing::read_seconds);
   }
@@ -98,9 +97,9 @@ class Rendering {
     const auto seconds = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
-    auto boxes = boxes_of(scene_.triangles(), PixelRays(scene_.projection(), screen_),
+    auto boxes = boxes_of(scene_.triangles, PixelRays(scene_.projection, screen_),
                           casts_any_rays_ ? RaysOfBoxes::any : RaysOfBoxes::primary);
-    if (!casts_any_rays_ && !traces_light_) scene_.keep_images_alone();
+    if (!casts_any_rays_ && !traces_light_) scene_.triangles.keep_images_alone();
     const Bvh bvh(std::move(boxes), pool);
     const double build_seconds = seconds();
     if (shader_) picture_.shader = &*shader_;
@@ -132,14 +131,14 @@ class Rendering {
     if (!chosen_.has_image()) return;
     if (const auto note = invisible_note(picture.shown))
       tool_.note(*note);
-    else if (const auto squeezed = squeezed_note(scene_.given_projection(), screen_))
+    else if (const auto squeezed = squeezed_note(scene_.given.value, screen_))
       tool_.note(*squeezed);
   }
 
  private:
   void add_statistics(const TraceWork& work) {
     statistics_.add("triangles", tool_.timing().triangle_count);
-    scene_.view().add_to(statistics_);
+    scene_.view.add_to(statistics_);
     statistics_.add("primary_rays", work.primary_rays);
     if (!traces_light_) return;
     statistics_.add("shadow_rays", work.rays.shadow);

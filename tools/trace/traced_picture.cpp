@@ -51,7 +51,7 @@ namespace {
 class SampleColors {
  public:
   SampleColors(const TracedScene& scene, const Bvh& bvh, const PixelRays& rays, const PictureSetup& setup)
-      : triangles_(scene.triangles()), rays_(rays), setup_(setup), cache_(kCached) {
+      : triangles_(scene.triangles), rays_(rays), setup_(setup), cache_(kCached) {
     if (setup.light != nullptr) light_.emplace(triangles_, bvh, *setup.light);
   }
 
@@ -112,16 +112,16 @@ class SampleColors {
 class PixelTracer {
  public:
   PixelTracer(const TracedScene& scene, const Bvh& bvh, const PictureSetup& setup)
-      : triangles_(scene.triangles()),
+      : triangles_(scene.triangles),
         chosen_(setup.chosen),
         background_(setup.background),
         places_(setup.places()),
         order_(chosen_.sample_count),
         is_random_(is_random(*chosen_.sampling)),
-        colors_(scene, bvh, PixelRays(scene.projection(), places_.screen()), setup),
-        centers_(triangles_, bvh, scene.projection(), setup.screen),
-        samples_(triangles_, bvh, scene.projection(), places_.screen(),
-                 is_random_ ? 1 : chosen_.sample_count) {}
+        colors_(scene, bvh, PixelRays(scene.projection, places_.screen()), setup),
+        centers_(triangles_, bvh, scene.projection, setup.screen),
+        samples_(triangles_, bvh, scene.projection, places_.screen(), is_random_ ? 1 : chosen_.sample_count) {
+  }
 
   void trace(int row, int column, std::size_t pixel, TracedPicture& picture) {
     const bool has_colors = !picture.colors.empty(), has_depths = !picture.depths.empty(),

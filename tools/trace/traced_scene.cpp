@@ -29,30 +29,29 @@ void expect_room(const TracedTriangles& triangles) {
 }  // namespace
 
 TracedScene::TracedScene(Tool& tool, const TraceOptions& chosen, const Viewport& screen, bool counts)
-    : tool_(tool),
-      reader_(opened(tool.input(), chosen.framed)),
-      given_(chosen.projection.projection(reader_, tool)),
-      projection_(clip_from_view(given_)),
-      header_(projected_header(reader_.header(), given_, projection_)),
-      exact_(projection_, tool.input().file(), header_.projected.has_value()),
-      view_(exact_.stage(), ViewVolume(projection_), counts),
-      drawing_({.coverage = TypeValue<CenterCoverage>(), .depth = {}}, screen, chosen.sample_count, false),
-      spheres_(projection_, screen) {
-  view_.suspect_radians(given_);
+    : reader(opened(tool.input(), chosen.framed)),
+      given(chosen.projection.projection(reader, tool)),
+      projection(clip_from_view(given)),
+      header(projected_header(reader.header(), given, projection)),
+      exact(projection, tool.input().file(), header.projected.has_value()),
+      view(exact.stage(), ViewVolume(projection), counts),
+      drawing({.coverage = TypeValue<CenterCoverage>(), .depth = {}}, screen, chosen.sample_count, false),
+      spheres(projection, screen) {
+  view.suspect_radians(given);
 }
 
-void TracedScene::read(bool keeps_dropped) {
-  if (keeps_dropped) triangles_.keep_dropped();
-  const bool is_painted = header_.appearance.is_painted();
-  for (TriangleBatch p_view; reader_.read(p_view);) {
-    if (is_painted) add_material_colors(header_.appearance, p_view);
-    tool_.timing().triangle_count += p_view.object_count();
-    spheres_.add(p_view);
-    const TriangleBatch& p_ndc = exact_.project(p_view);
-    view_.add(p_view, p_ndc);
-    drawing_.add(p_ndc);
-    triangles_.add(p_view, p_ndc, tool_.input().file());
-    expect_room(triangles_);
+void TracedScene::read(Tool& tool, bool keeps_dropped) {
+  if (keeps_dropped) triangles.keep_dropped();
+  const bool is_painted = header.appearance.is_painted();
+  for (TriangleBatch p_view; reader.read(p_view);) {
+    if (is_painted) add_material_colors(header.appearance, p_view);
+    tool.timing().triangle_count += p_view.object_count();
+    spheres.add(p_view);
+    const TriangleBatch& p_ndc = exact.project(p_view);
+    view.add(p_view, p_ndc);
+    drawing.add(p_ndc);
+    triangles.add(p_view, p_ndc, tool.input().file());
+    expect_room(triangles);
   }
 }
 

@@ -14,40 +14,24 @@
 namespace pipeline {
 
 /// The tool's input in memory: all that rays may meet, and its projection.
-class TracedScene {
- public:
+struct TracedScene {
   /// Reads the header. With `counts`, the reports count for --stats.
   TracedScene(Tool& tool, const TraceOptions& chosen, const Viewport& screen, bool counts);
   TracedScene(const TracedScene&) = delete;
   TracedScene& operator=(const TracedScene&) = delete;
 
   /// Reads the body to its end. With `keeps_dropped`, keeps the triangles that `project` drops, too.
-  void read(bool keeps_dropped);
-  /// See TracedTriangles.
-  void keep_images_alone() { triangles_.keep_images_alone(); }
+  void read(Tool& tool, bool keeps_dropped);
 
-  /// The header as `project` writes it.
-  [[nodiscard]] const StageHeader& header() const { return header_; }
-  [[nodiscard]] const SourceLocation& header_end() const { return reader_.header_end(); }
-  [[nodiscard]] const ProjectionTransform& projection() const { return projection_; }
-  /// The projection as the header or the options give it.
-  [[nodiscard]] const Projection& given_projection() const { return given_.value; }
-  [[nodiscard]] const TracedTriangles& triangles() const { return triangles_; }
-  [[nodiscard]] const ViewReport& view() const { return view_; }
-  [[nodiscard]] const DrawingReport& drawing() const { return drawing_; }
-  [[nodiscard]] const UnseenSpheres& spheres() const { return spheres_.spheres(); }
-
- private:
-  Tool& tool_;
-  StageReader reader_;
-  Located<Projection> given_;
-  ProjectionTransform projection_;
-  StageHeader header_;
-  ExactProjection exact_;
-  TracedTriangles triangles_;
-  ViewReport view_;
-  DrawingReport drawing_;
-  SphereReport spheres_;
+  StageReader reader;
+  Located<Projection> given;  // by the header or the options
+  ProjectionTransform projection;
+  StageHeader header;  // as `project` writes it
+  ExactProjection exact;
+  TracedTriangles triangles;
+  ViewReport view;
+  DrawingReport drawing;
+  SphereReport spheres;
 };
 
 }  // namespace pipeline
