@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "libpipeline/picture/supersampling.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/text_writer.h"
@@ -37,6 +38,28 @@ class FragmentReport {
   std::vector<Probe> probes_;
   std::optional<FragmentLog> all_;
   TextWriter* log_;  // null without `all_`
+};
+
+/// For each triangle: is it nearer than all before it at some pixel or sample? With a depth epsilon, the text
+/// of `--seen` needs no other triangle: over depth c, the first fragment nearer by more than epsilon is
+/// drawn, so it is the nearest so far.
+class NearestSoFar {
+ public:
+  NearestSoFar(PixelRules rules, const Viewport& of_centers, int sample_count) {
+    rules.depth_epsilon = 0;
+    logs_.emplace_back(rules, of_centers);
+    if (sample_count > 1) logs_.emplace_back(rules, sample_screen(of_centers, sample_count));
+  }
+
+  bool operator()(const ExactTriangle& p_ndc) {
+    bool is_nearest = false;
+    for (FragmentLog& log : logs_)
+      log.add(p_ndc, 0, [&](const Fragment& f) { is_nearest |= f.result == DepthTestResult::kept; });
+    return is_nearest;
+  }
+
+ private:
+  std::vector<FragmentLog> logs_;
 };
 
 }  // namespace pipeline

@@ -10,14 +10,12 @@
 #include <vector>
 
 #include "libpipeline/certainty/certain_pixels.h"
-#include "libpipeline/coverage/rules.h"
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/stream/thread_pool.h"
-#include "libpipeline/visibility/fragment_log.h"
 #include "tools/rim/empty_picture_note.h"
 #include "tools/rim/progress.h"
 #include "tools/zbuf/colored_rows.h"
@@ -55,28 +53,6 @@ struct Reports {
   }
 };
 
-/// For each triangle: is it nearer than all before it at some pixel or sample? With a depth epsilon, the text
-/// of `--seen` needs no other triangle: over depth c, the first fragment nearer by more than epsilon is
-/// drawn, so it is the nearest so far.
-class NearestSoFar {
- public:
-  NearestSoFar(PixelRules rules, const Viewport& of_centers, int sample_count) {
-    rules.depth_epsilon = 0;
-    logs_.emplace_back(rules, of_centers);
-    if (sample_count > 1) logs_.emplace_back(rules, sample_screen(of_centers, sample_count));
-  }
-
-  bool operator()(const ExactTriangle& p_ndc) {
-    bool is_nearest = false;
-    for (FragmentLog& log : logs_)
-      log.add(p_ndc, 0, [&](const Fragment& f) { is_nearest |= f.result == DepthTestResult::kept; });
-    return is_nearest;
-  }
-
- private:
-  std::vector<FragmentLog> logs_;
-};
-
 /// Reads the triangles batch by batch, hands each to the reports, and draws it.
 void draw_all(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, StageReader& reader,
               Reports& reports, TriangleStore& store, SampledDrawing& drawing) {
@@ -103,20 +79,6 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Sta
   drawing.finish();
 }
 
-/// Sets the exact depths of a row; they are meaningless where no triangle is visible.
-void set_exact_depths(const CoverageRules::Object& coverage, const TriangleStore& store, int row,
-                      std::span<const PixelTag> ids, std::vector<Ball>& depths) {
-  depths.resize(ids.size());
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (ids[i] == KeptIds::kNoTriangle) continue;
-    const auto& [p, low_parts, marks] = store.corners(ids[i]);
-    const bool is_flat = p[0].z == p[1].z && p[0].z == p[2].z;
-    const ExactTriangle triangle = {p, &low_parts, marks};
-    const auto depth = [&](const auto& rule) { return rule.exact_depth(triangle, row, static_cast<int>(i)); };
-    depths[i] = is_flat ? Ball(p[0].z) : std::visit(depth, coverage);
-  }
-}
-
 /// Writes the outputs. True if all pixels show one triangle.
 bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewport& screen,
                const SampledDrawing& drawing, const StageReader& reader, TriangleStore& store,
@@ -137,7 +99,6 @@ bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
   std::uint64_t covered_count = 0;
   std::optional<PixelTag> only;  // the tag of all pixels so far
   bool is_one = true;
-  const CoverageRules::Object coverage = CoverageRules::made(chosen.rules.coverage, screen);
   int number = screen.drawn_rows().first;
   std::vector<Ball> exact;
   drawing.centers().for_each_row([&](const VisibleRow& row) {
@@ -145,7 +106,7 @@ bool write_all(PictureOutputs& outputs, const ZbufOptions& chosen, const Viewpor
     if (!only) only = row.tags.front();
     is_one = is_one && only != store.background() &&
              std::ranges::all_of(row.tags, [&](PixelTag tag) { return tag == *only; });
-    if (store.keeps_corners()) set_exact_depths(coverage, store, number++, row.tags, exact);
+    store.set_exact_depths(number++, row.tags, exact);
     outputs.write_depths(row.depths, exact);
     if (outputs.wants_triangles() || certainty) store.set_numbers(row.tags, numbers);
     if (outputs.wants_triangles()) outputs.write_triangles(numbers);
@@ -220,15 +181,18 @@ CertainPixels certain_pixels(const StageReader& reader, const Viewport& screen) 
   return {screen, header.bounds->value, header.projected->value};
 }
 
-TriangleStore::Setup kept(const ZbufOptions& chosen, const Appearance& appearance,
-                          const Viewport& of_samples) {
+TriangleStore::Setup kept(const ZbufOptions& chosen, const Appearance& appearance, const Viewport& screen) {
+  const Viewport of_samples = sample_screen(screen, chosen.sample_count);
   const bool shows_edges = chosen.wireframe && (chosen.has_image() || !chosen.seen_path.empty());
   const Wireframe::Setup edges = {chosen.has_all_edges, !appearance.lights.empty(), chosen.sample_count};
+  const bool needs_exact_depths = !(chosen.z_buffer_path == "none" && chosen.depth_array_path.empty()) &&
+                                  std::max(-screen.front, screen.rear) > kMaxDepthInDoubles &&
+                                  std::holds_alternative<TypeValue<DepthF64>>(chosen.rules.depth);
   return {.keeps_text = !chosen.seen_path.empty(),
           .keeps_numbers = !chosen.triangle_array_path.empty() || !chosen.certainty_path.empty(),
-          .keeps_corners = !(chosen.z_buffer_path == "none" && chosen.depth_array_path.empty()) &&
-                           std::max(-of_samples.front, of_samples.rear) > kMaxDepthInDoubles &&
-                           std::holds_alternative<TypeValue<DepthF64>>(chosen.rules.depth),
+          .exact_depths = needs_exact_depths
+                              ? std::optional(CoverageRules::made(chosen.rules.coverage, screen))
+                              : std::nullopt,
           .background = background_color(appearance, parse_color(chosen.background)),
           .pixel_count = pixel_count(of_samples),
           .wireframe = shows_edges ? std::make_unique<Wireframe>(chosen.rules, of_samples, edges) : nullptr};
@@ -249,7 +213,7 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
   tool.timing().lap(&Timing::read_seconds);
   Reports reports(chosen, screen, statistics.is_wanted(), outputs.open_fragments(chosen.fragments_path));
   if (!chosen.certainty_path.empty()) reports.certainty = certain_pixels(reader, screen);
-  TriangleStore store(kept(chosen, reader.header().appearance, of_samples), shader);
+  TriangleStore store(kept(chosen, reader.header().appearance, screen), shader);
   const bool is_one_by_one = chosen.algorithm == Algorithm::scanline;
   ThreadPool pool(is_one_by_one ? 1 : chosen.threads_for(pixel_count(of_samples)));
   SampledDrawing drawing(chosen, screen, store.background(), pool);

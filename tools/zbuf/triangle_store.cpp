@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <variant>
 
 namespace pipeline {
 namespace {
@@ -40,6 +41,20 @@ void TriangleStore::set_numbers(std::span<const PixelTag> tags, std::vector<std:
   std::ranges::transform(tags, numbers.begin(), [this](PixelTag id) {
     return id == KeptIds::kNoTriangle ? -1 : static_cast<std::int64_t>(numbers_[id]);
   });
+}
+
+void TriangleStore::set_exact_depths(int row, std::span<const PixelTag> ids,
+                                     std::vector<Ball>& depths) const {
+  if (!keeps_corners()) return;
+  depths.resize(ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] == KeptIds::kNoTriangle) continue;
+    const auto& [p, low_parts, marks] = corners_[ids[i]];
+    const ExactTriangle triangle = {p, &low_parts, marks};
+    const auto depth = [&](const auto& rule) { return rule.exact_depth(triangle, row, static_cast<int>(i)); };
+    const bool is_flat = p[0].z == p[1].z && p[0].z == p[2].z;
+    depths[i] = is_flat ? Ball(p[0].z) : std::visit(depth, *setup_.exact_depths);
+  }
 }
 
 void TriangleStore::add_text(const TriangleBatch& p_ndc, std::size_t index) {

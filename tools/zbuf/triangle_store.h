@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "libpipeline/coverage/rules.h"
 #include "libpipeline/coverage/span.h"
+#include "libpipeline/numbers/ball.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/kept_ids.h"
@@ -34,17 +36,11 @@ class TriangleStore {
  public:
   struct Setup {
     bool keeps_text = false;
-    bool keeps_numbers = false;  // the triangles' numbers, for set_numbers
-    bool keeps_corners = false;  // the triangles' corners, for `corners`
+    bool keeps_numbers = false;                         // the triangles' numbers, for set_numbers
+    std::optional<CoverageRules::Object> exact_depths;  // the rule by which corners give them
     Color background;
     std::size_t pixel_count = 0;           // of the picture, or of its samples
     std::unique_ptr<Wireframe> wireframe;  // null unless edges are drawn
-  };
-
-  /// The corners of an ExactTriangle.
-  struct Corners {
-    Triangle p_ndc, low_parts;
-    std::uint16_t decimal_marks;
   };
 
   TriangleStore(Setup setup, std::optional<SurfaceShader>& shader);
@@ -71,8 +67,8 @@ class TriangleStore {
   /// Sets the numbers, if kept, of the triangles with these tags; -1 without a triangle.
   void set_numbers(std::span<const PixelTag> tags, std::vector<std::int64_t>& numbers) const;
 
-  [[nodiscard]] bool keeps_corners() const { return setup_.keeps_corners; }
-  [[nodiscard]] const Corners& corners(KeptIds::Id id) const { return corners_[id]; }
+  /// Sets the exact depths of a row of pixels, if wanted; they are meaningless without a triangle.
+  void set_exact_depths(int row, std::span<const PixelTag> ids, std::vector<Ball>& depths) const;
 
   [[nodiscard]] bool keeps_text() const { return setup_.keeps_text; }
   /// Above any id.
@@ -95,6 +91,12 @@ class TriangleStore {
   }
 
  private:
+  /// The corners of an ExactTriangle.
+  struct Corners {
+    Triangle p_ndc, low_parts;
+    std::uint16_t decimal_marks;
+  };
+
   /// Keeps a triangle, and returns its id.
   KeptIds::Id kept(const TriangleBatch& p_ndc, std::size_t index) {
     if (setup_.wireframe != nullptr) setup_.wireframe->add(p_ndc, index, next_id_);
@@ -113,6 +115,7 @@ class TriangleStore {
   [[nodiscard]] bool keeps_numbers() const {
     return keeps_text() || setup_.keeps_numbers || (keeps_corners() && !shader_);
   }
+  [[nodiscard]] bool keeps_corners() const { return setup_.exact_depths.has_value(); }
   void add_text(const TriangleBatch& p_ndc, std::size_t index);
   void complete(KeptIds& kept, bool may_go_on) const;
   [[nodiscard]] std::string_view text(std::size_t id) const {
