@@ -229,6 +229,7 @@ struct RowLanes {
         all(DepthInDoubles::kNoMinus);
     spans.set_points(columns_added_up_, choose(of.is_flat, of.a_z, mean));
   }
+  static LaneSet ordinary() { return {}; }
 
   LaneSpans spans;
 

@@ -106,7 +106,7 @@ class LaneSpans {
 //   prepared(triangles, range)     some triangles prepared for their rows in `range`: `sources`, begin_row,
 //                                  end_row(), and the lanes that are `ordinary`;
 //   some_rows(sources, rows)       a row of each of some triangles, or some rows of one: `spans`,
-//                                  set_depths(), and the lanes that are ordinary(), unless all are;
+//                                  set_depths(), and the lanes that are ordinary();
 //   slope(some, lane, rows, row)   the slope of the depth in lane `row` of `rows`, for the triangle in `lane`
 //                                  of `some`;
 //   axis()                         left_x and dx of all depths.
@@ -134,11 +134,10 @@ template <typename Rule, typename TriangleLanes>
     auto rows = rule.some_rows(sources, hn::Iota(kDoubles, row));
     rows.set_depths(sources);
     for (std::size_t i = 0; i < kLanes && row < end; ++i, ++row) {
-      if constexpr (requires { rows.ordinary(); })
-        if (!rows.ordinary().has(i)) {
-          spans = append_spans(rule.rows(triangle), triangle.tag, {row, row + 1}, spans);
-          continue;
-        }
+      if (!rows.ordinary().has(i)) {
+        spans = append_spans(rule.rows(triangle), triangle.tag, {row, row + 1}, spans);
+        continue;
+      }
       spans = rows.spans.append(i, axis, rule.slope(some, lane, rows, i), triangle.tag, spans);
     }
   }
@@ -159,7 +158,7 @@ TaggedSpan* append_triangles(const Rule& rule, const TriangleLanes& some, const 
   for (int i = 0; i < count; ++i) {
     auto& rows = low[static_cast<std::size_t>(i)];
     rows = rule.some_rows(some.sources, some.begin_row + all(i));
-    if constexpr (requires { rows.ordinary(); }) are_ordinary &= rows.ordinary().has_all();
+    are_ordinary &= rows.ordinary().has_all();
   }
   if (!are_ordinary) {
     for (std::size_t lane = 0; lane < kLanes; ++lane)
