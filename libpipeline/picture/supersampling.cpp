@@ -4,11 +4,6 @@
 #include <cassert>
 
 namespace pipeline {
-namespace {
-
-constexpr std::uint32_t kRedAndBlue = 0xff00ff;
-
-}  // namespace
 
 // Z12
 Viewport sample_screen(const Viewport& screen, int count) {
@@ -35,6 +30,7 @@ std::optional<std::span<const Color>> Downsampler::add(std::span<const Color> sa
     for (std::size_t i = 0; i < samples.size(); ++i) means_[i / count_].add(samples[i]);
   } else {
     // Sums by columns of samples: compilers vectorize this.
+    constexpr std::uint32_t kRedAndBlue = 0xff00ff;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       sums_[i] += samples[i].rgb() & kRedAndBlue;
       sums_[greens + i] += samples[i].green();

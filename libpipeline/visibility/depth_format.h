@@ -94,13 +94,8 @@ struct DepthU24 {
 };
 
 /// Every depth format, in the order of --help; the first is the default. Functions compiled once per format
-/// are instantiated from the same list, by PIPELINE_FOR_EACH_DEPTH_FORMAT.
+/// are instantiated by PIPELINE_FOR_EACH_DEPTH_FORMAT.
 #define PIPELINE_FOR_EACH_DEPTH_FORMAT(DO) DO(DepthF64) DO(DepthF32) DO(DepthU24)
-
-template <typename First, typename... Others>
-using TypesAfter = TypeList<Others...>;
-#define PIPELINE_LIST(Format) , Format
-using DepthFormats = TypesAfter<void PIPELINE_FOR_EACH_DEPTH_FORMAT(PIPELINE_LIST)>;
-#undef PIPELINE_LIST
+using DepthFormats = TypeList<DepthF64, DepthF32, DepthU24>;
 
 }  // namespace pipeline

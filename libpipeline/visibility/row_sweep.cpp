@@ -8,9 +8,6 @@
 namespace pipeline {
 namespace {
 
-constexpr int kFirstRun = 4;
-constexpr int kMaxRun = 1 << 16;
-
 /// True if the first polygon hides the second; at equal depths, the earlier one does.
 template <typename Stored>
 bool hides(Stored depth, PolygonId id, Stored other_depth, PolygonId other_id) {
@@ -152,6 +149,7 @@ void RowSweep<Depth>::choose_visible(int column) {
       contenders_.push_back(&polygon);
   }
   // Near a crossing a few pixels are enough; coplanar polygons get longer and longer runs.
+  constexpr int kFirstRun = 4, kMaxRun = 1 << 16;
   run_length_ = contenders_.empty() ? kFirstRun : std::min(2 * run_length_, kMaxRun);
   if (!contenders_.empty()) visible_end_ = std::min(visible_end_, column + run_length_);
 }

@@ -7,8 +7,6 @@
 namespace pipeline {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The maximum distance of a fragment's depth from the triangle's own depths: the rule `nearest` follows a
 /// triangle's plane up to half a pixel outside it. Infinite if the plane is so steep that rounding matters.
 double depth_reach(const Triangle& p, const BoundingBox& extent, double dx) {
@@ -18,7 +16,8 @@ double depth_reach(const Triangle& p, const BoundingBox& extent, double dx) {
   const double backward = (c.x - a.x) * (b.y - a.y);
   const double rise = (b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y);
   const double area = std::fabs(forward - backward);
-  if (!(area > 0x1p-20 * (std::fabs(forward) + std::fabs(backward)))) return kInfinity;
+  if (!(area > 0x1p-20 * (std::fabs(forward) + std::fabs(backward))))
+    return std::numeric_limits<double>::infinity();
   // Twice the distance, and more than all rounding errors.
   return std::fabs(rise) / area * dx + 0x1p-20 * (std::fabs(extent.low.z) + std::fabs(extent.high.z));
 }

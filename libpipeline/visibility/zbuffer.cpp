@@ -31,9 +31,6 @@ template <typename Depth>
   }
 }
 
-/// In bytes. To fill so much memory takes a hundred times as long as to ask whether the system has it.
-constexpr std::size_t kCheckedChunk = std::size_t{16} << 20;
-
 }  // namespace
 
 template <typename Depth>
@@ -51,7 +48,9 @@ ZBuffer<Depth>::ZBuffer(const Viewport& screen, PixelTag background)
 
 template <typename Depth>
 void ZBuffer<Depth>::fill_row(int row) {
-  // Checks once per chunk, on any thread; never in pictures smaller than a chunk.
+  // Checks once per chunk, on any thread; never in pictures smaller than a chunk. To fill so many bytes takes
+  // a hundred times as long as to ask whether the system has them.
+  constexpr std::size_t kCheckedChunk = std::size_t{16} << 20;
   const std::size_t row_size =
       static_cast<std::size_t>(depths_.columns()) * (sizeof(Stored) + sizeof(PixelTag));
   const std::size_t rows_of_chunk = kCheckedChunk / row_size + 1;

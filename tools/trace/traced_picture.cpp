@@ -24,28 +24,6 @@ std::string millions(std::uint64_t count) {
   return rounded(static_cast<double>(count) / 1e6) + " million ";
 }
 
-}  // namespace
-
-std::string to_text(const TraceWork& work) {
-  const double seconds = std::max(work.cast_seconds, 1e-9);
-  const auto speed = [&](std::uint64_t count, const char* kind) {
-    return millions(count) + kind + " rays at " + rounded(static_cast<double>(count) / 1e6 / seconds) +
-           " million a second";
-  };
-  char build[48];
-  std::snprintf(build, sizeof build, "build %.3f s, ", work.build_seconds);
-  std::string all = build + speed(work.primary_rays, "primary");
-  if (work.rays.shadow > 0) all += ", " + speed(work.rays.shadow, "shadow");
-  if (work.rays.mirrored > 0) all += ", " + speed(work.rays.mirrored, "mirrored");
-  if (work.rays.refracted > 0) all += ", " + speed(work.rays.refracted, "refracted");
-  if (work.rays.cut > 0)
-    all += ", " + millions(work.rays.cut) + "rays cut, at most " + rounded(work.rays.largest_cut_weight) +
-           " of a pixel's color";
-  return all;
-}
-
-namespace {
-
 /// Gives samples their colors, for one thread. A sample is a pixel of the screen whose rays are cast: the
 /// picture's, or a finer one.
 class SampleColors {
@@ -187,6 +165,24 @@ class PixelTracer {
 };
 
 }  // namespace
+
+std::string to_text(const TraceWork& work) {
+  const double seconds = std::max(work.cast_seconds, 1e-9);
+  const auto speed = [&](std::uint64_t count, const char* kind) {
+    return millions(count) + kind + " rays at " + rounded(static_cast<double>(count) / 1e6 / seconds) +
+           " million a second";
+  };
+  char build[48];
+  std::snprintf(build, sizeof build, "build %.3f s, ", work.build_seconds);
+  std::string all = build + speed(work.primary_rays, "primary");
+  if (work.rays.shadow > 0) all += ", " + speed(work.rays.shadow, "shadow");
+  if (work.rays.mirrored > 0) all += ", " + speed(work.rays.mirrored, "mirrored");
+  if (work.rays.refracted > 0) all += ", " + speed(work.rays.refracted, "refracted");
+  if (work.rays.cut > 0)
+    all += ", " + millions(work.rays.cut) + "rays cut, at most " + rounded(work.rays.largest_cut_weight) +
+           " of a pixel's color";
+  return all;
+}
 
 TracedPicture::TracedPicture(const PictureSetup& setup) : screen(setup.screen) {
   const std::size_t pixel_count =

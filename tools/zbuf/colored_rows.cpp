@@ -3,15 +3,11 @@
 #include <utility>
 
 namespace pipeline {
-namespace {
-
-constexpr int kRowsOfThread = 8;
-
-}  // namespace
 
 ColoredRows::ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, int first_row,
                          int thread_count, PictureOutputs& outputs)
     : store_(store), shader_(shader), outputs_(outputs), row_(first_row), pool_(shader ? thread_count : 1) {
+  constexpr int kRowsOfThread = 8;
   waiting_.resize(static_cast<std::size_t>(kRowsOfThread * pool_.size()));
   colored_.resize(waiting_.size());
   if (shader) shader->set_workers(pool_.size());

@@ -30,9 +30,6 @@
 namespace pipeline {
 namespace {
 
-// With wider limits, depths in doubles may have too few digits for the decimals written (F5).
-constexpr double kMaxDepthInDoubles = 1000;
-
 std::size_t pixel_count(const Viewport& screen) {
   return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.drawn_row_count());
 }
@@ -185,6 +182,8 @@ TriangleStore::Setup kept(const ZbufOptions& chosen, const Appearance& appearanc
   const Viewport of_samples = sample_screen(screen, chosen.sample_count);
   const bool shows_edges = chosen.wireframe && (chosen.has_image() || !chosen.seen_path.empty());
   const Wireframe::Setup edges = {chosen.has_all_edges, !appearance.lights.empty(), chosen.sample_count};
+  // With wider limits, depths in doubles may have too few digits for the decimals written (F5).
+  constexpr double kMaxDepthInDoubles = 1000;
   const bool needs_exact_depths = !(chosen.z_buffer_path == "none" && chosen.depth_array_path.empty()) &&
                                   std::max(-screen.front, screen.rear) > kMaxDepthInDoubles &&
                                   std::holds_alternative<TypeValue<DepthF64>>(chosen.rules.depth);

@@ -16,8 +16,6 @@ namespace pipeline {
 
 namespace {
 
-constexpr double kLeastStretch = 0.01;  // that deserves a note
-
 /// True if a regular file holds a config; a pipe cannot be read twice.
 bool is_config(const std::string& path) {
   std::error_code no_error;
@@ -41,6 +39,7 @@ std::string size_option(double columns, double rows) {
 
 /// The note on a picture that shows other shapes than at the config's size; none if it does not.
 std::optional<std::string> stretch_note(const Viewport& of_config, const Viewport& screen) {
+  constexpr double kLeastStretch = 0.01;  // that deserves a note
   const double stretch = static_cast<double>(screen.columns) * of_config.rows /
                          (static_cast<double>(screen.rows) * of_config.columns);
   if (std::abs(std::log(stretch)) <= std::log(1 + kLeastStretch)) return std::nullopt;
