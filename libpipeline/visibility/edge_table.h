@@ -15,19 +15,29 @@ namespace pipeline {
 /// A polygon's number in its table. Polygons are numbered in the order of the stream.
 using PolygonId = std::uint32_t;
 
-/// The polygon table of the scan-line algorithm: every triangle that reaches the screen, in 88 bytes (and 72
-/// more if the text has more digits than doubles hold).
-/// The textbook's entry has the plane equation, the shading information and the in-out flag. Here, three
-/// vertices stand for the plane: the coverage rule calculates the depth along a row from them. Only polygons
-/// on the scanline have a flag (`RowPolygon`).
+/// The polygon table and the edge table of the scan-line algorithm: every triangle that reaches the screen,
+/// in 88 bytes (and 72 more if the text has more digits than doubles hold), and for every scanline a bucket
+/// of the polygons whose edges begin there, as a linked list like the textbook's. The textbook's polygon has
+/// the plane equation, the shading information and the in-out flag. Here, three vertices stand for the plane:
+/// the coverage rule calculates the depth along a row from them. Only polygons on the scanline have a flag
+/// (`RowPolygon`). The textbook's edge has its x on the first scanline, its last scanline, dx per scanline
+/// and polygon. Here, an entry stands for the two edges of a polygon that cross a scanline, left and right:
+/// one call of the coverage rule finds both ends, even where one edge of a triangle ends and the next begins;
+/// it also knows the last row. There is no dx: see ActiveEdgeList.
 class PolygonTable {
  public:
-  /// Adds the next triangle; its number is the count so far.
-  void add(const ExactTriangle& triangle, PixelTag tag) {
+  explicit PolygonTable(int rows) : first_in_bucket_(static_cast<std::size_t>(rows), kNone) {}
+
+  /// Adds the next triangle, whose edges begin on `first_row`, counted from the first drawn row; its number
+  /// is the count so far.
+  void add(const ExactTriangle& triangle, PixelTag tag, int first_row) {
     const bool has_low_parts = triangle.low_parts != nullptr && *triangle.low_parts != Triangle{};
     if (has_low_parts) low_parts_.push_back(*triangle.low_parts);
     const auto low_parts = static_cast<std::uint32_t>(has_low_parts ? low_parts_.size() : 0);
-    polygons_.push_back({triangle.p_ndc, tag, low_parts, triangle.decimal_marks});
+    PolygonId& first = first_in_bucket_[static_cast<std::size_t>(first_row)];
+    assert(polygons_.size() < kNone);
+    polygons_.push_back({triangle.p_ndc, tag, low_parts, first, triangle.decimal_marks});
+    first = static_cast<PolygonId>(polygons_.size() - 1);
   }
 
   /// The triangle as added; refers to the table.
@@ -37,53 +47,27 @@ class PolygonTable {
             polygon.decimal_marks};
   }
   [[nodiscard]] PixelTag tag(PolygonId id) const { return polygons_[id].tag; }
-  [[nodiscard]] PolygonId size() const { return static_cast<PolygonId>(polygons_.size()); }
-
- private:
-  struct Polygon {
-    Triangle p_ndc;
-    PixelTag tag;
-    std::uint32_t low_parts;  // an index of low_parts_, counted from 1; 0: none
-    std::uint16_t decimal_marks;
-  };
-
-  std::deque<Polygon> polygons_;
-  std::deque<Triangle> low_parts_;
-};
-
-/// The edge table of the scan-line algorithm: for every scanline a bucket of the polygons whose edges begin
-/// there, as a linked list like the textbook's; 4 bytes per scanline and 4 per polygon.
-/// The textbook's entry is one edge with its x on the first scanline, its last scanline, dx per scanline and
-/// polygon. Here, an entry stands for the two edges of a polygon that cross a scanline, left and right: one
-/// call of the coverage rule finds both ends, even where one edge of a triangle ends and the next begins; it
-/// also knows the last row. There is no dx: see ActiveEdgeList.
-class EdgeTable {
- public:
-  explicit EdgeTable(int rows) : first_in_bucket_(static_cast<std::size_t>(rows), kNone) {}
-
-  /// Adds the next polygon, whose edges begin on `first_row`, counted from the first drawn row; its number is
-  /// the count so far.
-  void add(int first_row) {
-    PolygonId& first = first_in_bucket_[static_cast<std::size_t>(first_row)];
-    const auto id = static_cast<PolygonId>(next_in_bucket_.size());
-    assert(id != kNone);
-    next_in_bucket_.push_back(first);
-    first = id;
-  }
 
   /// Calls `visit(polygon id)` for every polygon that begins on `row`, in no particular order.
   template <typename Visitor>
   void for_each_from(int row, Visitor&& visit) const {
-    for (PolygonId id = first_in_bucket_[static_cast<std::size_t>(row)]; id != kNone;
-         id = next_in_bucket_[id])
-      visit(id);
+    PolygonId id = first_in_bucket_[static_cast<std::size_t>(row)];
+    for (; id != kNone; id = polygons_[id].next_in_bucket) visit(id);
   }
 
  private:
   static constexpr PolygonId kNone = std::numeric_limits<PolygonId>::max();
+  struct Polygon {
+    Triangle p_ndc;
+    PixelTag tag;
+    std::uint32_t low_parts;  // an index of low_parts_, counted from 1; 0: none
+    PolygonId next_in_bucket;
+    std::uint16_t decimal_marks;
+  };
 
   std::vector<PolygonId> first_in_bucket_;
-  std::deque<PolygonId> next_in_bucket_;
+  std::deque<Polygon> polygons_;
+  std::deque<Triangle> low_parts_;
 };
 
 /// The column of a scanline where a polygon begins (left edge) or has just ended (right edge).

@@ -71,10 +71,10 @@ class ActivePolygons {
 };
 
 /// The visibility algorithm `scanline`: keeps the triangles and finds, row by row, the nearest at every
-/// pixel. Needs memory for the triangles that reach the screen (92 bytes each, see PolygonTable and
-/// EdgeTable), for the triangles on one row, and for one row of pixels; never for the frame. The rows equal
-/// the z-buffer's to the last bit: both take columns and depths from the same coverage rule, and compare
-/// depths as the same format stores them.
+/// pixel. Needs memory for the triangles that reach the screen (88 bytes each, see
+/// PolygonTable), for the triangles on one row, and for one row of pixels; never for the frame. The rows
+/// equal the z-buffer's to the last bit: both take columns and depths from the same coverage rule, and
+/// compare depths as the same format stores them.
 ///
 /// Source: J. Foley, A. van Dam, S. Feiner, J. Hughes, "Computer Graphics: Principles and Practice", 2nd
 /// edition, section 15.6 (and 3.6 for the edge table); D. Hearn, M. P. Baker, "Computer Graphics", 2nd
@@ -89,15 +89,14 @@ class Scanline final : public Drawing {
         rows_(screen.drawn_rows()),
         background_(background),
         coverage_(screen),
-        edge_table_(screen.drawn_row_count()) {}
+        polygons_(screen.drawn_row_count()) {}
 
   /// Adds the next triangle.
   void draw(const ExactTriangle& triangle, PixelTag tag) {
     const auto rows = coverage_.rows(triangle);
     const int first_row = std::max(rows.first_row(), rows_.first);
     if (first_row > std::min(rows.last_row(), rows_.end - 1)) return;
-    edge_table_.add(first_row - rows_.first);
-    polygon_table_.add(triangle, tag);
+    polygons_.add(triangle, tag, first_row - rows_.first);
   }
 
   TaggedBatch& next() override { return next_; }
@@ -111,8 +110,8 @@ class Scanline final : public Drawing {
     ActivePolygons<typename Coverage::Rows, Depth> active;
     RowSweep<Depth> sweep(screen_, background_);
     for (int row = rows_.first; row < rows_.end; ++row) {
-      edge_table_.for_each_from(row - rows_.first, [&](PolygonId id) {
-        edges.add(active.add(id, polygon_table_.tag(id), coverage_.rows(polygon_table_.triangle(id))));
+      polygons_.for_each_from(row - rows_.first, [&](PolygonId id) {
+        edges.add(active.add(id, polygons_.tag(id), coverage_.rows(polygons_.triangle(id))));
       });
       edges.for_each_polygon([&](std::uint32_t slot) { active.update(slot, row, sweep); });
       edges.sort([&](const ActiveEdge& edge) { return active.column_of(edge); });
@@ -127,8 +126,7 @@ class Scanline final : public Drawing {
   RowRange rows_;  // the rows that are drawn
   PixelTag background_;
   Coverage coverage_;
-  EdgeTable edge_table_;
-  PolygonTable polygon_table_;
+  PolygonTable polygons_;
   TaggedBatch next_;
 };
 
