@@ -35,8 +35,8 @@ double terms(const Vec3& p, const Vec3& q, const PixelGrid& grid) {
   return x(p) * y(q) + y(p) * x(q);
 }
 
-}  // namespace
-
+/// The corners' x, y and w (in z) of clip space. Only ratios count: the scaling keeps all within a double's
+/// range.
 Triangle screen_corners_of(const ClipTriangle& corners, bool are_divided) {
   const auto& [a, b, c] = corners;
   const double scale = 1 / std::max({std::fabs(a.w), std::fabs(b.w), std::fabs(c.w)});
@@ -46,6 +46,8 @@ Triangle screen_corners_of(const ClipTriangle& corners, bool are_divided) {
   };
   return {screen_corner(a), screen_corner(b), screen_corner(c)};
 }
+
+}  // namespace
 
 CornerWeights::CornerWeights(const PixelGrid& grid, const ClipTriangle& corners, bool are_divided)
     : scaled_(screen_corners_of(corners, are_divided)), are_divided_(are_divided) {

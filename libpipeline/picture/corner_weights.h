@@ -36,8 +36,4 @@ class CornerWeights {
   double doubt_ = 0;  // -1 if doubles are enough at every pixel
 };
 
-/// The corners' x, y and w (in z) of clip space. Only ratios count: the scaling keeps all within a double's
-/// range.
-Triangle screen_corners_of(const ClipTriangle& corners, bool are_divided);
-
 }  // namespace pipeline

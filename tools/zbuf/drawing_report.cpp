@@ -8,14 +8,14 @@
 namespace pipeline {
 
 DrawingReport::DrawingReport(const PixelRules& rules, const Viewport& screen, int sample_count, bool counts)
-    : screen_(screen), at_centers_(rules, screen) {
-  if (sample_count > 1) at_samples_.emplace(rules, sample_screen(screen, sample_count));
+    : screen_(screen) {
+  pictures_.emplace_back(rules, screen);
+  if (sample_count > 1) pictures_.emplace_back(rules, sample_screen(screen, sample_count));
   if (counts) counter_.emplace(rules, screen);
 }
 
 void DrawingReport::add(const TriangleBatch& p_ndc) {
-  at_centers_.add(p_ndc);
-  if (at_samples_) at_samples_->add(p_ndc);
+  for (EmptyPicture& picture : pictures_) picture.add(p_ndc);
   if (counter_) counter_->add(p_ndc);
   if (is_speck_) measure(p_ndc);
 }
@@ -33,15 +33,13 @@ void DrawingReport::measure(const TriangleBatch& p_ndc) {
 }
 
 std::optional<std::string> DrawingReport::empty_picture_note() const {
-  const auto both = [&](bool (EmptyPicture::*holds)() const) {
-    return (at_centers_.*holds)() && (!at_samples_ || ((*at_samples_).*holds)());
-  };
-  if (!both(&EmptyPicture::has_no_area)) {
+  if (!std::ranges::all_of(pictures_, &EmptyPicture::has_no_area)) {
     constexpr int kLeastSide = 40;  // a speck is less than a pixel of smaller pictures
     if (!is_speck_ || std::min(screen_.columns, screen_.rows) < kLeastSide) return std::nullopt;
     return speck_note(extent_, screen_);
   }
-  return unseen_note(at_centers_.triangles(), screen_, both(&EmptyPicture::is_empty));
+  return unseen_note(pictures_.front().triangles(), screen_,
+                     std::ranges::all_of(pictures_, &EmptyPicture::is_empty));
 }
 
 void DrawingReport::add_to(Statistics& statistics) const {

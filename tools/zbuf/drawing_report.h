@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
@@ -30,10 +31,9 @@ class DrawingReport {
   void measure(const TriangleBatch& p_ndc);
 
   Viewport screen_;
-  BoundingBox extent_;    // of the triangles in the window, as long as they are a speck
-  bool is_speck_ = true;  // all triangles together, so far
-  EmptyPicture at_centers_;
-  std::optional<EmptyPicture> at_samples_;
+  BoundingBox extent_;                  // of the triangles in the window, as long as they are a speck
+  bool is_speck_ = true;                // all triangles together, so far
+  std::vector<EmptyPicture> pictures_;  // at centers; at samples, if there are several per pixel
   std::optional<DrawingCounter> counter_;
 };
 
