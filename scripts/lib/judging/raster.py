@@ -3,6 +3,7 @@ mistakes.
 
 Every span of a row carries the uncertainty of its ends and depths, since the numbers in a text are rounded: a
 pixel whose owner depends on that may show either."""
+import collections
 import dataclasses
 import functools
 import itertools
@@ -70,23 +71,12 @@ class Rule:
                     or self.is_depth_one or self.starts_at_zero or not (self.has_front and self.has_rear))
 
 
-@dataclasses.dataclass
-class Span:
-    """A triangle's part of a row: its ends in columns, its depth at both, and how uncertain they are."""
-    triangle: int
-    left: float
-    right: float
-    z_left: float
-    z_right: float
-    slack_left: float
-    slack_right: float
-    slack_z: float
-    is_last: bool  # the triangle's last row
-    is_upper: bool  # above the triangle's middle corner
-    is_met_from_right: bool  # by the first of its edges
-    is_certain: bool  # whether the row meets the triangle for certain, and the triangle has an area
-
-
+# A triangle's part of a row: its ends in columns, its depth at both, and how uncertain they are; whether the
+# row is the triangle's last one, lies above its middle corner, is met by the first edge from the right, and
+# meets the triangle, which has an area, for certain.
+Span = collections.namedtuple(
+    "Span", "triangle left right z_left z_right slack_left slack_right slack_z is_last is_upper "
+    "is_met_from_right is_certain")
 FLAT_TRIANGLE = ("mean", "first", "second", "third", "least", "most")  # of the depths of its corners
 FLAT_ROW = ("left of row", "right of row", "mean of row")
 
@@ -311,11 +301,9 @@ def kept(sure, possible, keep):
     """The fragments (triangle, least depth, largest depth) that a pixel may show; `sure` ones exist."""
     if not sure:
         return [*possible, (-1, 0.0, 0.0)]
-    if keep == "last":
-        last = max(t for t, _, _ in sure)
-        return [fragment for fragment in possible if fragment[0] >= last]
-    if keep == "farthest":
-        least = max(low for _, low, _ in sure)
-        return [fragment for fragment in possible if fragment[2] >= least]
+    if keep in ("last", "farthest"):
+        own, others = (0, 0) if keep == "last" else (1, 2)
+        least = max(fragment[own] for fragment in sure)
+        return [fragment for fragment in possible if fragment[others] >= least]
     most = min(high for _, _, high in sure)
     return [fragment for fragment in possible if fragment[1] <= most]
