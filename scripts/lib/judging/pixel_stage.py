@@ -4,7 +4,6 @@ import dataclasses
 import itertools
 
 from lib.judging.pixel_comparing import Context
-from lib.judging.many_colors import blames_many_colors
 from lib.judging.pixel_findings import Findings
 from lib.judging.pixel_search import unknown
 from lib.judging.pixel_words import counted, difference_in_words, place_in_words
@@ -12,7 +11,8 @@ from lib.judging.raster import Rule, TooMuch
 from lib.judging.shown import Shown
 from lib.judging.stage_judge import NO_POINTS
 from lib.judging.stage_ways import exact_reading
-from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
+from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of,
+                                 joined)
 
 # A picture has many colors if it has more than COLORS for each triangle and SOME more: no frame and no stray
 # pixel has so many.
@@ -192,6 +192,36 @@ def mismatch_to_show(context, finding, is_wrong):
     mismatch = context.compare(found.reading, before)
     explained = {place: kind for place, kind in mismatch.pixels.items() if place not in found.pixels}
     return dataclasses.replace(mismatch, pixels=explained)
+
+
+def blames_many_colors(verdict, shown, context, mismatch):
+    """Adds many colors to the causes in a picture's FileVerdict; False unless, where a Mismatch finds
+    nothing, more pixels lack their triangle's main color than the Mismatch has."""
+    drawing = context.drawing(mismatch.reading, mismatch.rule)
+    pixels = shown.pixels(mismatch.rule.picture_flip, mismatch.rule.text_flip)
+    seen = {(row, column): (t, pixels.colors[row][column])
+            for row in range(context.window.height) for column, t in enumerate(drawing.row(row)[0])
+            if t >= 0 and pixels.drawn[row][column] and (row, column) not in mismatch.pixels}
+    counts = collections.Counter(seen.values())
+    main = {t: color for (t, color), _ in reversed(counts.most_common())}
+    places = {place: t for place, (t, color) in seen.items() if color != main[t]}
+    if len(places) <= len(mismatch.of("picture")):
+        return False
+    detail = f"{len(shown.own_colors):,} for {mismatch.triangle_count:,} triangles"
+    many = cause_of("zbuf/many-colors", detail)
+    verdict.causes = [
+        dataclasses.replace(joined([cause, many]), detail=detail)
+        for cause in verdict.causes if cause.name != "zbuf/one-color"] or [many]
+    verdict.remarks += [f"with {verdict.rule}"] if verdict.rule else []
+    verdict.verdict, verdict.rule = WRONG, ""
+    verdict.differing += len(places)
+    if verdict.explained:  # they differ all the same
+        verdict.explained -= len(places.keys() & context.of_one_file("picture").plain.of("picture"))
+    verdict.places = sorted({*verdict.places, *places})
+    place, t = min(places.items())
+    count = sum(t == other for other, _ in counts)
+    verdict.first = f"{place_in_words(place, context.window.width)}: one of {count:,} colors of triangle {t}"
+    return True
 
 
 def generated_colors(count):
