@@ -34,9 +34,8 @@ class Reference:
     def __init__(self, scene, config, tools):
         self.tools, self.config, self.remarks = tools, config, []
         self.clipped = functools.lru_cache(maxsize=4)(self.clipped)
-        text, model = self.accepted(scene)
-        self.expect_no_spheres(text, model)
-        self.scene_data = text.encode("utf-8", errors="surrogateescape")
+        text, model = self.accepted(text_of(scene, "the scene"))
+        self.scene_data = data_of(text)
         stage1 = parse_stage_text(model.decode(), "model")
         self.header = stage1.header
         self.scene = Scene(text, stage1.header)
@@ -46,28 +45,21 @@ class Reference:
             math.floor(float(word) + 0.5) for word in self.header.get("background", ("0", "0", "0"))[:3])
         self.has_own_colors = any(keyword in self.header for keyword in OWN_COLORS)
 
-    def accepted(self, data):
-        """The scene's text and the output of model for it."""
-        text = text_of(data, "the scene")
+    def accepted(self, text):
+        """The scene's text, in today's form, and the output of model for it."""
         try:
-            return text, self.tools.output("model", *EXACT, stdin=data)
+            model = self.tools.output("model", *EXACT, stdin=data_of(text))
+            if b"\nsphere\n" in model:  # which assignments lack: a message with their place
+                self.tools.run("model", "--bare", stdin=data_of(text))
+            return text, model
         except ToolFailure as failure:
             older = without_old_lines(text)
-            with contextlib.suppress(ToolFailure):
+            with contextlib.suppress(JudgeError):
                 if older is not None:
-                    model = self.tools.output("model", *EXACT, stdin=older.encode(
-                        "utf-8", errors="surrogateescape"))
+                    found = self.accepted(older)
                     self.remarks.append(OLD_FORMAT)
-                    return older, model
+                    return found
             raise JudgeError(f"the scene is refused: {failure}") from None
-
-    def expect_no_spheres(self, text, model):
-        """Refuses spheres, which assignments lack, with model's message, which names their place."""
-        if b"\nsphere\n" in model:
-            try:
-                self.tools.run("model", "--bare", stdin=text.encode("utf-8", errors="surrogateescape"))
-            except ToolFailure as failure:
-                raise JudgeError(f"the scene is refused: {failure}") from None
 
     def accepted_window(self, config):
         size = text_of(config, "the config").split()[:2]
@@ -143,6 +135,10 @@ def reference(scene, config):
 def kinds_of(config):
     """The kinds of files that a hand-in needs; without a config, of the first three stages."""
     return [kind for kind in KINDS if config is not None or kind.startswith("stage")]
+
+
+def data_of(text):
+    return text.encode("utf-8", errors="surrogateescape")
 
 
 def without_old_lines(text):
