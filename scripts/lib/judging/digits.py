@@ -53,10 +53,10 @@ def digits_of(words):
     return Digits(fixed or None, max(1, min(significant, FINEST)), largest)
 
 
-def of_one_program(texts):
-    """The same Digits, given that one program printed all texts: numbers such as 0.5 show as many digits as
-    they have, in a text whose program does not print trailing zeros."""
-    most = max((digits.significant for digits in texts if digits.decimals is None), default=0)
-    return [
-        Digits(None, most, digits.largest) if digits.decimals is None or digits.significant < most else digits
-        for digits in texts]
+def share_digits(texts):
+    """Corrects the Digits of texts that one program printed: numbers such as 0.5 show as many digits as they
+    have, in a text whose program does not print trailing zeros."""
+    most = max((text.digits.significant for text in texts if text.digits.decimals is None), default=0)
+    for text in texts:
+        if text.digits.decimals is None or text.digits.significant < most:
+            text.digits = Digits(None, most, text.digits.largest)

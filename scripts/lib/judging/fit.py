@@ -18,7 +18,6 @@ WORST_SPREAD = 0.01  # of an element, against the largest one
 LEAST_DIFFERENCE = 1e-4  # of an element, against 1 and its own size
 # of an image's coordinate: relative to its size or to 1, and in its last digit
 MISFIT, MISFIT_IN_UNITS = 1e-3, 20
-DECIMALS = 5
 
 
 @dataclasses.dataclass
@@ -73,26 +72,21 @@ def known_rows(verdict, directions):
 
 
 def shown(x):
-    text = f"{x:.{DECIMALS}f}"
+    text = f"{x:.5f}"
     return text.lstrip("-") if not text.strip("-0.") else text
 
 
-def triangular(rows):
-    """The triangle R of a matrix's QR decomposition, by modified Gram-Schmidt (Björck, 1967)."""
-    columns, r = [list(column) for column in zip(*rows)], []
-    for k in range(len(columns)):
+def null_vector(rows):
+    """The unit vector that a matrix makes shortest, by inverse iteration with the triangle R of its QR
+    decomposition, by modified Gram-Schmidt (Björck, 1967)."""
+    columns, r = [*zip(*rows)], []
+    count = len(columns)
+    for k in range(count):
         size = math.hypot(*columns[k]) or 1.0
         unit = [x / size for x in columns[k]]
         r.append([0.0] * k + [dot(unit, column) for column in columns[k:]])
         columns[k:] = [
             [y - part * x for x, y in zip(unit, column)] for part, column in zip(r[k][k:], columns[k:])]
-    return r
-
-
-def null_vector(rows):
-    """The unit vector that a matrix makes shortest, by inverse iteration."""
-    r = triangular(rows)
-    count = len(r)
     least = 1e-14 * max(r[k][k] for k in range(count))
     for k in range(count):  # the diagonal has no negative element
         r[k][k] = max(r[k][k], least)

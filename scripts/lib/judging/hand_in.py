@@ -52,13 +52,12 @@ def find_files(folder):
         names = os.listdir(folder)
     except OSError as error:
         raise InputError(folder, error.strerror) from None
-    fitting = fitting_names(names)
     return {
         kind: read_file(folder, found[0], tuple(map(shown, found[1:]))) if found else File(KINDS[kind][0])
-        for kind, found in fitting.items()}
+        for kind, found in fitting_names(names).items()}
 
 
-def read_file(folder, name, others=()):
+def read_file(folder, name, others):
     path, top = os.path.join(folder, name), os.path.realpath(folder)
     try:
         if os.path.commonpath((top, os.path.realpath(path))) != top:

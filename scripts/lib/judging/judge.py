@@ -5,7 +5,7 @@ from memory, so that a mistake counts once. A stage is right if any combination 
 assignment leaves open reproduces its numbers; else wrong by the mistake that does; else, in stage 4, right by
 another rule at the borders; else wrong without a cause.
 """
-from lib.judging.digits import of_one_program
+from lib.judging.digits import share_digits
 from lib.judging.hand_in import STAGE_OF, File
 from lib.judging.pixel_stage import PixelStage, pixel_readings
 from lib.judging.points import holds_enough, read_points
@@ -42,7 +42,8 @@ class HandIn:
         self.failed = {}  # the verdicts of files that cannot be read
 
     def judge(self):
-        points = self.read_stages()
+        points = {kind: self.read(kind, read_points) for kind, _ in STAGES}
+        share_digits([some for some in points.values() if some is not None])
         memory, before, thin, verdicts = self.ours.world, None, "", []
         for kind, stage in STAGES:
             name, theirs, readings = self.files[kind].name, points[kind], self.readings(before, memory)
@@ -131,14 +132,6 @@ class HandIn:
                 verdict.verdict, verdict.remarks = UNREADABLE, [getattr(error, "reason", str(error))]
             self.failed[kind] = verdict
             return None
-
-    def read_stages(self):
-        kinds = [kind for kind in self.kinds if kind.startswith("stage")]
-        points = {kind: self.read(kind, read_points) for kind in kinds}
-        given = [some for some in points.values() if some is not None]
-        for some, digits in zip(given, of_one_program([some.digits for some in given])):
-            some.digits = digits
-        return points
 
     def colors(self, *size):
         return self.read("picture", lambda data, name: read_colors(data, name, size, self.ours.background))

@@ -7,7 +7,6 @@ from lib.judging.verdict import Cause
 
 ORDINALS = ("first", "second", "third")
 VERTICES = [slice(k, None, 3) for k in range(3)]
-MOST_WRONG = 0.5  # of all triangles, to be called a few
 MOST_NAMED = 5
 MOST_COMPARED = 1_000_000  # pairs of triangles, in search of the one that is written again
 
@@ -115,11 +114,3 @@ def causes_at_vertices(result, count, is_right_at, causes_at):
             if len(wrong) == 1 else f"The {names} vertex of each triangle are wrong, the {others} is right")
     inner = causes_at([VERTICES[k] for k in wrong])
     return [dataclasses.replace(cause, text=f"{text}: {cause.text}") for cause in inner] or [Cause("", text)]
-
-
-def few_triangles(result, count):
-    """A remark on which triangles are wrong, if they are few; a list of at most one."""
-    wrong = sorted({i // 3 for i, *_ in result})
-    if not wrong or len(wrong) > MOST_WRONG * count:
-        return []
-    return [f"only {named(wrong)} of {count} {'is' if len(wrong) == 1 else 'are'} wrong"]

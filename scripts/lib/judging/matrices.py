@@ -75,14 +75,12 @@ def rotation(radians, axis, factors=lambda c, s: (c, 1 - c, s)):
 
 
 # view
-def cross_with_another_sign(a, b):
-    x, y, z = right_cross(a, b)
-    return x, -y, z
-
-
 def view_matrix(eye, look, up, mistakes=(), spelling=0):
     """The matrix of view, right or with mistakes of these names, made in the way `spelling`, 0 or 1."""
-    cross = cross_with_another_sign if "cross-product-sign" in mistakes else right_cross
+    def cross(a, b):
+        x, y, z = right_cross(a, b)
+        return x, -y if "cross-product-sign" in mistakes else y, z
+
     if "eye-and-look-exchanged" in mistakes:
         eye, look = look, eye
     up = (0.0, 1.0, 0.0) if "up-is-0-1-0" in mistakes else up

@@ -85,6 +85,11 @@ def causes_by_rows(ways, theirs, digits, comparison):
     def fits(way, axes):
         return any(not differs(theirs.points, digits, images, axes) for images in way.images())
 
+    def touched(way):  # the axes on which it gives other numbers than the right one
+        (images, *_), (others, *_) = way.images(), ways.right[0].images()
+        return frozenset(axis for (p, _), (q, _) in zip(images, others) for axis in range(3)
+                         if not abs(p[axis] - q[axis]) <= DIGITS * max(1.0, abs(q[axis])))
+
     wrong = {axis for axis in range(3) if not any(fits(way, [axis]) for way in ways.right)}
     if len(wrong) < 2:
         return []
@@ -92,7 +97,7 @@ def causes_by_rows(ways, theirs, digits, comparison):
     for candidates in (listed(ways.stage, ways.scene), changed_elements(ways.stage, ways.ours)):
         named = {*found}
         for way in ways.made(candidates):
-            axes = frozenset(touched(way, ways.right[0]))
+            axes = touched(way)
             if axes and axes < wrong and fits(way, axes):
                 found.setdefault(axes, []).append(way.cause)
     for axes in {*found} - named:  # more than one element would do
@@ -100,15 +105,6 @@ def causes_by_rows(ways, theirs, digits, comparison):
     for axis in wrong:
         found.setdefault(frozenset({axis}), cause_of_elements(comparison, [axis]))
     return choices_of(found, wrong)
-
-
-def touched(way, right):
-    """The axes on which a Way gives other numbers than the right one."""
-    (images, *_), (others, *_) = way.images(), right.images()
-    return {
-        axis
-        for (p, _), (q, _) in zip(images, others) for axis in range(3)
-        if not abs(p[axis] - q[axis]) <= DIGITS * max(1.0, abs(q[axis]))}
 
 
 def choices_of(found, wrong):

@@ -213,35 +213,30 @@ class Attempt:
         result = Mismatch(self.rule, self.reading, triangle_count=len(drawing.triangles.corners))
         pairs = collections.Counter()
         for row in range(self.height):
-            owner, _, columns = drawn_row = drawing.row(row)
+            owner, depth, columns = drawn_row = drawing.row(row)
             part = slice(columns.start, columns.stop)
             result.areas.update(owner[part])
             for column, kind in self.differences(row, drawn_row):
-                self.add(result, row, column, kind, drawn_row)
+                result.pixels[row, column] = kind
+                if column == self.width:
+                    result.has_rows = True
+                    continue
+                if owner[column] >= 0:
+                    result.owners[row, column] = owner[column]
+                if kind == "depth":
+                    z = pixels.depths[row][column] if pixels.depths[row] else None
+                    result.offsets[row, column] = abs(z - depth[column]) if z is not None else 0.0
             if len(result.pixels) > limit:
                 return None
             if pixels.colors:
                 pairs.update(zip(owner[part], pixels.colors[row][part]))
         del result.areas[-1]
         result.drawn, result.doubtful = sum(result.areas.values()), self.doubtful
-        if pixels.colors:
-            shown = {
-                pair: count
-                for pair, count in pairs.items() if pair[0] >= 0 and pair[1] != self.background}
-            self.add_colors(result, collections.Counter(shown), limit)
+        for t, color in [*pairs]:
+            if t < 0 or color == self.background:
+                del pairs[t, color]
+        self.add_colors(result, pairs, limit)
         return result if len(result.pixels) <= limit else None
-
-    def add(self, result, row, column, kind, drawn_row):
-        result.pixels[row, column] = kind
-        if column == self.width:
-            result.has_rows = True
-            return
-        owner, depth, _ = drawn_row
-        if owner[column] >= 0:
-            result.owners[row, column] = owner[column]
-        if kind == "depth":
-            z = self.pixels.depths[row][column] if self.pixels.depths[row] else None
-            result.offsets[row, column] = abs(z - depth[column]) if z is not None else 0.0
 
     def add_colors(self, result, pairs, limit):
         """Gives every triangle the color that most of its pixels have, and adds the pixels that show another

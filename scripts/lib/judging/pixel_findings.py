@@ -51,22 +51,19 @@ class Findings:
         if both.verdict == "exact" or spoils_one or is_blank:
             return both
         if both.verdict == "unknown":
-            return self.own_if_both_are_unknown(kind, alone)
+            found = finding_of(alone)
+            if kind == "depths":
+                return self.by_the_rule_of_the_picture() if found.verdict == "unknown" else found
+            if found.verdict not in ("exact", "borders"):
+                return found
+            by_both = self.context.compare(found.mismatch.reading, found.mismatch.rule)
+            return found if BorderRule(self.context, by_both).shows_each_triangle else both
         if both.verdict != "mistake":
             return by_open_rule(alone, sample_rows(alone, alone.plain)) or both
         found = (exact(alone.compare(reading, rule, limit=0), alone.shown)
                  for rule in (Rule(), Rule(**CENTER)) for reading in self.context.readings)
         # A picture of one color may come from a mistake found.
         return next((one for one in found if one and one.verdict == "exact"), both)
-
-    def own_if_both_are_unknown(self, kind, alone):
-        found = finding_of(alone)
-        if kind == "depths" and found.verdict == "unknown":
-            return self.by_the_rule_of_the_picture()
-        if kind == "depths" or found.verdict not in ("exact", "borders"):
-            return found
-        by_both = self.context.compare(found.mismatch.reading, found.mismatch.rule)
-        return found if BorderRule(self.context, by_both).shows_each_triangle else self.of_all
 
     def by_the_rule_of_the_picture(self):
         """The Finding of depths that nothing explains."""

@@ -94,14 +94,12 @@ def exact(mismatch, shown):
     return Finding("exact", mismatch, words, remarks=remarks)
 
 
-def spread(values, count):
-    """At most `count` of the values, evenly spread."""
-    return values if len(values) <= count else [
-        values[i * (len(values) - 1) // (count - 1)] for i in range(count)]
-
-
 def sample_rows(context, mismatch):
-    """A few rows that distinguish rules: some with differences, some without."""
+    """A few rows that distinguish rules, evenly spread: some with differences, some without."""
+    def spread(values, count):
+        return values if len(values) <= count else [
+            values[i * (len(values) - 1) // (count - 1)] for i in range(count)]
+
     wrong = sorted({row for row, _ in mismatch.pixels})
     pixels = context.shown.pixels()
     filled = [
@@ -197,16 +195,12 @@ def mistake(context, found):
     ends = ("the left one" if one.rule.columns_before else "the right one" if one.rule.column_more else ""
             for one in found.values())  # at which rows have another number of columns
     causes = [dataclasses.replace(cause_of_all("zbuf", names), detail=end) for names, end in zip(found, ends)]
-    return Finding("mistake", first, rule_in_words(first.rule), causes, files_spoiled(context, first))
-
-
-def files_spoiled(context, mismatch):
-    """The files that a mistake spoils: one of them if it only turns its rows."""
-    rule = mismatch.rule
-    turned_back = dataclasses.replace(rule, picture_flip="", text_flip="")
-    is_turn = not mismatch.pixels and turned_back in [Rule(**changes) for _, changes in context.open_rules]
-    flips = {"depths": rule.text_flip, "picture": rule.picture_flip}
-    return tuple(kind for kind, flip in flips.items() if flip or not (is_turn and any(flips.values())))
+    # It spoils one of the files if it only turns its rows.
+    turned_back = dataclasses.replace(first.rule, picture_flip="", text_flip="")
+    is_turn = not first.pixels and turned_back in [Rule(**changes) for _, changes in context.open_rules]
+    flips = {"depths": first.rule.text_flip, "picture": first.rule.picture_flip}
+    touches = tuple(kind for kind, flip in flips.items() if flip or not (is_turn and any(flips.values())))
+    return Finding("mistake", first, rule_in_words(first.rule), causes, touches)
 
 
 def at_borders(context, best):

@@ -159,7 +159,14 @@ class PixelStage:
         if verdict.verdict == RIGHT:
             return
         unexplained, width = verdict.places, self.ours.window.width
-        mismatch = mismatch_to_show(context, finding, verdict.verdict == WRONG)
+        mismatch, rule = finding.mismatch, finding.mismatch.rule
+        is_by_mistake = verdict.verdict == WRONG and finding.causes
+        if is_by_mistake or finding.rule and not mismatch.pixels:
+            # the pixels that the mistake explains, or that the rule changes, if it is another one than ours
+            before = Rule(rule.left, rule.right, rule.depth, rule.clamp) if is_by_mistake else Rule()
+            found = context.compare(mismatch.reading, before)
+            explained = {place: kind for place, kind in found.pixels.items() if place not in mismatch.pixels}
+            mismatch = dataclasses.replace(found, pixels=explained)
         if finding.verdict == "mistake" and verdict.causes:
             verdict.explained = len({*context.plain.of(kind)} - {*unexplained})
             verdict.compared = max(context.plain.compared, verdict.explained + len(unexplained))
@@ -179,19 +186,6 @@ class PixelStage:
         del counts[shown.background]
         ours = sum(counts[color] for color in generated_colors(len(self.ours.world) // 3))
         return 2 * ours < sum(counts.values())
-
-
-def mismatch_to_show(context, finding, is_wrong):
-    """The Mismatch to show for a Finding: the pixels that its mistake explains, if it `is_wrong` by one, and
-    those that its rule changes, if it is another one than ours."""
-    found, rule = finding.mismatch, finding.mismatch.rule
-    is_by_mistake = is_wrong and finding.causes
-    if not (is_by_mistake or finding.rule and not found.pixels):
-        return found
-    before = Rule(rule.left, rule.right, rule.depth, rule.clamp) if is_by_mistake else Rule()
-    mismatch = context.compare(found.reading, before)
-    explained = {place: kind for place, kind in mismatch.pixels.items() if place not in found.pixels}
-    return dataclasses.replace(mismatch, pixels=explained)
 
 
 def blames_many_colors(verdict, shown, context, mismatch):

@@ -68,7 +68,12 @@ def sentence(verdict):
     open_words = (f"; not handed in: {names_of(missing)}" if missing else "") + "".join(
         f"; {file.file}: {file.verdict}" for file in undecided)
     if rest:
-        return f"{words}; also wrong, by themselves: {listed_with_causes(rest)}{open_words}"
+        by_reason = {}
+        for file in rest:
+            by_reason.setdefault(file.cause, []).append(file)
+        others = ", ".join(
+            names_of(group) + (f" ({reason})" if reason else "") for reason, group in by_reason.items())
+        return f"{words}; also wrong, by themselves: {others}{open_words}"
     last = [file for file in verdict.files if file.verdict not in OPEN and file not in missing][-1]
     after = verdict.files[verdict.files.index(first[-1]) + 1:]
     given = "by the right numbers" if any(
@@ -85,11 +90,3 @@ def next_command(verdict, theirs, scene, config):
     words = ["explain", scene, config, "--triangle", triangle[1]] if triangle and wrong.stage != "zbuf" else [
         "inspect", scene, config, "--theirs", theirs]
     return shlex.join(["pipeline", *words])
-
-
-def listed_with_causes(files):
-    by_reason = {}
-    for file in files:
-        by_reason.setdefault(file.cause, []).append(file)
-    return ", ".join(
-        names_of(group) + (f" ({reason})" if reason else "") for reason, group in by_reason.items())

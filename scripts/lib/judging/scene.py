@@ -23,6 +23,7 @@ class Scene:
         self.header = header
         self.triangle_lines = [command.line for command in self.commands if command.keyword == "triangle"]
         self.eye, self.look, self.up = (tuple(map(float, header[name])) for name in ("eye", "look", "up"))
+        self.l = tuple(b - a for a, b in zip(self.eye, self.look))
         keyword = next(name for name in ("perspective", "frustum", "ortho") if name in header)
         self.projection = Projection(keyword, header[keyword])
 
@@ -69,9 +70,8 @@ class Scene:
 
     def directions(self):
         """(name, vector) of each direction that a row of the matrix of view may have."""
-        l = tuple(b - a for a, b in zip(self.eye, self.look))
         named = [("the scene's up", self.up), ("the scene's eye", self.eye), ("the scene's look", self.look),
-                 ("look - eye", l), ("l x up", cross(normalized(l), self.up))]
+                 ("look - eye", self.l), ("l x up", cross(normalized(self.l), self.up))]
         r, u, back = (row[:3] for row in self.matrix("view")[:3])
         named += ("r", r), ("u", u), ("l", negative(back))
         for name, v in named:

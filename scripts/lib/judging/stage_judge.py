@@ -11,6 +11,7 @@ from lib.judging.stage_ways import PI, MatrixWays, ModelWays
 from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict)
 
 ALL = slice(None)
+MOST_WRONG = 0.5  # of all triangles, to be called a few
 NO_POINTS = "the stages before give no points to judge it by"
 
 
@@ -61,8 +62,12 @@ def outcome_among(name, theirs, ways):
         if fits(way):
             return right_verdict(ways.stage, name, theirs, way.cause.text), way.memory()
     found = single_mistakes()
-    if not found and theirs.digits.are_too_few:
-        return verdict_on_few_digits(ways, name, theirs), None
+    if not found and theirs.digits.are_too_few:  # wrong if they differ by more than those hide
+        result = nearest(ways.right, theirs, theirs.digits)
+        verdict = wrong(ways.stage, name, theirs, result) if result else FileVerdict(
+            ways.stage, name, TOO_FEW_DIGITS)
+        verdict.remarks.append(f"it shows {theirs.digits}" + ", too few to name a cause" * bool(result))
+        return verdict, None
     result = nearest(ways.right[:1], theirs, digits)
     verdict = wrong(ways.stage, name, theirs, result)
     count, right = len(theirs) // 3, ways.right
@@ -75,8 +80,10 @@ def outcome_among(name, theirs, ways):
                 result, count, lambda part: any(fits(way, [part]) for way in right),
                 lambda parts: [way.cause for way in single_mistakes(parts)])
         verdict.remarks += filter(None, [ways.place(result)])
-    if not verdict.causes:
-        verdict.remarks += matching.few_triangles(result, count)
+    few = sorted({i // 3 for i, *_ in result})
+    if not verdict.causes and 0 < len(few) <= MOST_WRONG * count:
+        verdict.remarks.append(
+            f"only {matching.named(few)} of {count} {'is' if len(few) == 1 else 'are'} wrong")
     ways.add_matrix(verdict, theirs)
     return verdict, found[0].memory() if found else None
 
@@ -133,13 +140,3 @@ def wrong(stage, name, theirs, result):
     largest, first = (described(some[0], theirs.lines) if some else "" for some in (by_size, result))
     return FileVerdict(stage, name, WRONG, differing=len(result), compared=3 * len(theirs), largest=largest,
                        first=first)
-
-
-def verdict_on_few_digits(ways, name, theirs):
-    """The verdict on too few digits to name a mistake by: wrong if they differ by more than those hide."""
-    result = nearest(ways.right, theirs, theirs.digits)
-    if not result:
-        return FileVerdict(ways.stage, name, TOO_FEW_DIGITS, remarks=[f"it shows {theirs.digits}"])
-    verdict = wrong(ways.stage, name, theirs, result)
-    verdict.remarks.append(f"it shows {theirs.digits}, too few to name a cause")
-    return verdict

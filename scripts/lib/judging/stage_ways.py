@@ -11,7 +11,7 @@ from lib.judging.model_habits import MODEL_MISTAKES, ROUGH_PIS, Habit, model_pai
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.scene import NO_UNITS
 from lib.judging.verdict import Cause, cause_of, cause_of_all
-from lib.maths.vectors import cross
+from lib.maths.vectors import cross, normalized
 
 UNTOUCHED = "The points are those of the scene: no transformation is carried out"
 PI = "pi is taken as {:.8g}"
@@ -118,14 +118,12 @@ class MatrixWays:
         yield self.made(listed(self.stage, self.scene, 2)), MOST_PAIRS
 
     def with_details(self, causes, _):
-        return [dataclasses.replace(cause, detail=self.detail(cause.name)) for cause in causes]
-
-    def detail(self, name):
-        """A number that shows the mistake."""
-        l = tuple(b - a for a, b in zip(self.scene.eye, self.scene.look))
-        if name == "view/r-not-unit":
-            return f"its length is {math.hypot(*cross(l, self.scene.up)) / math.hypot(*l):.4f}"
-        return f"its length is {math.hypot(*l):.4f}" if name == "view/l-not-unit" else ""
+        l = self.scene.l
+        lengths = {
+            "view/l-not-unit": math.hypot(*l),
+            "view/r-not-unit": math.hypot(*cross(normalized(l), self.scene.up))}
+        details = {name: f"its length is {length:.4f}" for name, length in lengths.items()}
+        return [dataclasses.replace(cause, detail=details.get(cause.name, "")) for cause in causes]
 
     def place(self, _):
         """Nothing: the mistake is in all triangles."""

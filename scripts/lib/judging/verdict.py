@@ -11,7 +11,6 @@ UNREADABLE = "unreadable"
 TOO_FEW_DIGITS = "too few digits to judge"
 UNDECIDED = "could not be judged"
 BY_THE_RIGHT = "by the right numbers, which are not those of "  # begins a remark
-GOOD = (RIGHT, ANOTHER_RULE)
 FAILED = (WRONG, MISSING, UNREADABLE)
 OPEN = (TOO_FEW_DIGITS, UNDECIDED)
 
@@ -73,7 +72,7 @@ class FileVerdict:
 
     @property
     def is_good(self):
-        return self.verdict in GOOD
+        return self.verdict in (RIGHT, ANOTHER_RULE)
 
     @property
     def cause(self):
