@@ -102,8 +102,7 @@ class BorderRule:
                                                                                       for t in small))
 
     def is_other(self, row, column, t):
-        """True if a pixel shows something else than triangle t. A triangle whose pixels have the color and
-        the depths of another is not shown."""
+        """True if a pixel shows no triangle t: it may have the color and the depth of another one."""
         mismatch, kind = self.mismatch, self.mismatch.pixels.get((row, column))
         if kind != "depth" or not self.pixels.colors:
             return kind is not None

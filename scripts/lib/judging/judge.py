@@ -19,9 +19,7 @@ from lib.showing.pictures import PictureError
 from lib.text.stage_text import StageTextError
 
 FAR = 1e15
-# most triangles that clipping at six planes makes of one; to draw more than the scene gives could take
-# forever
-MOST_PARTS = 7
+MOST_PARTS = 7  # of a triangle, as clipping at six planes makes them; more could take forever to draw
 STAGES = (("stage1", "model"), ("stage2", "view"), ("stage3", "project"))
 
 

@@ -59,8 +59,7 @@ def missing(few, many, is_same, scene_lines=()):
 
 
 def added(many, few, is_same, lines):
-    """Which triangles of a text (`many`, whose first vertices stand in `lines`) are too many, as a sentence;
-    empty if the others do not come in order."""
+    """Which triangles of a text (`many`, which begin in `lines`) are too many; as missing() otherwise."""
     left, _ = left_over_for_certain(few, many, lambda item, other: is_same(other, item))
     if not left:
         return ""

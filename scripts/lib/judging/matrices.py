@@ -1,5 +1,4 @@
-"""4 x 4 matrices in doubles, as in a student's program: the matrices of the three stages, right or with
-mistakes."""
+"""4 x 4 matrices in doubles, as in a student's program: those of three stages, right or with mistakes."""
 import math
 
 from lib.maths.vectors import cross as right_cross

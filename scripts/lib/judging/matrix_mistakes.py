@@ -1,6 +1,5 @@
-"""The matrices that view or project may have by mistake. Each candidate is (Cause, matrix, whether it
-divides); numbers that fit several do not tell them apart. Mistakes in different rows are found row by row,
-and their names are joined."""
+"""The matrices that view or project may have by mistake, each as (Cause, matrix, whether it divides).
+Mistakes in different rows are found row by row, and their names are joined."""
 import contextlib
 import itertools
 
@@ -15,7 +14,6 @@ DIVISIONS = {  # as in `image`; other mistakes of project divide all three once
     "no-divide": False, "divided-twice": (2, 2), "z-not-divided": (1, 0), "depth-is-linear": (1, 0),
     "depth-in-view-space": (1, 0), "depth-divided-twice": (1, 2)}
 SAME = "left-handed"  # gives the numbers of l-is-eye-minus-look
-UNCHANGED = "The points are those of the stage before, unchanged"
 AXES = "xyzw"
 DIGITS = 1e-9  # that two equal numbers may differ by, against 1 and their size
 

@@ -1,5 +1,4 @@
-"""The mistakes with a name, from the one list that judge, conformance pack and the student's program
-share."""
+"""The mistakes with a name, from the list that judge, conformance pack and student's program share."""
 import functools
 import re
 

@@ -129,8 +129,7 @@ class Stack:
 
 
 def model_pairs(triangle_count):
-    """((name, name), Habit) for each two mistakes of model that change different things, in all their ways if
-    there are not MANY triangles."""
+    """((name, name), Habit) of each two mistakes that change different things; of MANY triangles, in one way."""
     chosen = slice(1 if triangle_count > MANY else None)
     for (a, ones), (b, others) in itertools.combinations(MODEL_MISTAKES.items(), 2):
         for one, other in itertools.product(ones[chosen], others[chosen]):

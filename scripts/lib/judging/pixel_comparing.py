@@ -58,12 +58,6 @@ class Mismatch:
         """The triangles that a color may stand for: those that have it, else all without one of their own."""
         return self.by_color.get(color) or self.unplaced
 
-    def shows_another(self, place, pixels):
-        """True if a drawn pixel has the color of another triangle than the rule's."""
-        row, column = place
-        return pixels.drawn[row][column] and self.owners.get(place, -1) not in self.of_color(
-            pixels.colors[row][column])
-
     def of(self, kind):
         """The pixels that differ in the depths or in the picture."""
         own = "other" if kind == "picture" else "depth"
@@ -82,7 +76,8 @@ class Context:
     left: list = dataclasses.field(default_factory=lambda: [MOST_WORK])  # of the search for a cause
 
     def __post_init__(self):
-        self.first, self.compared, self.work = next(iter(self.readings)), {}, [MOST_OPEN_WORK]
+        self.first, self.work = next(iter(self.readings)), [MOST_OPEN_WORK]
+        self.compare = functools.cache(self.compare)
         self.limits = float(self.window.front), float(self.window.rear)
 
     def of_one_file(self, kind):
@@ -131,11 +126,7 @@ class Context:
 
     def compare(self, reading, rule, limit=math.inf):
         """The Mismatch of a rule; None if more than `limit` pixels are not explained."""
-        if limit < math.inf:
-            return Attempt(self, reading, rule).mismatch(limit)
-        if (reading, rule) not in self.compared:
-            self.compared[reading, rule] = Attempt(self, reading, rule).mismatch()
-        return self.compared[reading, rule]
+        return Attempt(self, reading, rule).mismatch(limit)
 
 
 class Attempt:
@@ -163,8 +154,7 @@ class Attempt:
             for t, low, high in self.drawing.could_show(row, column, slack))
 
     def differences(self, row, drawn_row=None):
-        """(column, kind) of each pixel of a row that the rule does not explain, colors aside. `drawn_row` is
-        the one of the drawing."""
+        """(column, kind) of each pixel of a row, as drawn, that the rule does not explain, colors aside."""
         owner, depth, columns = drawn_row or self.drawing.row(row)
         spend(self.drawing.work, self.width)
         depths, seen = self.pixels.depths[row] if self.pixels.depths else None, self.pixels.seen[row]
@@ -207,7 +197,7 @@ class Attempt:
                        for column, _ in self.differences(row))
         return sum(itertools.islice(unexplained, most + 1))
 
-    def mismatch(self, limit=math.inf):
+    def mismatch(self, limit):
         """The Mismatch; None if more than `limit` pixels are not explained."""
         drawing, pixels = self.drawing, self.pixels
         result = Mismatch(self.rule, self.reading, triangle_count=len(drawing.triangles.corners))

@@ -1,5 +1,4 @@
-"""The rules of stage 4 to try, as changes of raster.Rule: the choices that the assignment leaves open, and
-the mistakes that programs make."""
+"""The rules of stage 4 to try, as changes of raster.Rule: those that are open, and mistakes of programs."""
 import itertools
 
 from lib.judging.raster import FLAT_ROW, FLAT_TRIANGLE

@@ -12,8 +12,7 @@ from lib.judging.raster import Rule, TooMuch
 from lib.judging.verdict import BY_THE_RIGHT, cause_of, cause_of_all
 
 SAMPLE_ROWS = 8
-# A mistake is named if, of at least LEAST_NEARLY pixels in SAMPLE_ROWS that the best open rule leaves, it
-# leaves at most one in NEARLY.
+# A mistake is named if it leaves one in NEARLY, or less, of LEAST_NEARLY pixels that all open rules leave.
 NEARLY, LEAST_NEARLY = 8, 8
 LOST = 0.9  # the share of a triangle's pixels that must look as without it, to call it missing
 LEAST_HOLES = 5  # on common edges: fewer may be an accident of rounding
@@ -36,8 +35,7 @@ class Finding:
 
 
 def finding_of(context):
-    """The Finding of a pixel_comparing.Context. A search for a cause that is given up costs no points: the
-    open rules are not part of it."""
+    """The Finding of a Context. A search that is given up costs no points: open rules are not part of it."""
     plain = context.plain
     if found := exact(plain, context.shown):
         return found
@@ -141,8 +139,7 @@ def everything_explained(context, reading, rule, rows):
 
 
 def by_two_mistakes(context, rows):
-    """Two mistakes at once that explain everything, by our two rules; nothing if more than MOST_PAIRS would
-    do. Only for both files together."""
+    """At most MOST_PAIRS pairs of mistakes that explain all of both files, by our two rules."""
     found = {}
     some = () if context.is_one_of_two else pairs(context.mistakes)
     for (names, changes), ends in itertools.product(some, OUR_ENDS):

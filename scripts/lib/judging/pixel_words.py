@@ -28,10 +28,14 @@ def rule_in_words(rule):
 
 def border_rule_in_words(mismatch, pixels):
     """The pixels in which another rule at the borders differs."""
+    def shows_another(row, column):  # a triangle, by the pixel's color
+        return pixels.drawn[row][column] and mismatch.owners.get(
+            (row, column), -1) not in mismatch.of_color(pixels.colors[row][column])
+
     others = {
         place
-        for place, kind in mismatch.pixels.items()
-        if kind in ("depth", "other") and mismatch.shows_another(place, pixels)}
+        for place in mismatch.pixels
+        if mismatch.pixels[place] in ("depth", "other") and shows_another(*place)}
     offsets = [offset for place, offset in mismatch.offsets.items() if place not in others]
     words, shapes = [], mismatch.count("extra", "missing")
     if shapes:

@@ -1,7 +1,5 @@
-"""The points of a stage text with the digits it shows, how far they may lie from the expected ones, and lines
-that do not belong in such a text."""
+"""The points of a stage text, how far they may lie from the expected ones, and lines that do not belong."""
 import dataclasses
-import itertools
 import math
 import statistics
 
@@ -56,8 +54,8 @@ def read_points(data, name):
 
 
 def holds_enough(points, exact):
-    """True if points are so many, and so far apart, that the next stage shows its mistakes on them: a quarter
-    of the exact ones, and at least three places."""
+    """True if points have enough places to show the next stage's mistakes: a quarter of the exact ones, and
+    at least three."""
     exact, points = ([p for p in some if all(map(math.isfinite, p))] for some in (exact, points))
     if not exact:
         return True
@@ -116,27 +114,23 @@ def described(found, lines):
             f"of {b:.10g}, off by {abs(a - b):.3g}")
 
 
-def kind_of(line, columns):
-    """'vertex', 'long' for one of more numbers than `columns`, 'stray', or '' for headers and blank lines."""
-    words = line.split("#")[0].split()
-    if not words or words[0] in WORDS:
-        return ""
-    try:
-        count = len([*map(real, words)])
-    except ValueError:
-        return "stray"
-    return "stray" if count < 3 else "vertex" if columns is None or count <= columns else "long"
-
-
 def strays_of(text):
-    """Names the lines that do not belong in a stage text; empty if there are none. Triangles stand between
-    blank lines; a text may also go without those."""
-    lines = text.split("\n")
-    columns = None if any(line.split()[:1] == ["attributes"] for line in lines) else 3
-    kinds = [(number, kind_of(line, columns)) for number, line in enumerate(lines, 1)]
-    strays, long = ([number for number, found in kinds if found == kind] for kind in ("stray", "long"))
-    groups = itertools.groupby(kinds, key=lambda line: not lines[line[0] - 1].strip())
-    vertices = ([number for number, kind in group if kind in ("vertex", "long")] for _, group in groups)
+    """Names the lines that do not belong in a stage text, whose triangles may stand between blank lines."""
+    lines, vertices, long, strays = text.split("\n"), [[]], [], []
+    may_be_long = any(line.split()[:1] == ["attributes"] for line in lines)
+    for number, line in enumerate(lines, 1):
+        words = line.split("#")[0].split()
+        if not line.strip():
+            vertices.append([])
+        if not words or words[0] in WORDS:
+            continue
+        try:
+            count = len([*map(real, words)])
+        except ValueError:
+            count = 0
+        (strays if count < 3 else vertices[-1]).append(number)
+        if count > 3 and not may_be_long:
+            long.append(number)
     blocks = [*filter(None, vertices)]
     is_of_each = len(blocks) > 1 and strays and len(strays) % len(blocks) == 0
     each = f", {len(strays) // len(blocks)} for each triangle" if is_of_each else ""

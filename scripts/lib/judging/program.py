@@ -1,7 +1,6 @@
 """A program in the place of a stage: its input, its run, and its output as a hand-in."""
 import contextlib
 import os
-import re
 import sys
 import tempfile
 
@@ -54,13 +53,13 @@ def run_program(options, scene, config, given, top, limit):
     limits = confined.limits_of(options, options.time_limit)._replace(output=limit)
     words = options.box.words and [*options.box.words, "--ro-bind", top / "given", top / "given"]
     box = options.box._replace(words=words)
-    files = {name: top / f"given/{name}.txt" for name in ("scene", "config")}
     (top / "given").mkdir()
-    files["scene"].write_bytes(scene)
-    files["config"].write_bytes(config)
-    words = [
-        re.sub(r"\{(scene|config)\}", lambda found: str(files[found[1]]), word) for word in options.program]
-    return outcome(words, given, top / "work", limits, box)
+    program = options.program
+    for name, data in (("scene", scene), ("config", config)):
+        path = top / f"given/{name}.txt"
+        path.write_bytes(data)
+        program = [word.replace("{%s}" % name, str(path)) for word in program]
+    return outcome(program, given, top / "work", limits, box)
 
 
 def outcome(words, given, folder, limits, box):

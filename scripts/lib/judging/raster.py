@@ -82,8 +82,7 @@ FLAT_ROW = ("left of row", "right of row", "mean of row")
 
 
 def changed_corners(corners, change, grid):
-    """Corners moved to the centers of pixels, by rounding down or to the nearest; or sorted by y, with the
-    depths in the order in which they came."""
+    """Corners moved to the centers of pixels, by rounding; or sorted by y, but for their depths."""
     if change.startswith("sorted"):
         by_height = sorted(corners, key=lambda p: p[1], reverse=change == "sorted down")
         return [(*p[:2], q[2]) for p, q in zip(by_height, corners)]
@@ -204,8 +203,7 @@ def ends_of(span, rule, width, slack=0.0):
 
 
 class Drawing:
-    """The rows of a picture under a rule. `limits` is front and rear, `work` has the number of pixels and
-    spans that may yet be looked at."""
+    """A picture under a rule, with `limits` front and rear; `work` counts down pixels and spans looked at."""
     def __init__(self, triangles, rule, limits, work):
         self.triangles, self.rule, self.work = triangles, rule, work
         self.reach = functools.cache(self.reach)

@@ -1,5 +1,4 @@
-"""A scene that `model` has accepted: its camera, its commands and its points in world space, right or
-with one mistake."""
+"""A scene that `model` has accepted: camera, commands and points in world space, right or by a mistake."""
 import math
 
 from lib.judging import model_habits
@@ -13,7 +12,6 @@ NO_UNITS = (0.0, 0.0, 0.0)
 OF_FRUSTUMS = {
     "near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one",
     "depth-is-linear", "z-not-divided", "divided-twice", "depth-in-view-space", "depth-divided-twice"}
-AFTERWARDS = {"depth-from-0-to-1", "matrix-transposed"}  # changes of any matrix
 
 
 class Scene:
@@ -54,7 +52,8 @@ class Scene:
 
     def of_project(self, mistakes=(), pi=math.pi, spelling=0):
         """The matrix of project; None if the mistakes cannot be made with this projection."""
-        kind, own = self.projection, {*mistakes} - AFTERWARDS
+        kind = self.projection
+        own = {*mistakes} - {"depth-from-0-to-1", "matrix-transposed"}  # which change any matrix
         if kind.kind == "perspective":
             m = perspective_matrix(*map(float, kind.numbers), kind.aspect_rule == "ratio", own, pi, spelling)
         else:

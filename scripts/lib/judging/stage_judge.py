@@ -17,9 +17,8 @@ NO_POINTS = "the stages before give no points to judge it by"
 
 def stage_outcome(ours, stage, name, theirs, readings=(), clipped=()):
     """The FileVerdict, by a Reference, on the Points of model, or that view or project made of one of the
-    readings; and the exact points that the program has after this stage, None if they are not known.
-    `clipped` are lists of points that are right after project, too, for each reading, the
-    exact one last."""
+    readings; and the exact points that the program then has, None if unknown. `clipped` are lists of points
+    that are right after project, too, for each reading, the exact one last."""
     scene = ours.scene
     if stage == "model":
         return outcome_among(name, theirs, ModelWays(scene, ours.world))

@@ -6,7 +6,7 @@ import math
 
 from lib.judging import fit
 from lib.judging.matrices import IDENTITY, ROUNDING, image, slack
-from lib.judging.matrix_mistakes import UNCHANGED, causes_by_rows, changed_elements, listed, other_forms
+from lib.judging.matrix_mistakes import causes_by_rows, changed_elements, listed, other_forms
 from lib.judging.model_habits import MODEL_MISTAKES, ROUGH_PIS, Habit, model_pairs
 from lib.judging.pixel_rules import MOST_PAIRS
 from lib.judging.scene import NO_UNITS
@@ -14,6 +14,7 @@ from lib.judging.verdict import Cause, cause_of, cause_of_all
 from lib.maths.vectors import cross, normalized
 
 UNTOUCHED = "The points are those of the scene: no transformation is carried out"
+UNCHANGED = "The points are those of the stage before, unchanged"
 PI = "pi is taken as {:.8g}"
 # `cause` is the mistake, or the rule of a right way; `images` makes lists of (point, slacks of its
 # coordinates), one for each reading; `memory` makes the exact points, None if they are not known.
