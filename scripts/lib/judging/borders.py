@@ -111,8 +111,7 @@ class BorderRule:
         color, z = self.pixels.colors[row][column], self.pixels.depths[row][column]
         if mismatch.colors.get(t) == color and t not in mismatch.unplaced:
             return False
-        others = [
-            other for other in self.near(row, column) if other in mismatch.of_color(color) and other != t]
+        others = self.mismatch.of_color(color) & {*self.near(row, column)} - {t}
         found = [self.fragment(one, row, column, self.tolerance(z)) for one in (t, *others)]
         is_there, *are_there = (one is not None and one[0][1] <= z <= one[0][2] for one in found)
         return not is_there and any(are_there)
@@ -124,8 +123,7 @@ class BorderRule:
         z = pixels.depths[row][column] if pixels.depths and pixels.depths[row] else None
         seen = self.mismatch.of_color(pixels.colors[row][column]) if is_drawn else (-1,)
         found = [self.fragment(t, row, column, self.tolerance(z or 0.0)) for t in self.near(row, column)]
-        possible = [
-            one[0] for one in found if one and one[0][2] >= drawing.front and one[0][1] < drawing.rear]
-        options = kept([fragment for fragment, is_sure in filter(None, found) if is_sure], possible,
-                       "nearest")
+        found = [*filter(None, found)]
+        possible = [one for one, _ in found if one[2] >= drawing.front and one[1] < drawing.rear]
+        options = kept([one for one, is_sure in found if is_sure], possible, "nearest")
         return any(t in seen and (z is None or t < 0 or low <= z <= high) for t, low, high in options)

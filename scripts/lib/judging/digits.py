@@ -30,9 +30,9 @@ class Digits:
         return count < LEAST_DIGITS
 
     def __str__(self):
-        is_fixed = self.decimals is not None
-        return counted(self.decimals, "decimal") if is_fixed else counted(self.significant,
-                                                                          "significant digit")
+        if self.decimals is None:
+            return counted(self.significant, "significant digit")
+        return counted(self.decimals, "decimal")
 
 
 EXACT = Digits(None, FINEST)

@@ -32,8 +32,7 @@ class Comparison:
             return ["  no 4 x 4 matrix gives these numbers"]
         rows = []
         for i, (a, b) in enumerate(zip(self.theirs, self.ours)):
-            left = " ".join(
-                f"{shown(x):>12}{'*' if (i, j) in self.differing else ' '}" for j, x in enumerate(a))
+            left = " ".join(f"{shown(x):>12}{' *'[(i, j) in self.differing]}" for j, x in enumerate(a))
             rows.append(f"  {left}   | " + " ".join(f"{shown(x):>12}" for x in b))
         width = rows[0].index("|")
         return [f"  {'found in the points (* differs)':<{width - 2}}| right", *rows]
@@ -64,11 +63,10 @@ def known_rows(verdict, directions):
     differing = () if verdict.causes else getattr(comparison, "differing", ())
     for i in sorted({i for i, j in differing if j < 3}):
         row = comparison.theirs[i]
-        names = [
-            name for name, v in directions
-            if any(v) and math.dist(row[:3], v) < LEAST_DIFFERENCE * max(1, math.hypot(*v))]
-        if names:
-            yield f"row {i + 1} of its matrix is {names[0]}"
+        for name, v in directions:
+            if any(v) and math.dist(row[:3], v) < LEAST_DIFFERENCE * max(1, math.hypot(*v)):
+                yield f"row {i + 1} of its matrix is {name}"
+                break
 
 
 def shown(x):
@@ -85,8 +83,7 @@ def null_vector(rows):
         size = math.hypot(*columns[k]) or 1.0
         unit = [x / size for x in columns[k]]
         r.append([0.0] * k + [dot(unit, column) for column in columns[k:]])
-        columns[k:] = [
-            [y - part * x for x, y in zip(unit, column)] for part, column in zip(r[k][k:], columns[k:])]
+        columns[k:] = [[y - z * x for x, y in zip(unit, column)] for z, column in zip(r[k][k:], columns[k:])]
     least = 1e-14 * max(r[k][k] for k in range(count))
     for k in range(count):  # the diagonal has no negative element
         r[k][k] = max(r[k][k], least)
@@ -160,8 +157,7 @@ def compare(before, after, units, ours, is_divided):
     spread = [[2 * max(abs(m[i][j] - theirs[i][j]) for m in others) for j in range(4)] for i in range(4)]
     if any(not max(moves) <= WORST_SPREAD * max(1e-3, *map(abs, row)) for moves, row in zip(spread, theirs)):
         return None
-    differing = {
-        (i, j)
-        for i in range(4) for j in range(4)
-        if abs(theirs[i][j] - ours[i][j]) > 4 * spread[i][j] + LEAST_DIFFERENCE * max(1.0, abs(ours[i][j]))}
+    differing = {(i, j)
+                 for i, row in enumerate(ours) for j, x in enumerate(row)
+                 if abs(theirs[i][j] - x) > 4 * spread[i][j] + LEAST_DIFFERENCE * max(1.0, abs(x))}
     return Comparison(theirs, ours, differing)

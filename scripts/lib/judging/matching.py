@@ -83,8 +83,8 @@ def reordered(written, right, is_same):
     """The other order of triangles, or of the vertices of each, as a sentence; empty if there is none."""
     for order in itertools.permutations(range(3)):
         if order != (0, 1, 2) and all(is_same(a, [b[i] for i in order]) for a, b in zip(written, right)):
-            return (f"The vertices of each triangle stand in another order: "
-                    f"{', '.join(ORDINALS[i] for i in order)}")
+            names = ", ".join(ORDINALS[i] for i in order)
+            return f"The vertices of each triangle stand in another order: {names}"
     if len(written) > 1 and all(map(is_same, written, reversed(right))):
         return "The triangles stand in reverse order"
     if len(written)**2 > MOST_COMPARED:

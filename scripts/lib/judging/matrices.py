@@ -127,15 +127,14 @@ def projection_matrix(window, near, far, mistakes=()):
     """The matrix of a perspective or a frustum. `window` has the scale and the shift of x, then of y."""
     if "near-and-far-swapped" in mistakes:
         near, far = far, near
-    z_row = (0.0, 0.0, -(far + near) / (far - near),
-             -(1 if "missing-two" in mistakes else 2) * far * near / (far - near))
+    two = 1 if "missing-two" in mistakes else 2
+    z_row = (0.0, 0.0, -(far + near) / (far - near), -two * far * near / (far - near))
     if "z-row-sign" in mistakes:
         z_row = negative(z_row)
     if "depth-is-linear" in mistakes:  # and z is not divided
         z_row = (0.0, 0.0, -2 / (far - near), -(far + near) / (far - near))
     if "depth-in-view-space" in mistakes:  # nor here
         z_row = (0.0, 0.0, 1.0, 0.0)
-    w_row = (0.0, 0.0, 1.0 if "w-is-plus-z" in mistakes else -1.0,
-             1.0 if "last-element-is-one" in mistakes else 0.0)
+    w_row = (0.0, 0.0, 1.0 if "w-is-plus-z" in mistakes else -1.0, float("last-element-is-one" in mistakes))
     x_scale, x_shift, y_scale, y_shift = window
     return (x_scale, 0.0, x_shift, 0.0), (0.0, y_scale, y_shift, 0.0), z_row, w_row

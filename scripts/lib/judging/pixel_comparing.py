@@ -100,8 +100,8 @@ class Context:
     @functools.cached_property
     def mistakes(self):
         """Those of pixel_rules.MISTAKES that can make a difference here."""
-        return [
-            one for one in pixel_rules.MISTAKES if pixel_rules.can_matter(one[1], self.window, self.shown)]
+        can_matter = pixel_rules.can_matter
+        return [one for one in pixel_rules.MISTAKES if can_matter(one[1], self.window, self.shown)]
 
     @functools.cached_property
     def plain(self):

@@ -73,9 +73,8 @@ def by_mistakes(context, rows, best):
 
 
 def unknown(mismatch):
-    return Finding(
-        "unknown", mismatch, touches=tuple(
-            kind for kind in ("depths", "picture") if mismatch.of(kind) or not mismatch.pixels))
+    kinds = (kind for kind in ("depths", "picture") if mismatch.of(kind) or not mismatch.pixels)
+    return Finding("unknown", mismatch, touches=tuple(kinds))
 
 
 def exact(mismatch, shown):

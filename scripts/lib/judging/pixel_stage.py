@@ -67,8 +67,7 @@ class PixelStage:
         """The verdicts on a picture of too many colors: many colors, if that explains most of it; no cause,
         if even the outlines are wrong; else no verdict."""
         shown = context.shown
-        count = max(
-            len(points) for points in (self.ours.world, *(some for some, _ in self.readings.values())))
+        count = max(map(len, (self.ours.world, *(points for points, _ in self.readings.values()))))
         if not shown.colors or len(shown.own_colors) <= COLORS * (count // 3) + SOME:
             return {}
         in_one_color = Context(self.readings, self.ours.window, shown.in_one_color())
@@ -137,8 +136,8 @@ class PixelStage:
     def verdict_of_pixels(self, kind, finding, shown):
         mismatch, rule = finding.mismatch, "" if finding.verdict == "unknown" else finding.rule
         places = mismatch.of(kind)
-        verdict = self.verdict(kind, RIGHT, rule, differing=len(places), places=places,
-                               compared=mismatch.compared)
+        counts = {"differing": len(places), "compared": mismatch.compared}
+        verdict = self.verdict(kind, RIGHT, rule, places=places, **counts)
         if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
             verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
             verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []
@@ -171,9 +170,9 @@ class PixelStage:
             verdict.explained = len({*context.plain.of(kind)} - {*unexplained})
             verdict.compared = max(context.plain.compared, verdict.explained + len(unexplained))
             if unexplained:
-                verdict.remarks.append(f"the cause explains {counted(verdict.explained, 'pixel')} and leaves "
-                                       f"{len(unexplained):,}, the first in "
-                                       f"{place_in_words(min(unexplained), width)}")
+                words, place = counted(verdict.explained, "pixel"), place_in_words(min(unexplained), width)
+                verdict.remarks.append(
+                    f"the cause explains {words} and leaves {len(unexplained):,}, the first in {place}")
         verdict.places = sorted({*unexplained, *mismatch.of(kind)})
         mismatch = mismatch if mismatch.of(kind) else finding.mismatch
         if verdict.places:

@@ -32,10 +32,8 @@ def border_rule_in_words(mismatch, pixels):
         return pixels.drawn[row][column] and mismatch.owners.get(
             (row, column), -1) not in mismatch.of_color(pixels.colors[row][column])
 
-    others = {
-        place
-        for place in mismatch.pixels
-        if mismatch.pixels[place] in ("depth", "other") and shows_another(*place)}
+    inside = (place for place, kind in mismatch.pixels.items() if kind in ("depth", "other"))
+    others = {place for place in inside if shows_another(*place)}
     offsets = [offset for place, offset in mismatch.offsets.items() if place not in others]
     words, shapes = [], mismatch.count("extra", "missing")
     if shapes:

@@ -19,7 +19,7 @@ FAR = 1e9  # in NDC: beyond this, all is the same
 
 # Ends of a row of pixels, from where the row of pixel centers meets the triangle, in columns.
 ENDS = {
-    "rounded": lambda t: math.floor(t + 0.5), "truncated": math.trunc, "down": math.floor, "up": math.ceil}
+    "down": math.floor, "up": math.ceil, "truncated": math.trunc, "rounded": lambda t: math.floor(t + 0.5)}
 
 
 class Grid(window.Grid):

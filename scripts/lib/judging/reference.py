@@ -41,8 +41,8 @@ class Reference:
         self.scene = Scene(text, stage1.header)
         self.world = stage1.points
         self.window = self.accepted_window(config) if config is not None else None
-        self.background = bytes(
-            math.floor(float(word) + 0.5) for word in self.header.get("background", ("0", "0", "0"))[:3])
+        background = self.header.get("background", "000")[:3]
+        self.background = bytes(math.floor(float(word) + 0.5) for word in background)
         self.has_own_colors = any(keyword in self.header for keyword in OWN_COLORS)
 
     def accepted(self, text):
@@ -117,9 +117,8 @@ class Reference:
         lines = "".join(" ".join(map(repr, p)) + "\n" * (1 + (i % 3 == 2)) for i, p in enumerate(points))
         try:
             with self.tools.file(self.scene_data) as path:
-                return parse_stage_text(
-                    self.tools.output("project", "--scene", path, *EXACT, stdin=lines.encode()).decode(),
-                    "project").points
+                text = self.tools.output("project", "--scene", path, *EXACT, stdin=lines.encode()).decode()
+                return parse_stage_text(text, "project").points
         except ToolOutOfMemory:
             raise
         except ToolFailure:

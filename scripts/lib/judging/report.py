@@ -52,15 +52,13 @@ def sentence(verdict):
     if not failed:
         return "; ".join(f"{file.file}: {file.verdict}" for file in undecided) or sentence_of_right(verdict)
     if all(file.verdict == MISSING for file in failed):
-        words = (f"{names_of(failed)} {'is' if len(failed) == 1 else 'are'} not handed in; what is there "
-                 f"is right")
+        are = "is" if len(failed) == 1 else "are"
+        words = f"{names_of(failed)} {are} not handed in; what is there is right"
         return words if len(failed) < len(verdict.files) else "nothing is handed in"
-    first = [
-        file for file in failed
-        if (file.stage, file.verdict, file.causes) == (failed[0].stage, failed[0].verdict, failed[0].causes)]
-    missing, rest = ([
-        file for file in failed if file not in first and (file.verdict == MISSING) == is_missing]
-                     for is_missing in (True, False))
+    kind = failed[0].stage, failed[0].verdict, failed[0].causes
+    first = [file for file in failed if (file.stage, file.verdict, file.causes) == kind]
+    missing = [file for file in failed if file not in first and file.verdict == MISSING]
+    rest = [file for file in failed if file not in [*first, *missing]]
     words = (f"the first stage that went wrong is {first[0].stage} ({names_of(first)} "
              f"{'is' if len(first) == 1 else 'are'} {first[0].verdict})")
     if first[0].cause:
@@ -71,8 +69,7 @@ def sentence(verdict):
         by_reason = {}
         for file in rest:
             by_reason.setdefault(file.cause, []).append(file)
-        others = ", ".join(
-            names_of(group) + (f" ({reason})" if reason else "") for reason, group in by_reason.items())
+        others = ", ".join(names_of(some) + f" ({why})" * bool(why) for why, some in by_reason.items())
         return f"{words}; also wrong, by themselves: {others}{open_words}"
     last = [file for file in verdict.files if file.verdict not in OPEN and file not in missing][-1]
     after = verdict.files[verdict.files.index(first[-1]) + 1:]

@@ -108,8 +108,8 @@ class Shown:
         """{kind: whether it shows no triangle} of the depths and the picture, as far as they are given."""
         found = {"picture": not self.own_colors} if self.colors else {}
         if self.depths:
-            found["depths"] = all(
-                self.empty is not None and z >= self.empty for row in self.depths.rows for z in row)
+            depths = itertools.chain(*self.depths.rows)
+            found["depths"] = all(self.empty is not None and z >= self.empty for z in depths)
         return found
 
     def counted(self, z):

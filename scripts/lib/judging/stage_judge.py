@@ -6,8 +6,7 @@ from lib.judging import matching
 from lib.judging.digits import EXACT
 from lib.judging.model_habits import ROUGH_PIS
 from lib.judging.points import described, differences, differs
-from lib.judging.scene import NO_UNITS
-from lib.judging.stage_ways import PI, MatrixWays, ModelWays
+from lib.judging.stage_ways import PI, MatrixWays, ModelWays, exact_reading
 from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict)
 
 ALL = slice(None)
@@ -23,8 +22,8 @@ def stage_outcome(ours, stage, name, theirs, readings=(), clipped=()):
     if stage == "model":
         return outcome_among(name, theirs, ModelWays(scene, ours.world))
     for points in reversed(clipped):  # the exact ones are what the program may have in memory
-        if len(points) == len(theirs) and not differs(theirs.points, used_digits(theirs),
-                                                      ((p, NO_UNITS) for p in points)):
+        exact = zip(*exact_reading(points))
+        if len(points) == len(theirs) and not differs(theirs.points, used_digits(theirs), exact):
             return right_verdict(stage, name, theirs), points
     if not readings:
         return undecided(stage, name), None
@@ -94,8 +93,8 @@ def used_digits(theirs):
 
 def nearest(ways, theirs, digits):
     """What differs from the nearest points that some Ways give."""
-    return min((differences(theirs.points, digits, images) for way in ways for images in way.images()),
-               key=len)
+    images = itertools.chain(*(way.images() for way in ways))
+    return min((differences(theirs.points, digits, some) for some in images), key=len)
 
 
 def count_verdict(ways, name, theirs, expected, digits):
@@ -125,8 +124,8 @@ def undecided(stage, name, why=NO_POINTS):
 
 
 def right_verdict(stage, name, theirs, rule=""):
-    verdict = FileVerdict(stage, name, ANOTHER_RULE if rule else RIGHT, rule, differing=0,
-                          compared=3 * len(theirs))
+    word = ANOTHER_RULE if rule else RIGHT
+    verdict = FileVerdict(stage, name, word, rule, differing=0, compared=3 * len(theirs))
     decimals = theirs.digits.decimals
     if (theirs.digits.significant if decimals is None else decimals) < 7:
         verdict.remarks.append(f"to the {theirs.digits} it shows")

@@ -120,9 +120,8 @@ class MatrixWays:
 
     def with_details(self, causes, _):
         l = self.scene.l
-        lengths = {
-            "view/l-not-unit": math.hypot(*l),
-            "view/r-not-unit": math.hypot(*cross(normalized(l), self.scene.up))}
+        r = cross(normalized(l), self.scene.up)
+        lengths = {"view/l-not-unit": math.hypot(*l), "view/r-not-unit": math.hypot(*r)}
         details = {name: f"its length is {length:.4f}" for name, length in lengths.items()}
         return [dataclasses.replace(cause, detail=details.get(cause.name, "")) for cause in causes]
 
