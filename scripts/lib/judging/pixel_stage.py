@@ -4,8 +4,7 @@ import dataclasses
 import itertools
 
 from lib.judging.pixel_comparing import Context
-from lib.judging.pixel_findings import Findings
-from lib.judging.pixel_search import unknown
+from lib.judging.pixel_search import Findings, unknown
 from lib.judging.pixel_words import counted, difference_in_words, place_in_words
 from lib.judging.raster import Rule, TooMuch
 from lib.judging.shown import Shown
