@@ -11,24 +11,20 @@ MOST_NAMED = 5
 MOST_COMPARED = 1_000_000  # pairs of triangles, in search of the one that is written again
 
 
-def left_over(few, many, is_same):
-    """The indices of `many` that `few` lacks, if `few` is a part of it in the same order; else None."""
-    left, i = [], 0
-    for number, item in enumerate(many):
-        if i < len(few) and is_same(few[i], item):
-            i += 1
-        else:
-            left.append(number)
-    return left if i == len(few) else None
-
-
 def left_over_for_certain(few, many, is_same):
-    """The indices left over, and True if there is no other choice, as there is between equal items."""
-    left = left_over(few, many, is_same)
-    if left is None:
-        return None, False
-    last = len(many) - 1
-    return left, left == sorted(last - i for i in left_over(few[::-1], many[::-1], is_same))
+    """The indices of `many` that `few` lacks, if `few` is a part of it in the same order, else None; and True
+    if there is no other choice, as there is between equal items."""
+    def left_over(order):
+        left, rest = [], [*few][::-order]  # the next one last
+        for number, item in [*enumerate(many)][::order]:
+            if rest and is_same(rest[-1], item):
+                rest.pop()
+            else:
+                left.append(number)
+        return None if rest else sorted(left)
+
+    left = left_over(1)
+    return left, left is not None and left == left_over(-1)
 
 
 def listed(numbers):

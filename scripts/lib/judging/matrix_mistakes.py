@@ -102,11 +102,7 @@ def causes_by_rows(ways, theirs, digits, comparison):
         found[axes] = [cause for cause in found[axes] if len(found[axes]) == 1]
     for axis in wrong:
         found.setdefault(frozenset({axis}), cause_of_elements(comparison, [axis]))
-    return choices_of(found, wrong)
-
-
-def choices_of(found, wrong):
-    """The fewest of {axes: Causes} that explain all wrong axes, each once; none if over MOST_PAIRS do."""
+    # the fewest that explain all wrong axes, each once
     for count in range(2, len(wrong) + 1):
         choices = [
             choice for some in itertools.combinations(found, count)

@@ -1,6 +1,5 @@
 """Compares the pixels of a hand-in with those that its triangles give under a rule."""
 import collections
-import contextlib
 import dataclasses
 import functools
 import itertools
@@ -83,15 +82,6 @@ class Context:
     def of_one_file(self, kind):
         """The Context of the depths, or of the picture, alone. The search in both has one limit."""
         return dataclasses.replace(self, shown=self.shown.only(kind), is_one_of_two=True)
-
-    @contextlib.contextmanager
-    def limited(self):
-        """Limits a block to the work left for the search for a cause; beyond, it raises TooMuch."""
-        kept, self.work[0] = self.work[0], self.left[0]
-        try:
-            yield
-        finally:
-            self.left[0], self.work[0] = self.work[0], kept
 
     @functools.cached_property
     def open_rules(self):

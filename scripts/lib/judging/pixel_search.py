@@ -52,11 +52,12 @@ def finding_of(context):
     center = context.compare(context.first, Rule(**CENTER))
     best = min((plain, center), key=lambda one: (one.count("extra", "missing"), len(one.pixels)))
     found, remarks = context.borders_first and at_borders(context, best), []
+    kept, context.work[0] = context.work[0], context.left[0]
     try:
-        with context.limited():
-            found = found or by_mistakes(context, rows, best)
+        found = found or by_mistakes(context, rows, best)
     except TooMuch:
         remarks = [GIVEN_UP]
+    context.left[0], context.work[0] = context.work[0], kept
     found = found or at_borders(context, best) or unknown(best)
     found.remarks += remarks
     return found

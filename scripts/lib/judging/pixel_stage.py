@@ -182,8 +182,12 @@ class PixelStage:
         text that the picture was judged by may lack triangles, and hold others in parts."""
         counts = collections.Counter(itertools.chain(*shown.colors))
         del counts[shown.background]
-        ours = sum(counts[color] for color in generated_colors(len(self.ours.world) // 3))
-        return 2 * ours < sum(counts.values())
+        state, channels = 1, []
+        for _ in self.ours.world:  # as many as zbuf makes for its triangles (docs/stages.md, Z10)
+            state = (214013 * state + 2531011) % 2**32
+            channels.append((state >> 16 & 0x7fff) % 256)
+        ours = {bytes(channels[i:i + 3]) for i in range(0, len(channels), 3)}
+        return 2 * sum(counts[color] for color in ours) < sum(counts.values())
 
 
 def blames_many_colors(verdict, shown, context, mismatch):
@@ -214,12 +218,3 @@ def blames_many_colors(verdict, shown, context, mismatch):
     count = sum(t == other for other, _ in counts)
     verdict.first = f"{place_in_words(place, context.window.width)}: one of {count:,} colors of triangle {t}"
     return True
-
-
-def generated_colors(count):
-    """The set of colors that zbuf gives to the first triangles, as bytes (docs/stages.md, Z10)."""
-    state, channels = 1, []
-    for _ in range(3 * count):
-        state = (214013 * state + 2531011) % 2**32
-        channels.append((state >> 16 & 0x7fff) % 256)
-    return {bytes(channels[i:i + 3]) for i in range(0, 3 * count, 3)}

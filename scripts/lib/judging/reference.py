@@ -34,8 +34,7 @@ class Reference:
     def __init__(self, scene, config, tools):
         self.tools, self.config, self.remarks = tools, config, []
         self.clipped = functools.lru_cache(maxsize=4)(self.clipped)
-        text, model = self.accepted(text_of(scene, "the scene"))
-        self.scene_data = data_of(text)
+        text, self.scene_data, model = self.accepted(text_of(scene, "the scene"))
         stage1 = parse_stage_text(model.decode(), "model")
         self.header = stage1.header
         self.scene = Scene(text, stage1.header)
@@ -46,12 +45,13 @@ class Reference:
         self.has_own_colors = any(keyword in self.header for keyword in OWN_COLORS)
 
     def accepted(self, text):
-        """The scene's text, in today's form, and the output of model for it."""
+        """The scene's text, in today's form, its bytes, and the output of model for it."""
+        data = text.encode("utf-8", errors="surrogateescape")
         try:
-            model = self.tools.output("model", *EXACT, stdin=data_of(text))
+            model = self.tools.output("model", *EXACT, stdin=data)
             if b"\nsphere\n" in model:  # which assignments lack: a message with their place
-                self.tools.run("model", "--bare", stdin=data_of(text))
-            return text, model
+                self.tools.run("model", "--bare", stdin=data)
+            return text, data, model
         except ToolFailure as failure:
             older = without_old_lines(text)
             with contextlib.suppress(JudgeError):
@@ -134,10 +134,6 @@ def reference(scene, config):
 def kinds_of(config):
     """The kinds of files that a hand-in needs; without a config, of the first three stages."""
     return [kind for kind in KINDS if config is not None or kind.startswith("stage")]
-
-
-def data_of(text):
-    return text.encode("utf-8", errors="surrogateescape")
 
 
 def without_old_lines(text):

@@ -77,12 +77,13 @@ def outcome_among(name, theirs, ways):
             theirs, right[0].images(), digits, matching.reordered) or matching.causes_at_vertices(
                 result, count, lambda part: any(fits(way, [part]) for way in right),
                 lambda parts: [way.cause for way in single_mistakes(parts)])
-        verdict.remarks += filter(None, [ways.place(result)])
+        verdict.remarks += [ways.place(result)] if ways.stage == "model" else []
     few = sorted({i // 3 for i, *_ in result})
     if not verdict.causes and 0 < len(few) <= MOST_WRONG * count:
         verdict.remarks.append(
             f"only {matching.named(few)} of {count} {'is' if len(few) == 1 else 'are'} wrong")
-    ways.add_matrix(verdict, theirs)
+    if ways.stage != "model":
+        ways.add_matrix(verdict, theirs)
     return verdict, found[0].memory() if found else None
 
 

@@ -75,9 +75,6 @@ class ModelWays:
         after = f", after {before[-1].keyword} in line {before[-1].line}" if before else ""
         return f"the first wrong triangle is number {triangle}, in line {line} of the scene{after}"
 
-    def add_matrix(self, verdict, theirs):
-        """Adds nothing: model has no matrix."""
-
 
 class MatrixWays:
     """The ways of view or project, each one matrix. `right` are (rule in words, matrix, its divisions)."""
@@ -124,9 +121,6 @@ class MatrixWays:
         lengths = {"view/l-not-unit": math.hypot(*l), "view/r-not-unit": math.hypot(*r)}
         details = {name: f"its length is {length:.4f}" for name, length in lengths.items()}
         return [dataclasses.replace(cause, detail=details.get(cause.name, "")) for cause in causes]
-
-    def place(self, _):
-        """Nothing: the mistake is in all triangles."""
 
     def add_matrix(self, verdict, theirs):
         """Adds the matrix that the points show, and the cause that lies in its elements, or in its rows."""
