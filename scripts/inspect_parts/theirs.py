@@ -3,10 +3,9 @@ differ."""
 import base64
 
 from inspect_parts.packing import packed
-from lib.judging.digits import EXACT
 from lib.judging.hand_in import find_files
 from lib.judging.judge import judge
-from lib.judging.points import is_off, printed_tolerance, read_points
+from lib.judging.points import EXACT, is_off, printed_tolerance, read_points
 from lib.judging.reference import reference
 from lib.judging.report import remarks_of, sentence
 from lib.judging.shown import read_colors

@@ -5,10 +5,9 @@ from memory, so that a mistake counts once. A stage is right if any combination 
 assignment leaves open reproduces its numbers; else wrong by the mistake that does; else, in stage 4, right by
 another rule at the borders; else wrong without a cause.
 """
-from lib.judging.digits import share_digits
 from lib.judging.hand_in import STAGE_OF, File
 from lib.judging.pixel_stage import PixelStage, pixel_readings
-from lib.judging.points import holds_enough, read_points
+from lib.judging.points import holds_enough, read_points, share_digits
 from lib.judging.reference import kinds_of, reference
 from lib.judging.shown import read_colors, read_depths
 from lib.judging.stage_judge import stage_outcome, undecided

@@ -1,4 +1,4 @@
-"""4 x 4 matrices in doubles, as in a student's program: those of three stages, right or with mistakes."""
+"""The matrices of the three stages, right or with mistakes, in doubles, as in a student's program."""
 import math
 
 from lib.maths.vectors import cross as right_cross

@@ -129,7 +129,7 @@ class Stack:
 
 
 def model_pairs(triangle_count):
-    """((name, name), Habit) of each two mistakes that change different things; of MANY triangles, in one way."""
+    """((name, name), Habit) of any two mistakes that change different things; of MANY triangles, one way."""
     chosen = slice(1 if triangle_count > MANY else None)
     for (a, ones), (b, others) in itertools.combinations(MODEL_MISTAKES.items(), 2):
         for one, other in itertools.product(ones[chosen], others[chosen]):

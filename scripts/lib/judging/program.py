@@ -81,12 +81,15 @@ def hand_in(stage, output, given, folder):
     files = {} if stage == "model" else {STAGES[stage]: File("the input", given)}
     if stage != "zbuf":
         return {**files, WRITES[stage]: File("stdout", output)}
-    written = {
-        kind: read_file(names[0] if names else KINDS[kind][0], folder, tuple(map(shown, names[1:])))
-        for kind, names in fitting_names(os.listdir(folder)).items()}
-    return {
-        **files, "picture": written["picture"],
-        "depths": written["depths"] if written["depths"].data else File("stdout", output)}
+    fitting = fitting_names(os.listdir(folder))
+    for kind in ("depths", "picture"):
+        name, *others = fitting[kind] or [KINDS[kind][0]]
+        files[kind] = File(shown(name), others=tuple(map(shown, others)))
+        try:
+            files[kind].data = confined.read_output(name, folder, confined.LARGEST_FILE)
+        except confined.Refused as error:
+            files[kind].error = InputError(name, str(error))
+    return files if files["depths"].data else {**files, "depths": File("stdout", output)}
 
 
 def expect_repetition(stage, verdict, files, run):
@@ -99,10 +102,3 @@ def expect_repetition(stage, verdict, files, run):
             numbers = Cause("", "Some numbers are random: two runs of the program on the same text differ")
             for file in wrong:
                 file.causes = [cause_of("zbuf/random-pixels") if stage == "zbuf" else numbers]
-
-
-def read_file(name, folder, others):
-    try:
-        return File(shown(name), confined.read_output(name, folder, confined.LARGEST_FILE), None, others)
-    except confined.Refused as error:
-        return File(shown(name), None, InputError(name, str(error)), others)

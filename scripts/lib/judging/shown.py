@@ -5,7 +5,7 @@ import dataclasses
 import functools
 import itertools
 
-from lib.judging.digits import EXACT, Digits, digits_of
+from lib.judging.points import EXACT, Digits, digits_of
 from lib.rim.command import shown as printable
 from lib.showing.pictures import picture_of
 from lib.text.plain_stage_text import real

@@ -3,9 +3,8 @@ import itertools
 import math
 
 from lib.judging import matching
-from lib.judging.digits import EXACT
 from lib.judging.model_habits import ROUGH_PIS
-from lib.judging.points import described, differences, differs
+from lib.judging.points import EXACT, described, differences, differs
 from lib.judging.stage_ways import PI, MatrixWays, ModelWays, exact_reading
 from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict)
 
