@@ -362,6 +362,23 @@ class Wrong(HandIn):
             self.assertEqual([cause.name for cause in verdict.files[4].causes],
                              ["zbuf/rows-and-columns-exchanged"])
 
+    def test_another_size_of_the_picture_is_named_and_no_other_cause_of_its_depths(self):
+        self.hand_in()
+        right = pathlib.Path("z_buffer.txt").read_bytes()
+        for size, words in (("180 160", ""), ("45 40", ""), ("80 90", ": width and height are exchanged")):
+            pathlib.Path("size.txt").write_text(CONFIG.replace("90 80", size))
+            tool("zbuf", "size.txt", "stage3.txt", "--z-buffer", "z_buffer.txt", "--image", "out.bmp")
+            found = size.replace(" ", " x ")
+            cause = f"The picture has {found} pixels, not 90 x 80 as the config says{words}"
+            verdict = self.assert_verdicts(["right"] * 3 + ["unreadable"] * 2, 1)
+            self.assertEqual([(file.cause, file.first) for file in verdict.files[3:]], [(cause, "")] * 2)
+            self.assertTrue(sentence(verdict).endswith(f"(z_buffer.txt and out.bmp are unreadable): {cause}"))
+            pathlib.Path("z_buffer.txt").write_bytes(right)
+            self.assertEqual(self.assert_verdicts(["right"] * 4 + ["unreadable"], 1).files[4].cause, cause)
+            pathlib.Path("z_buffer.txt").write_bytes(right.replace(b"0.", b"0.0"))  # no cause of these
+            self.assertEqual(
+                self.assert_verdicts(["right"] * 3 + ["wrong", "unreadable"], 1).files[3].cause, "")
+
     def test_a_blank_picture_has_no_cause_but_what_would_blank_it(self):
         self.hand_in()
         pathlib.Path("z_buffer.txt").write_text("\n" * 80)

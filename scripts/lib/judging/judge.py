@@ -5,6 +5,8 @@ from memory, so that a mistake counts once. A stage is right if any combination 
 assignment leaves open reproduces its numbers; else wrong by the mistake that does; else, in stage 4, right by
 another rule at the borders; else wrong without a cause.
 """
+import math
+
 from lib.judging.hand_in import STAGE_OF, File
 from lib.judging.pixel_stage import PixelStage, pixel_readings
 from lib.judging.points import holds_enough, read_points, share_digits
@@ -37,6 +39,7 @@ class HandIn:
         self.files = {kind: files.get(kind) or File(kind) for kind in kinds}
         self.kinds = kinds
         self.failed = {}  # the verdicts of files that cannot be read
+        self.size = None  # of a picture, if it is not the config's
 
     def judge(self):
         points = {kind: self.read(kind, read_points) for kind, _ in STAGES}
@@ -127,7 +130,7 @@ class HandIn:
             verdict = FileVerdict(STAGE_OF[kind], file.name, MISSING)
             if not getattr(error, "is_missing", False):
                 verdict.verdict, verdict.remarks = UNREADABLE, [getattr(error, "reason", str(error))]
-            self.failed[kind] = verdict
+            self.failed[kind], self.size = verdict, getattr(error, "size", None) or self.size
             return None
 
     def colors(self, *size):
@@ -146,4 +149,8 @@ class HandIn:
         judge = PixelStage(self.ours, self.files, readings, thin, self.borders_first)
         verdicts = failed | (judge.verdicts_of_exchanged(depths, [*map(list, zip(*exchanged))])
                              if exchanged else judge.verdicts(depths, colors))
+        if self.size and not verdicts["picture"].causes:
+            is_small = 3 * math.prod(self.size) < self.ours.limit("picture")
+            verdicts = failed | judge.verdicts(depths, None) if exchanged else verdicts
+            judge.blame_size(verdicts, self.size, depths, is_small and self.colors(*self.size))
         return [verdicts["depths"], verdicts["picture"]]

@@ -2,6 +2,7 @@
 import collections
 import dataclasses
 import itertools
+import types
 
 from lib.judging.pixel_comparing import Context
 from lib.judging.pixel_search import Findings, unknown
@@ -10,8 +11,8 @@ from lib.judging.raster import Rule, TooMuch
 from lib.judging.shown import Shown
 from lib.judging.stage_judge import NO_POINTS
 from lib.judging.stage_ways import exact_reading
-from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of,
-                                 joined)
+from lib.judging.verdict import (ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, UNREADABLE, WRONG, Cause,
+                                 FileVerdict, cause_of, joined)
 
 # A picture has many colors if it has more than COLORS for each triangle and SOME more: no frame and no stray
 # pixel has so many.
@@ -105,6 +106,19 @@ class PixelStage:
                 verdicts[kind].verdict, verdicts[kind].rule = WRONG, ""
                 verdicts[kind].causes = [cause_of("zbuf/rows-and-columns-exchanged")]
         return verdicts
+
+    def blame_size(self, verdicts, size, depths, colors):
+        """Names a `size` other than the config's as the cause of a picture's verdict, and of the one on wrong
+        depths if they have the rows of the picture's colors."""
+        ours = self.ours.window
+        words = "The picture has {} x {} pixels, not {} x {} as the config says"
+        words += ": width and height are exchanged" * (size == (ours.height, ours.width))
+        verdicts["picture"].causes = [Cause("", words.format(*size, ours.width, ours.height))]
+        if colors and depths and depths.rows and not verdicts["depths"].is_good:
+            window = types.SimpleNamespace(width=size[0], height=size[1], rear=ours.rear)
+            if None not in Shown(colors, depths, window, tuple).pixels().depths:
+                causes = verdicts["picture"].causes
+                verdicts["depths"] = self.verdict("depths", UNREADABLE, causes=causes)
 
     def is_uncovered(self):
         """Rows, True where our picture of their points, or of ours, is background."""

@@ -16,7 +16,8 @@ PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 class PictureError(CommandFailure):
-    """Not a readable picture."""
+    """Not a readable picture; `size` is its width and height, if they are not the ones expected."""
+    size = None
 
 
 def expect_size(width, height, size=None):
@@ -24,7 +25,9 @@ def expect_size(width, height, size=None):
     if width <= 0 or height <= 0:
         raise PictureError(f"expected a width and a height of at least 1, found {width} x {height}")
     if size and size != (width, height):
-        raise PictureError(f"expected {size[0]} x {size[1]} pixels, found {width} x {height}")
+        error = PictureError(f"expected {size[0]} x {size[1]} pixels, found {width} x {height}")
+        error.size = width, height
+        raise error
     if max(width, height) > MAX_SIDE:
         raise PictureError(f"expected at most {MAX_SIDE} columns and rows, found {width} x {height}")
 
@@ -180,7 +183,8 @@ def picture_of(data, path, behind=None, size=None):
     except (struct.error, zlib.error) as error:
         raise PictureError(f"{name_of(path)}: not a whole picture ({error})") from None
     except PictureError as error:
-        raise PictureError(f"{name_of(path)}: {error}") from None
+        error.args = (f"{name_of(path)}: {error}",)
+        raise
 
 
 def read_picture(path):
