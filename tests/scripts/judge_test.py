@@ -787,6 +787,22 @@ class Wrong(HandIn):
                 self.assertIn(words, "; ".join(file.remarks))
                 self.assertTrue(words or not file.remarks)
 
+    def test_a_stage_that_drops_the_attributes_is_named(self):
+        scene = SCENE.replace("push\n", "color 200 100 50\npush\n", 1).encode()
+        right = [tool("model", stdin=scene), tool("view", stdin=tool("model", stdin=scene))]
+        line, more = "the line 'attributes'", "the numbers after x, y and z"
+        for pattern, words in ((rb"attributes.*\n", line), (rb"(?m)^((\S+ ){2}\S+)( \S+){3}$", more),
+                               (rb"(?m)^attributes.*\n|(?<=\d)( \S+00){3}$", f"{line} and {more}"), (rb"$^",
+                                                                                                     "")):
+            pathlib.Path("stage1.txt").write_bytes(right[0])
+            pathlib.Path("stage2.txt").write_bytes(re.sub(pattern, rb"\1" if words == more else b"",
+                                                          right[1]))
+            self.scene = scene.decode()
+            file = self.verdict(config=False).files[1]
+            remarks = [remark for remark in file.remarks if remark.startswith("it drops")]
+            self.assertEqual((file.verdict, remarks),
+                             ("right", [f"it drops {words}: colors or light are lost"] if words else []))
+
 
 class FollowOn(HandIn):
     """A stage is judged by what it has read, however wrong that is."""

@@ -9,7 +9,7 @@ import math
 
 from lib.judging.hand_in import STAGE_OF, File
 from lib.judging.pixel_stage import PixelStage, pixel_readings
-from lib.judging.points import holds_enough, read_points, share_digits
+from lib.judging.points import dropped, holds_enough, read_points, share_digits
 from lib.judging.reference import kinds_of, reference
 from lib.judging.shown import read_colors, read_depths
 from lib.judging.stage_judge import stage_outcome, undecided
@@ -55,7 +55,7 @@ class HandIn:
                 verdict, memory = self.failed[kind], self.right_memory(stage, readings)
             else:
                 verdict, memory = self.outcome(stage, kind, theirs, readings, verdicts)
-            verdict.remarks += [] if theirs is None else theirs.remarks
+            verdict.remarks += [] if theirs is None else [*theirs.remarks, *dropped(before, theirs)]
             verdicts.append(verdict)
             before, thin = theirs, ""
             if is_thin:  # the next stage is judged as if this file were missing

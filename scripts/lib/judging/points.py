@@ -82,6 +82,7 @@ class Points:
     points: list
     lines: list
     digits: Digits = EXACT
+    header: dict = dataclasses.field(default_factory=dict)
     remarks: list = dataclasses.field(default_factory=list)  # on lines and numbers that are not judged
 
     def __len__(self):
@@ -97,17 +98,27 @@ def read_points(data, name):
     text = text_of(data, name)
     strays = strays_of(text)
     try:
-        vertices = parse_stage_text(text, name).vertices
+        parsed = parse_stage_text(text, name)
     except StageTextError as error:
         # In a text of another kind no line is a stray one.
         is_other = is_scene(text) or begins_with_a_camera(text)
         is_the_one = not strays or strays.startswith("1 line is ")  # the one that the error is about
         raise StageTextError(str(error) if is_the_one or is_other else f"{error}; {strays}") from None
-    lines = text.split("\n")
+    lines, vertices = text.split("\n"), parsed.vertices
     words = [word for vertex in vertices for word in lines[vertex.line - 1].split("#")[0].split()[:3]]
     more = MORE if any(len(vertex.numbers) > 3 for vertex in vertices) else ""
     return Points([vertex.numbers[:3] for vertex in vertices], [vertex.line for vertex in vertices],
-                  digits_of(words), [*filter(None, (strays, more))])
+                  digits_of(words), parsed.header, [*filter(None, (strays, more))])
+
+
+def dropped(before, after):
+    """A remark on the line `attributes` of a stage's input, or its numbers, if the output lacks it; a list of
+    at most one."""
+    if before is None or "attributes" not in before.header or MORE not in before.remarks:
+        return []
+    parts = ["the line 'attributes'"] * ("attributes" not in after.header)
+    parts += ["the numbers after x, y and z"] * (MORE not in after.remarks)
+    return [f"it drops {' and '.join(parts)}: colors or light are lost"] if parts else []
 
 
 def holds_enough(points, exact):
