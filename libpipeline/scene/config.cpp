@@ -4,7 +4,6 @@
 #include <string>
 
 #include "libpipeline/numbers/double_double.h"
-#include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 
 namespace pipeline {

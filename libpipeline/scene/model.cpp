@@ -1,11 +1,9 @@
 #include "libpipeline/scene/model.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
 
-#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_printer.h"

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 

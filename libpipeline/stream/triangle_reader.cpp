@@ -1,7 +1,6 @@
 #include "libpipeline/stream/triangle_reader.h"
 
 #include <algorithm>
-#include <array>
 
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/text/fixed_text.h"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "libpipeline/numbers/decimal_units.h"
-#include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/vertex_lines.h"
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "libpipeline/text/eight_digits.h"
-#include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
 namespace {

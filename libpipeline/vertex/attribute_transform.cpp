@@ -1,7 +1,6 @@
 #include "libpipeline/vertex/attribute_transform.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>

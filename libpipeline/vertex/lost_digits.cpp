@@ -1,11 +1,9 @@
 #include "libpipeline/vertex/lost_digits.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <tuple>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "libpipeline/vertex/model_stage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 

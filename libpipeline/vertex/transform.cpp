@@ -1,6 +1,5 @@
 #include "libpipeline/vertex/transform.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>

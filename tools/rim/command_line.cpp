@@ -2,8 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/number_parser.h"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "libpipeline/scene/appearance.h"
-#include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/error.h"
 
