@@ -74,6 +74,7 @@ AffineMatrix operator*(const AffineMatrix& a, const AffineMatrix& b) {
   return product;
 }
 
+// M3
 AffineMatrix translated(const AffineMatrix& m, const Vec3& offset) {
   AffineMatrix product = m;
   const std::array<Ball, 3> column = {offset.x, offset.y, offset.z};
@@ -82,6 +83,7 @@ AffineMatrix translated(const AffineMatrix& m, const Vec3& offset) {
   return product;
 }
 
+// M3
 AffineMatrix scaled(const AffineMatrix& m, const Vec3& factors) {
   AffineMatrix product = m;
   const std::array<Ball, 3> diagonal = {factors.x, factors.y, factors.z};

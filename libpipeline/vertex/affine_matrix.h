@@ -31,7 +31,7 @@ struct AffineMatrix {
 
 AffineMatrix identity();
 AffineMatrix operator*(const AffineMatrix& a, const AffineMatrix& b);
-/// m * translation(offset) and m * scaling(factors), without the products by 0 and 1.
+/// The products of m and the matrix of glTranslate or glScale, without the products by 0 and 1.
 AffineMatrix translated(const AffineMatrix& m, const Vec3& offset);
 AffineMatrix scaled(const AffineMatrix& m, const Vec3& factors);
 

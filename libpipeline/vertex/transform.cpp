@@ -83,20 +83,6 @@ ProjectionTransform volume(const Volume& v) {
 
 }  // namespace
 
-// M3
-AffineMatrix translation(const Vec3& offset) {
-  AffineMatrix m = identity();
-  m.rows[0][3] = offset.x;
-  m.rows[1][3] = offset.y;
-  m.rows[2][3] = offset.z;
-  return m;
-}
-
-// M3
-AffineMatrix scaling(const Vec3& factors) {
-  return scaled(identity(), factors);
-}
-
 // M4
 AffineMatrix rotation(double angle_degrees, const Vec3& axis) {
   const BallVec3 unit_axis = normalized(to_balls(axis));

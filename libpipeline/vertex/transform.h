@@ -8,11 +8,9 @@
 
 namespace pipeline {
 
-// The matrices of OpenGL's glTranslate, glScale, glRotate, gluLookAt, gluPerspective, glFrustum and glOrtho.
-// Each entry is a ball that contains the exact entry for the given doubles.
+// The matrices of OpenGL's glRotate, gluLookAt, gluPerspective, glFrustum and glOrtho. Each entry is a ball
+// that contains the exact entry for the given doubles.
 
-AffineMatrix translation(const Vec3& offset);
-AffineMatrix scaling(const Vec3& factors);
 /// The rotation by `angle_degrees` about an axis of any length but 0, counterclockwise when the axis points
 /// at the observer. By Rodrigues' formula in vector form, for each column.
 AffineMatrix rotation(double angle_degrees, const Vec3& axis);
@@ -67,7 +65,6 @@ class ViewFromClip {
  public:
   explicit ViewFromClip(const ProjectionTransform& clip_from_view);
 
-  [[nodiscard]] bool is_perspective() const { return is_perspective_; }
   /// A point's w in clip space from its depth in NDC: the distance in front of the eye, or 1 if orthographic.
   [[nodiscard]] double w_of(const Vec3& p_ndc) const;
   /// The point in view space, which may lie behind the eye.

@@ -17,9 +17,9 @@ TEST(MatrixStack, ARepeatedPushIsKeptApartFromALaterOne) {
   MatrixStack stack;
   EXPECT_TRUE(stack.push());
   EXPECT_TRUE(stack.push());
-  stack.multiply(translation({1, 0, 0}));
+  stack.translate({1, 0, 0});
   EXPECT_TRUE(stack.push());
-  stack.multiply(translation({1, 0, 0}));
+  stack.translate({1, 0, 0});
   for (double x : {1.0, 0.0, 0.0}) {
     EXPECT_TRUE(stack.pop());
     EXPECT_EQ(image_of_origin(stack), (Vec3{x, 0, 0}));
@@ -32,7 +32,7 @@ TEST(MatrixStack, PoppedMatricesMayBeChanged) {
   EXPECT_TRUE(stack.push());
   EXPECT_TRUE(stack.push());
   EXPECT_TRUE(stack.pop());
-  stack.multiply(translation({1, 0, 0}));
+  stack.translate({1, 0, 0});
   EXPECT_TRUE(stack.pop());
   EXPECT_EQ(image_of_origin(stack), (Vec3{0, 0, 0}));
 }
@@ -40,10 +40,10 @@ TEST(MatrixStack, PoppedMatricesMayBeChanged) {
 TEST(MatrixStack, HoldsALimitedNumberOfDifferentMatrices) {
   MatrixStack stack(3);
   for (int i = 0; i < 3; ++i) {
-    stack.multiply(translation({1, 0, 0}));
+    stack.translate({1, 0, 0});
     EXPECT_TRUE(stack.push());
   }
-  stack.multiply(translation({1, 0, 0}));
+  stack.translate({1, 0, 0});
   EXPECT_FALSE(stack.push());
   EXPECT_EQ(image_of_origin(stack), (Vec3{4, 0, 0}));
 }
@@ -51,7 +51,7 @@ TEST(MatrixStack, HoldsALimitedNumberOfDifferentMatrices) {
 TEST(MatrixStack, PopMakesRoomInAFullStack) {
   MatrixStack stack(1);
   EXPECT_TRUE(stack.push());
-  stack.multiply(translation({1, 0, 0}));
+  stack.translate({1, 0, 0});
   EXPECT_FALSE(stack.push());
   EXPECT_TRUE(stack.pop());
   EXPECT_TRUE(stack.push());
@@ -59,13 +59,13 @@ TEST(MatrixStack, PopMakesRoomInAFullStack) {
 
 TEST(MatrixStack, AMatrixEqualToTheOneSavedLastDoesNotCountEither) {
   MatrixStack stack(1);
-  stack.multiply(translation({1, 0, 0}));
+  stack.translate({1, 0, 0});
   EXPECT_TRUE(stack.push());
   stack.translate({2, 0, 0});
   stack.translate({-2, 0, 0});
   EXPECT_TRUE(stack.push());
   for (int i = 0; i < 2; ++i) {
-    stack.multiply(translation({5, 0, 0}));
+    stack.translate({5, 0, 0});
     EXPECT_TRUE(stack.pop());
     EXPECT_EQ(image_of_origin(stack), (Vec3{1, 0, 0}));
   }

@@ -79,9 +79,9 @@ RandomTransform random_transform(RandomNumbers& random, int last_exponent) {
   const Vec3 v = random_vector(random, -last_exponent, last_exponent);
   switch (random.bits() % 4) {
     case 0:
-      return {translation(v), reference_translation<kTransformBits>(v)};
+      return {translated(identity(), v), reference_translation<kTransformBits>(v)};
     case 1:
-      return {scaling(v), reference_scaling<kTransformBits>(v)};
+      return {scaled(identity(), v), reference_scaling<kTransformBits>(v)};
     default:
       return random_rotation(random);
   }
@@ -179,8 +179,8 @@ TEST(MatrixProduct, HasTheSameMidpointsWithAndWithoutTheProductsByZeroAndOne) {
           ASSERT_LE(a.radius(), b.radius() * (1 + 0x1p-30));
         }
     };
-    expect_same(translated(m, v), m * translation(v));
-    expect_same(scaled(m, v), m * scaling(v));
+    expect_same(translated(m, v), m * translated(identity(), v));
+    expect_same(scaled(m, v), m * scaled(identity(), v));
     ASSERT_FALSE(HasFatalFailure()) << "matrix " << i;
   }
 }
@@ -193,12 +193,13 @@ TEST(MatrixProduct, ContainsTheTruthWhereScalesLeaveTheRange) {
     const RandomTransform second = random_rotation(random);
     const Vec3 factors = {scale, scale, scale};
     const Vec3 back = {1 / scale, 1 / scale, 1 / scale};
-    AffineMatrix computed = scaling(factors) * first.computed * second.computed * scaling(back);
+    AffineMatrix computed =
+        scaled(identity(), factors) * first.computed * second.computed * scaled(identity(), back);
     const auto exact_scale = reference_scaling<kTransformBits>(factors);
     const auto exact_back = reference_scaling<kTransformBits>(back);
     ExactMatrix exact = exact_scale * first.exact * second.exact * exact_back;
     if (i % 2 == 0) {  // twice as far away
-      computed = scaling(factors) * computed * second.computed * scaling(back);
+      computed = scaled(identity(), factors) * computed * second.computed * scaled(identity(), back);
       exact = exact_scale * exact * second.exact * exact_back;
     }
     expect_contained(computed, exact, 1);
