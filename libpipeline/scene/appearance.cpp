@@ -76,7 +76,7 @@ Attenuation read_attenuation(LineScanner& line) {
   attenuation.quadratic = number_from_zero(line, "the quadratic attenuation");
   line.expect_end("the quadratic attenuation");
   if (attenuation.constant == 0 && attenuation.linear == 0 && attenuation.quadratic == 0)
-    throw InputError(at_first.location(), expected_but_found("an attenuation other than 0 0 0", "0 0 0"));
+    throw InputError(at_first.location(), "an attenuation other than 0 0 0", "0 0 0");
   return attenuation;
 }
 
@@ -112,7 +112,7 @@ void read_appearance_part(std::string_view keyword, const SourceLocation& keywor
     appearance.last_absorption = appearance.last_paint = std::nullopt;
   } else if (keyword == "absorption" || keyword == "paint") {
     if (appearance.materials.empty())
-      throw InputError(keyword_location, expected_but_found("'material' before " + quoted(keyword), "none"));
+      throw InputError(keyword_location, "'material' before " + quoted(keyword), "none");
     auto& last = keyword == "paint" ? appearance.last_paint : appearance.last_absorption;
     if (last) throw given_twice(quoted(keyword), *last, keyword_location);
     last = line.location();
@@ -134,9 +134,8 @@ void read_appearance_part(std::string_view keyword, const SourceLocation& keywor
 
 void expect_no_w(const Appearance& appearance) {
   if (appearance.columns().w)
-    throw InputError(appearance.attributes->location,
-                     expected_but_found("a text that is not projected yet",
-                                        "one with the column 'w', which project adds"));
+    throw InputError(appearance.attributes->location, "a text that is not projected yet",
+                     "one with the column 'w', which project adds");
 }
 
 }  // namespace pipeline

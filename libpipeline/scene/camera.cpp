@@ -115,15 +115,14 @@ bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up) {
 // S9
 void check_camera(const CameraParameters& camera) {
   if (camera.up && camera.up->value == Vec3{})
-    throw InputError(camera.up->location, expected_but_found("an up direction", "0 0 0"));
+    throw InputError(camera.up->location, "an up direction", "0 0 0");
   if (!camera.eye || !camera.look) return;
   if (camera.eye->value == camera.look->value)
-    throw InputError(camera.look->location, expected_but_found("a point other than the eye to look at",
-                                                               to_text(camera.look->value)));
+    throw InputError(camera.look->location, "a point other than the eye to look at",
+                     to_text(camera.look->value));
   if (camera.up && is_parallel_to_view(camera.eye->value, camera.look->value, camera.up->value))
-    throw InputError(camera.up->location,
-                     expected_but_found("an up direction that is not parallel to the view direction",
-                                        to_text(camera.up->value)));
+    throw InputError(camera.up->location, "an up direction that is not parallel to the view direction",
+                     to_text(camera.up->value));
 }
 
 CameraParameters without_position(const CameraParameters& camera) {

@@ -21,7 +21,7 @@ struct Located {
 /// one after `first`".
 inline InputError given_twice(const std::string& name, const SourceLocation& first,
                               const SourceLocation& second) {
-  return {second, expected_but_found("one " + name, "a second one after " + to_string(first))};
+  return {second, "one " + name, "a second one after " + to_string(first)};
 }
 
 /// A number's name in messages: `name` and `of` together, as LineScanner::number takes them.

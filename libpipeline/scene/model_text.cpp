@@ -92,8 +92,7 @@ void ModelText::fail(std::string_view word, const std::string& expected) const {
   const auto line = static_cast<std::size_t>(std::ranges::count(before, line_end_)) + 1;
   const std::size_t column = before.size() - (before.rfind(line_end_) + 1) + 1;
   const char* const found = word.data() == end_ ? "the end of the file" : "the end of the line";
-  throw InputError({*name_, line, column},
-                   expected_but_found(expected, word.empty() ? found : pipeline::quoted(word)));
+  throw InputError({*name_, line, column}, expected, word.empty() ? found : pipeline::quoted(word));
 }
 
 std::string from_base64(std::string_view text) {

@@ -116,7 +116,7 @@ void SceneReader::refuse(const SceneCommand* command) const {
   const std::string expected = command->kind == CommandKind::color
                                    ? "'color' or 'attributes color' before the first triangle, too"
                                    : quoted(word) + " before the first triangle";
-  throw InputError(location_, expected_but_found(expected, quoted(word) + " after it"));
+  throw InputError(location_, expected, quoted(word) + " after it");
 }
 
 /// The commands that are allowed here.
@@ -190,9 +190,8 @@ void SceneReader::read_vertex(std::size_t index) {
   if (!vertex_line_.attributes().color) vertex.color = current_color_;
   if (vertex_line_.attributes().normal && vertex.normal == Vec3{}) {
     for (int i = vertex_line_.attributes().color ? 6 : 3; i > 0; --i) at_normal.word();
-    throw InputError(
-        at_normal.location(),
-        expected_but_found("a normal of " + std::string(kVertexNames[index]) + " other than 0 0 0", "0 0 0"));
+    throw InputError(at_normal.location(),
+                     "a normal of " + std::string(kVertexNames[index]) + " other than 0 0 0", "0 0 0");
   }
 }
 
@@ -221,8 +220,8 @@ SphereCommand SceneReader::read_sphere() {
   has_triangle_ = true;
   const AttributeSet& columns = appearance_.columns();
   if (columns.color && vertex_line_.attributes().color && !has_current_color_)
-    throw InputError(location_, expected_but_found("'color' before a sphere, which has no columns of its own",
-                                                   "'attributes color' alone"));
+    throw InputError(location_, "'color' before a sphere, which has no columns of its own",
+                     "'attributes color' alone");
   SphereCommand command;
   command.center_location = {line_.line_number(), line_.column()};
   Vec3& center = command.center;
@@ -247,7 +246,7 @@ RotateCommand SceneReader::read_rotation() {
   command.angle_degrees = line_.number("an angle in degrees");
   const SourceLocation axis_location = line_.location();
   command.axis = line_.vec3("the axis");
-  if (command.axis == Vec3{}) throw InputError(axis_location, expected_but_found("a rotation axis", "0 0 0"));
+  if (command.axis == Vec3{}) throw InputError(axis_location, "a rotation axis", "0 0 0");
   return command;
 }
 

@@ -133,9 +133,7 @@ void SceneCutter::carry_out(TextWriter* part) {
 }
 
 void SceneCutter::pop(const LineScanner& at_pop) {
-  if (depth_ == 0)
-    throw InputError(at_pop.location(),
-                     expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
+  if (depth_ == 0) throw InputError(at_pop.location(), "a matrix that 'push' has saved", "'pop' without one");
   levels_.back() = {levels_.back().push_count - 1};
   if (levels_.back().push_count == 0 && levels_.size() > 1) levels_.pop_back();
   depth_kept_ = std::min(depth_kept_, --depth_);
@@ -147,9 +145,8 @@ const SceneCommand& SceneCutter::expect_allowed(const LineScanner& at_keyword) c
   if (command == nullptr) at_keyword.fail("a command of a scene");
   const bool is_color = command->kind == CommandKind::color;
   if (is_in_preamble_ || !(is_color || command->is_setting()) || (is_color && has_color_)) return *command;
-  throw InputError(at_keyword.location(),
-                   expected_but_found(quoted(command->word) + " before the first triangle",
-                                      quoted(command->word) + " after it"));
+  throw InputError(at_keyword.location(), quoted(command->word) + " before the first triangle",
+                   quoted(command->word) + " after it");
 }
 
 /// Copies the triangle or sphere whose first line is `line_`.

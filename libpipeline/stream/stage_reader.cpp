@@ -120,9 +120,8 @@ void StageReader::accept_spheres() {
 
 void StageReader::expect_framed() const {
   if (!header_.framed)
-    throw InputError(header_end_,
-                     expected_but_found("a framed text (model --framed)",
-                                        text_.bytes_read() == 0 ? "an empty one" : "one without 'framed'"));
+    throw InputError(header_end_, "a framed text (model --framed)",
+                     text_.bytes_read() == 0 ? "an empty one" : "one without 'framed'");
 }
 
 bool StageReader::read(TriangleBatch& batch) {
@@ -214,9 +213,8 @@ void StageReader::read_end(LineScanner& line) {
   line.word();
   line.expect_end("'end'");
   if (!text_.last_line_was_ended())
-    throw InputError(line.location(),
-                     expected_but_found("the end of the line after 'end', which closes a framed text",
-                                        "the end of the input"));
+    throw InputError(line.location(), "the end of the line after 'end', which closes a framed text",
+                     "the end of the input");
   if (text_.next_filled_line(line)) {
     if (line.peek() == "error") reject(line, "");
     line.fail("nothing after 'end'");
@@ -226,8 +224,7 @@ void StageReader::read_end(LineScanner& line) {
 
 void StageReader::expect_unframed_end() const {
   if (header_.framed)
-    throw InputError(text_.end_location(),
-                     expected_but_found("'end', which closes a framed text", "the end of the input"));
+    throw InputError(text_.end_location(), "'end', which closes a framed text", "the end of the input");
 }
 
 /// Throws the error of a line that does not belong in a body. `also_expected` names lines allowed there
@@ -239,7 +236,7 @@ void StageReader::reject(LineScanner& line, const std::string& also_expected) {
   const std::string_view keyword = line.word();
   if (keyword == "sphere") throw refused_sphere(location);
   if (is_header_keyword(keyword))
-    throw InputError(location, expected_but_found("header lines before the first triangle", quoted(keyword)));
+    throw InputError(location, "header lines before the first triangle", quoted(keyword));
   const std::string hint = keyword == "end" ? " ('end' needs a line 'framed' in the header)" : "";
   at_keyword.fail(also_expected + "'triangle N' or a vertex" + hint, keyword_hint(keyword));
 }

@@ -182,7 +182,7 @@ void expect_kind(TextReader& text, TextKind expected) {
 void expect_header(const StageReader& reader, TextKind expected) {
   const StageHeader& header = reader.header();
   const auto refuse = [&](const Located<std::string>& line, const std::string& why) {
-    throw InputError(line.location, expected_but_found(named(expected), quoted(line.value) + ": " + why));
+    throw InputError(line.location, named(expected), quoted(line.value) + ": " + why);
   };
   for (const Located<std::string>& line : header.camera_lines) {
     const bool is_projected = line.value == "projected";
@@ -206,10 +206,9 @@ void expect_header(const StageReader& reader, TextKind expected) {
            "a stage before this one has passed on a line that holds for its input");
   if (expected != TextKind::ndc) return expect_no_w(header.appearance);
   if (!header.appearance.lights.empty() && !header.projected)
-    throw InputError(
-        reader.header_end(),
-        expected_but_found("a header line 'projected frustum L R B T N F' (or ortho) in a text with lights",
-                           "none: this text has not been through project"));
+    throw InputError(reader.header_end(),
+                     "a header line 'projected frustum L R B T N F' (or ortho) in a text with lights",
+                     "none: this text has not been through project");
 }
 
 std::string reason_without_camera(const StageReader& reader) {

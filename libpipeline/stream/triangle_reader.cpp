@@ -147,9 +147,8 @@ void TriangleReader::read_sphere(LineScanner& line, TriangleBatch& batch) {
 }
 
 InputError refused_sphere(const SourceLocation& location) {
-  return {location,
-          expected_but_found("triangles alone",
-                             "a sphere: trace draws it, and model --facets N makes triangles of it")};
+  return {location, "triangles alone",
+          "a sphere: trace draws it, and model --facets N makes triangles of it"};
 }
 
 void next_vertex_line(TextReader& text, LineScanner& line, std::size_t index) {
@@ -160,11 +159,9 @@ void next_line_within(std::string_view object, TextReader& text, LineScanner& li
                       const std::string& expected) {
   do {
     if (!text.next_line(line))
-      throw InputError(text.end_location(),
-                       expected_but_found(expected, "the end of the input inside " + std::string(object)));
+      throw InputError(text.end_location(), expected, "the end of the input inside " + std::string(object));
     if (line.at_end() && !line.is_comment())
-      throw InputError(line.location(),
-                       expected_but_found(expected, "a blank line inside " + std::string(object)));
+      throw InputError(line.location(), expected, "a blank line inside " + std::string(object));
   } while (line.at_end());
   if (line.peek() == "error") throw earlier_failure(line);
 }

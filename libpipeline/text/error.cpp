@@ -28,6 +28,9 @@ std::string to_string(const SourceLocation& location) {
 InputError::InputError(const SourceLocation& location, const std::string& message)
     : std::runtime_error(to_string(location) + ": " + message), location_(location) {}
 
+InputError::InputError(const SourceLocation& location, const std::string& expected, const std::string& found)
+    : InputError(location, expected_but_found(expected, found)) {}
+
 std::string quoted(std::string_view text) {
   constexpr std::size_t kMaxLength = 40;
   std::string result = "'";

@@ -166,8 +166,8 @@ bool TextReader::next_line(LineScanner& line) {
     scanned_ = is_ended ? static_cast<std::size_t>(newline - buffer_.get()) : end_;
     const std::size_t length = scanned_ - begin_;
     if (length > kMaxLineLength && length > kMaxLineLength + mark_length())
-      throw InputError({file_, line_number_ + 1, kMaxLineLength + 1},
-                       expected_but_found("the end of the line", "more than 1048576 characters"));
+      throw InputError({file_, line_number_ + 1, kMaxLineLength + 1}, "the end of the line",
+                       "more than 1048576 characters");
     if (!is_ended && fill()) continue;
     if (!is_ended && length == mark_length()) return false;
     line = take_line(length, is_ended);
@@ -206,8 +206,7 @@ bool TextReader::next_filled_line(LineScanner& line) {
 void TextReader::expect_filled_line(LineScanner& line, std::string_view expected, std::string_view word) {
   if (next_filled_line(line)) return;
   const std::string of_word = word.empty() ? "" : quoted(word);
-  throw InputError(end_location(),
-                   expected_but_found(std::string(expected) + of_word, "the end of the input"));
+  throw InputError(end_location(), std::string(expected) + of_word, "the end of the input");
 }
 
 bool TextReader::has_buffered_lines(std::size_t count) const {

@@ -43,8 +43,8 @@ Located<Light> moved_to(const Located<Light>& light, const BallVec3& position, U
   const auto rounded = [&](const Ball& coordinate, const char* name) {
     const PrintableNumber number = round_to_shortest(coordinate, size_of(light.value.position));
     if (!std::isfinite(number.hi))
-      throw InputError(light.location, expected_but_found("a light whose image is within a double's range",
-                                                          std::string("an overflow of its ") + name));
+      throw InputError(light.location, "a light whose image is within a double's range",
+                       std::string("an overflow of its ") + name);
     is_certain = is_certain && number.is_certain;
     return number.hi;
   };

@@ -35,8 +35,7 @@ void CoordinateRounder::expect_finite(double coordinate, const char* name, LineA
   if (std::isfinite(coordinate)) return;
   std::string found = "an overflow of its ";
   found += name;
-  throw InputError(location_of(vertex),
-                   expected_but_found("a vertex whose image is within a double's range", found));
+  throw InputError(location_of(vertex), "a vertex whose image is within a double's range", found);
 }
 
 // These two are seldom called; they are not inlined, so that their callers can be.
@@ -52,8 +51,7 @@ void CoordinateRounder::expect_finite(double coordinate, const char* name, LineA
 }
 
 InputError CoordinateRounder::without_bounds(LineAndColumn vertex) const {
-  return {location_of(vertex),
-          expected_but_found("a vertex within bounds", "numbers that cancel beyond 31 digits, or overflow")};
+  return {location_of(vertex), "a vertex within bounds", "numbers that cancel beyond 31 digits, or overflow"};
 }
 
 RoundedVertex CoordinateRounder::rounded_exactly(const BallVec3& p, LineAndColumn location, double input_size,

@@ -101,8 +101,8 @@ void ModelStage::transform_normals(TriangleBatch& batch, const Run& run, std::si
       run.world_from_model.apply(batch, run.first, i, rounder);
       const SourceLocation location = rounder.location_of(batch.locations[i][0]);
       batch.truncate(i);
-      throw InputError(location, expected_but_found("scales that leave a normal its digits",
-                                                    "some that differ by more than 31 digits"));
+      throw InputError(location, "scales that leave a normal its digits",
+                       "some that differ by more than 31 digits");
     }
   }
 }
@@ -178,8 +178,7 @@ void ModelStage::add(const SphereCommand& sphere, TriangleBatch& batch) {
   if (refuses_spheres_) throw refused_sphere(scene_.location());
   begin_run(batch.object_count());
   if (runs_.back().world_from_model.matrix().orientation == 0)
-    throw InputError(scene_.location(),
-                     expected_but_found("transforms that leave a sphere its volume", "a scale by 0"));
+    throw InputError(scene_.location(), "transforms that leave a sphere its volume", "a scale by 0");
   if (facets_) {
     faceted_ = sphere;
     next_facet_ = 0;
@@ -262,15 +261,13 @@ void ModelStage::begin_run(std::size_t first) {
 
 void ModelStage::push() {
   if (stack_.push()) return odd_transforms_.add_push(scene_.location());
-  throw InputError(scene_.location(),
-                   expected_but_found("at most " + std::to_string(stack_.max_saved()) + " saved matrices",
-                                      "another 'push' after a change"));
+  throw InputError(scene_.location(), "at most " + std::to_string(stack_.max_saved()) + " saved matrices",
+                   "another 'push' after a change");
 }
 
 void ModelStage::pop() {
   if (!stack_.pop())
-    throw InputError(scene_.location(),
-                     expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
+    throw InputError(scene_.location(), "a matrix that 'push' has saved", "'pop' without one");
   odd_transforms_.add_pop();
   is_matrix_new_ = true;
 }

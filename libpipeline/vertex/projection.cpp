@@ -226,10 +226,9 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
       !projection_.is_perspective || (triangle[0].z < 0 && triangle[1].z < 0 && triangle[2].z < 0);
   for (std::size_t v = 0; v < 3 && !(is_in_front && (passes[0] & passes[1] & passes[2]) != 0); ++v) {
     if (projection_.is_perspective && triangle[v].z >= 0)
-      throw InputError(
-          rounder_.location_of(p_view.locations[index][v]),
-          expected_but_found("a vertex in front of the eye (z below 0; --clip auto cuts the others)",
-                             "z = " + shortest_text(triangle[v].z)));
+      throw InputError(rounder_.location_of(p_view.locations[index][v]),
+                       "a vertex in front of the eye (z below 0; --clip auto cuts the others)",
+                       "z = " + shortest_text(triangle[v].z));
     if (passes[v] == 0)
       rounder_.set_vertex_exactly(
           p_ndc, target, v, perspective_divide(to_clip_space(projection_, triangle[v])), size_of(triangle));
@@ -331,10 +330,9 @@ void ProjectionStage::add_piece(const TriangleBatch& p_view, std::size_t index, 
   for (std::size_t v = 0; v < 3; ++v) {
     // A divisor that may be 0 leaves the quotient unknown.
     if (piece[v]->w.sign() <= 0)
-      throw InputError(
-          rounder_.location_of(locations[v]),
-          expected_but_found("a cut that 31 digits can tell from the eye plane (a larger near helps)",
-                             "one nearer to it"));
+      throw InputError(rounder_.location_of(locations[v]),
+                       "a cut that 31 digits can tell from the eye plane (a larger near helps)",
+                       "one nearer to it");
     PrintableNumber w;
     if (writes_w_) w = round_to_shortest(piece[v]->w, input_size);
     mixes[v] = {piece[v]->weights, w.hi};

@@ -49,9 +49,9 @@ ProjectionTransform perspective(const Perspective& p, const SourceLocation& loca
     const Ball fov_x_degrees = Ball(p.fov_y_degrees) * Ball(p.aspect);
     if (!is_inside_half_turn(fov_x_degrees))
       throw InputError(location,
-                       expected_but_found("fovX = fovY * aspect above 0 and below 180 degrees (or --aspect "
-                                          "ratio; in a scene, the word ratio at the end)",
-                                          shortest_text(p.fov_y_degrees) + " * " + shortest_text(p.aspect)));
+                       "fovX = fovY * aspect above 0 and below 180 degrees (or --aspect "
+                       "ratio; in a scene, the word ratio at the end)",
+                       shortest_text(p.fov_y_degrees) + " * " + shortest_text(p.aspect));
     transform.x_scale = cotangent_of_half(fov_x_degrees);
     transform.sides[0] = sides_by_scale(transform.x_scale);
   }
@@ -121,10 +121,8 @@ Projection volume_of(const Located<Projection>& projection, const ProjectionTran
   const double right = (Ball(transform.near) / transform.x_scale).nearest_double();
   const double top = (Ball(transform.near) / transform.y_scale).nearest_double();
   if (!std::isfinite(right) || !std::isfinite(top))
-    throw InputError(
-        projection.location,
-        expected_but_found("a perspective whose window is within a double's range",
-                           std::string("an overflow of its ") + (std::isfinite(right) ? "height" : "width")));
+    throw InputError(projection.location, "a perspective whose window is within a double's range",
+                     std::string("an overflow of its ") + (std::isfinite(right) ? "height" : "width"));
   return Frustum{-right, right, -top, top, transform.near, transform.far};
 }
 

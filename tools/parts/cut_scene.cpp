@@ -25,8 +25,7 @@ constexpr int kMaxParts = 99999;
 std::size_t size_of(const InputFile& scene) {
   struct stat status = {};
   if (::fstat(scene.descriptor(), &status) != 0 || !S_ISREG(status.st_mode))
-    throw UsageError("SCENE: " +
-                     expected_but_found("a file, whose size tells where to cut", "a pipe or a device"));
+    throw UsageError("SCENE", "a file, whose size tells where to cut", "a pipe or a device");
   return static_cast<std::size_t>(status.st_size);
 }
 
@@ -40,8 +39,7 @@ void make_empty_folder(const std::string& path) {
   std::filesystem::create_directories(path, error);
   const bool is_empty = !error && std::filesystem::is_empty(path, error);
   if (error) throw IoError("open", path, error.value());
-  if (!is_empty)
-    throw InputError({path}, expected_but_found("a new folder, or an empty one", "one with files in it"));
+  if (!is_empty) throw InputError({path}, "a new folder, or an empty one", "one with files in it");
 }
 
 /// The name of a part. All have the same length, so that a shell lists them in order.
@@ -53,8 +51,8 @@ std::string name_of_part(std::size_t part, std::size_t part_count) {
 std::uint64_t part_count_of(const std::string& word) {
   std::uint64_t part_count = 0;
   if (!parse_count(word, part_count) || part_count < 1 || part_count > kMaxParts)
-    throw UsageError("PARTS: " + expected_but_found("a whole number from 1 to " + std::to_string(kMaxParts),
-                                                    pipeline::quoted(word)));
+    throw UsageError("PARTS", "a whole number from 1 to " + std::to_string(kMaxParts),
+                     pipeline::quoted(word));
   return part_count;
 }
 

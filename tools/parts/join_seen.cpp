@@ -43,8 +43,7 @@ void join(const std::vector<std::string>& paths, bool expects_frame, Tool& tool)
       is_framed = part.header().framed;
       tool.output().append(*header);
     } else if (part.header_text() != *header) {
-      throw InputError(part.header_end(),
-                       expected_but_found("the header of the first text", "another one before here"));
+      throw InputError(part.header_end(), "the header of the first text", "another one before here");
     }
     copy_triangles(part, next_number, tool);
   }

@@ -22,6 +22,8 @@ namespace pipeline {
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  UsageError(const std::string& option, const std::string& expected, const std::string& found)
+      : std::runtime_error(option + ": " + expected_but_found(expected, found)) {}
 };
 
 /// Describes what is wrong with a word; empty if nothing is.

@@ -112,7 +112,7 @@ TextReader& Tool::input() {
 
 InputFile Tool::second_input(const std::string& path, const std::string& name) const {
   if (path == "-" && input_path_ == "-")
-    throw UsageError(name + ": " + expected_but_found("a file, as INPUT is standard input", "'-'"));
+    throw UsageError(name + "", "a file, as INPUT is standard input", "'-'");
   return InputFile(path);
 }
 

@@ -50,9 +50,8 @@ std::uint64_t first_number(const ModelOptions& chosen) {
   if (chosen.bare && chosen.framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
   std::uint64_t number = 0;
   if (!chosen.first.empty() && !parse_count(chosen.first, number))
-    throw UsageError("--first: " + expected_but_found("a whole number", quoted(chosen.first)));
-  if (chosen.bare && number > 0)
-    throw UsageError("--first: " + expected_but_found("no --bare, which writes no numbers", "both"));
+    throw UsageError("--first", "a whole number", quoted(chosen.first));
+  if (chosen.bare && number > 0) throw UsageError("--first", "no --bare, which writes no numbers", "both");
   return number;
 }
 
@@ -61,7 +60,7 @@ std::optional<std::size_t> belt_count(const std::string& given) {
   if (given.empty()) return std::nullopt;
   std::uint64_t count = 0;
   if (!parse_count(given, count) || count < SphereFacets::kMinBelts || count > SphereFacets::kMaxBelts)
-    throw UsageError("--facets: " + expected_but_found("a whole number from 2 to 10000", quoted(given)));
+    throw UsageError("--facets", "a whole number from 2 to 10000", quoted(given));
   return static_cast<std::size_t>(count);
 }
 
@@ -88,8 +87,8 @@ int model_main(int argc, char** argv) {
     tool.expect_separate({kStandardOutput, statistics.output()});
     const std::uint64_t first = first_number(chosen);
     if (chosen.bounds && (chosen.bare || !chosen.belts.empty()))
-      throw UsageError("--bounds: " + expected_but_found("neither --bare nor --facets with it",
-                                                         chosen.bare ? "--bare" : "--facets"));
+      throw UsageError("--bounds", "neither --bare nor --facets with it",
+                       chosen.bare ? "--bare" : "--facets");
     expect_kind(tool.input(), TextKind::scene);
     SceneReader scene(tool.input());
     ModelStage stage(scene, first,

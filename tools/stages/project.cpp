@@ -60,14 +60,13 @@ void ProjectOptions::add_clipping(CommandLine& options) {
 void check_inset(const ProjectOptions& chosen) {
   const bool has_planes = chosen.clip != ClipMode::automatic && chosen.clip != ClipMode::none;
   if (chosen.clip_inset > 0 && !has_planes)
-    throw UsageError("--clip-inset: " +
-                     expected_but_found("--clip near, frustum or reject with it", "none of these"));
+    throw UsageError("--clip-inset", "--clip near, frustum or reject with it", "none of these");
 }
 
 /// Turns the bounds of view space into those of NDC; a UsageError if an option excludes them.
 void add_rounding(Bounds& bounds, const ProjectOptions& chosen, CoordinateRounder& rounder) {
   const auto refuse = [](const std::string& option, const std::string& expected = "none") {
-    throw UsageError(option + ": " + expected_but_found(expected + " with bounds in the text", "another"));
+    throw UsageError(option, expected + " with bounds in the text", "another");
   };
   if (chosen.cull != CullMode::nothing) refuse("--cull");
   if (chosen.clip != ClipMode::automatic && chosen.clip != ClipMode::near) refuse("--clip", "auto or near");

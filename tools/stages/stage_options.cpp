@@ -51,7 +51,7 @@ CoordinateRounder NumberOptions::rounder(const std::string& file) const {
 
 ErrorBound NumberOptions::kept_bounds(CoordinateRounder& rounder) const {
   if (precision_ == Precision::in_doubles)
-    throw UsageError("--precision: " + expected_but_found("extended, as bounds need it", "'double'"));
+    throw UsageError("--precision", "extended, as bounds need it", "'double'");
   rounder.keep_bounds();
   return rounding_error(format());
 }
@@ -107,11 +107,11 @@ void LightOption::apply_to(Appearance& appearance) const {
     const std::size_t count = appearance.lights.size();
     std::uint64_t number = 0;
     if (!parse_count(at_[0], number) || number >= count)
-      throw UsageError("--light-at: " +
-                       expected_but_found(count == 0   ? "a scene with a light"
-                                          : count == 1 ? "0, the scene's one light"
-                                                       : "a light from 0 to " + std::to_string(count - 1),
-                                          pipeline::quoted(at_[0])));
+      throw UsageError("--light-at",
+                       count == 0   ? "a scene with a light"
+                       : count == 1 ? "0, the scene's one light"
+                                    : "a light from 0 to " + std::to_string(count - 1),
+                       pipeline::quoted(at_[0]));
     Appearance moved;
     add_light("--light-at", {at_[1], at_[2], at_[3], "0", "0", "0"}, moved);
     appearance.lights[number].value.position = moved.lights[0].value.position;
@@ -133,9 +133,9 @@ Located<Projection> ProjectionOptions::projection(const StageReader& reader, con
   const CameraParameters camera = camera_.camera(reader.header().camera, tool);
   if (!camera.projection)
     throw InputError(reader.header_end(),
-                     expected_but_found("a projection (a header line perspective, frustum or ortho; or "
-                                        "--scene; or --perspective, --frustum or --ortho)",
-                                        "none" + reason_without_camera(reader)));
+                     "a projection (a header line perspective, frustum or ortho; or --scene; or "
+                     "--perspective, --frustum or --ortho)",
+                     "none" + reason_without_camera(reader));
   Located<Projection> projection = *camera.projection;
   if (auto* perspective = std::get_if<Perspective>(&projection.value); perspective != nullptr && aspect_)
     perspective->aspect_rule = *aspect_;

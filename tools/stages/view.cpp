@@ -36,10 +36,8 @@ ViewTransform view_of(const CameraParameters& camera, const StageReader& reader)
   if (!camera.up) missing.emplace_back("up");
   if (!missing.empty())
     throw InputError(reader.header_end(),
-                     expected_but_found("a camera (header lines eye, look and up; or --scene; or --eye, "
-                                        "--look and --up)",
-                                        "no " + listed(missing) +
-                                            (missing.size() == 3 ? reason_without_camera(reader) : "")));
+                     "a camera (header lines eye, look and up; or --scene; or --eye, --look and --up)",
+                     "no " + listed(missing) + (missing.size() == 3 ? reason_without_camera(reader) : ""));
   return view_from_world(camera.eye->value, camera.look->value, camera.up->value);
 }
 
@@ -55,8 +53,7 @@ double row_sum(const ViewTransform& view) {
 Bounds bounds_in_view(const Located<Bounds>& world, const ViewTransform& view, const ErrorBound& rounding) {
   const ErrorBound error = error_in_view(world.value.error, view.eye, row_sum(view), rounding);
   if (!std::isfinite(error.absolute) || !std::isfinite(error.relative))
-    throw InputError(world.location,
-                     expected_but_found("bounds that stay finite in view space", "larger ones"));
+    throw InputError(world.location, "bounds that stay finite in view space", "larger ones");
   return {error, {}, "view"};
 }
 
