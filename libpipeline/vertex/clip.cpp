@@ -1,6 +1,7 @@
 #include "libpipeline/vertex/clip.h"
 
-#include <optional>
+#include <algorithm>
+#include <bit>
 
 #include "libpipeline/numbers/exact_sum.h"
 
@@ -45,15 +46,13 @@ Ball distance_by_coordinates(ClipPlane plane, const ClipVertex& vertex) {
 Ball distance_from_end(int sign, const ClipVertex::Origin& vertex) {
   const double d = -vertex.p_view.z, inset = vertex.clip_inset;
   const double near = vertex.projection->near, far = vertex.projection->far;
-  const Ball scaled = vertex.projection->is_perspective ? exact_sum({{-2.0 * sign, d, sign < 0 ? far : near},
-                                                                     {2.0 * sign, near, far},
-                                                                     {-inset, d, far},
-                                                                     {inset, d, near}})
-                                                        : exact_sum({{-2.0 * sign, d, 1},
-                                                                     {2.0 * sign, sign < 0 ? near : far, 1},
-                                                                     {-inset, far, 1},
-                                                                     {inset, near, 1}});
-  return scaled / (Ball(far) - near);
+  const bool is_perspective = vertex.projection->is_perspective;
+  const double w = is_perspective ? d : 1, other = !is_perspective ? 1 : sign < 0 ? far : near;
+  return exact_sum({{-2.0 * sign, d, other},
+                    {2.0 * sign, sign < 0 ? near : far, other},
+                    {-inset, w, far},
+                    {inset, w, near}}) /
+         (Ball(far) - near);
 }
 
 /// The distance from the low side (`sign` -1) or the high one of an axis, at w before the inset.
@@ -170,6 +169,16 @@ unsigned outcode(const ClipVertex& vertex) {
   return code;
 }
 
+Outcodes outcodes(std::span<const ClipVertex> polygon) {
+  Outcodes codes;
+  for (const ClipVertex& vertex : polygon) {
+    const unsigned code = outcode(vertex);
+    codes.any |= code;
+    codes.all &= code;
+  }
+  return codes;
+}
+
 std::vector<ClipVertex> clip_polygon(std::span<const ClipVertex> polygon, std::span<const ClipPlane> planes) {
   std::vector<ClipVertex> inside(polygon.begin(), polygon.end());
   for (const ClipPlane plane : planes) {
@@ -177,6 +186,32 @@ std::vector<ClipVertex> clip_polygon(std::span<const ClipVertex> polygon, std::s
     inside = clip_at(plane, inside);
   }
   return inside;
+}
+
+ViewVolume::ViewVolume(const ProjectionTransform& projection, double clip_inset)
+    : projection_(projection),
+      clip_inset_(clip_inset),
+      coefficients_(coefficients_of(projection, clip_inset)) {}
+
+std::optional<UnseenPlace> ViewVolume::outside(const Triangle& p_view) const {
+  if (projection_.is_perspective &&
+      std::all_of(p_view.begin(), p_view.end(), [](const Vec3& p) { return p.z >= 0; }))
+    return UnseenPlace::behind;
+  const CertainSides sides = certain_sides(coefficients_, p_view);
+  if (sides.some_unsure == 0) return std::nullopt;
+  if (const int first = std::countr_zero(sides.none_inside);
+      first < 6 && (sides.all_outside >> first & 1u) != 0)
+    return kAllClipPlanes[static_cast<std::size_t>(first)];
+  std::vector<ClipVertex> polygon;
+  for (const Vec3& p : p_view) polygon.push_back(to_clip_space(projection_, p, clip_inset_));
+  const auto [any, all] = outcodes(polygon);
+  if (any == 0) return std::nullopt;
+  if (all != 0) return kAllClipPlanes[static_cast<std::size_t>(std::countr_zero(all))];
+  for (const ClipPlane plane : kAllClipPlanes) {
+    polygon = clip_polygon(polygon, std::span(&plane, 1));
+    if (polygon.empty()) return plane;
+  }
+  return std::nullopt;
 }
 
 }  // namespace pipeline

@@ -40,38 +40,11 @@ int winding_sign(const Triangle& p_view, bool is_perspective) {
       .sign();
 }
 
-/// The nearest double if products with it stay in range, and within one rounding of products with the number
-/// itself; else NaN, which fails every rounding test.
-double safe_double(const Ball& number) {
-  if (number.is_exact_zero()) return 0;
-  const double nearest = number.nearest_double();
-  const double size = std::fabs(nearest);
-  const bool is_fine = size > 0x1p-500 && size < 0x1p500 && number.radius() <= kUnitRoundoff * size;
-  return is_fine ? nearest : std::numeric_limits<double>::quiet_NaN();
-}
-
 /// For messages, the location of the corner with the largest weight in a piece's vertex.
 // N4
 LineAndColumn location_of(const ClipVertex& vertex, const VertexLocations& corners) {
   const auto heaviest = std::max_element(vertex.weights.begin(), vertex.weights.end());
   return corners[static_cast<std::size_t>(heaviest - vertex.weights.begin())];
-}
-
-/// The corners of a triangle relative to the clip planes, as outcodes: the planes with at least one corner
-/// outside, and the planes with all corners outside.
-struct TriangleOutcode {
-  unsigned any = 0;
-  unsigned all = ~0u;
-};
-
-TriangleOutcode outcode(const std::array<ClipVertex, 3>& corners) {
-  TriangleOutcode code;
-  for (const ClipVertex& corner : corners) {
-    const unsigned corner_code = outcode(corner);
-    code.any |= corner_code;
-    code.all &= corner_code;
-  }
-  return code;
 }
 
 BallVec3 point_of(const ClipVertex& vertex) {
@@ -85,28 +58,6 @@ BallVec3 perspective_divide(const ClipVertex& p_clip) {
 }
 
 }  // namespace
-
-ProjectionCoefficients coefficients_of(const ProjectionTransform& projection, double clip_inset) {
-  const Ball near = projection.near;
-  const Ball far = projection.far;
-  const Ball z_scale = (projection.is_perspective ? -(far + near) : Ball(-2)) / (far - near);
-  const Ball z_offset = (projection.is_perspective ? Ball(-2) * far * near : -(far + near)) / (far - near);
-  ProjectionCoefficients coefficients;
-  coefficients.is_perspective = projection.is_perspective;
-  const std::array<Ball, 3> scales = {projection.x_scale, projection.y_scale, z_scale};
-  const std::array<Ball, 3> offsets = {projection.x_offset, projection.y_offset, z_offset};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    coefficients.scales[axis] = Coefficient(scales[axis]);
-    coefficients.scales[axis].value = safe_double(scales[axis]);
-    coefficients.offsets[axis] = Coefficient(offsets[axis]);
-    coefficients.offsets[axis].value = safe_double(offsets[axis]);
-  }
-  coefficients.near = projection.near;
-  coefficients.far = projection.far;
-  coefficients.depth_range = safe_double(far - near);
-  coefficients.clip_w = 1 - clip_inset;
-  return coefficients;
-}
 
 ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull,
                                  CoordinateRounder& rounder, double clip_inset)
@@ -267,7 +218,7 @@ std::vector<ClipVertex> ProjectionStage::clipped(const std::array<ClipVertex, 3>
 // P10, P11
 void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
   const auto& corners = corners_ = corners_in_clip_space(p_view.triangles[index]);
-  const TriangleOutcode outside = outcode(corners);
+  const Outcodes outside = outcodes(corners);
   if ((outside.all & planes()) != 0) return drop_outside(p_view, index, p_ndc);
   if ((outside.any & planes()) == 0 || clip_ == ClipMode::reject)
     return project_unclipped(p_view, index, p_ndc);

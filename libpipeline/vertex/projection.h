@@ -35,10 +35,6 @@ struct ProjectionCounts {
   std::uint64_t culled = 0;   // triangles dropped by their winding
 };
 
-/// The kernels' coefficients (vertex_kernel.h). A scale or an offset is NaN, which fails every test, if
-/// products with it may leave a double's range.
-ProjectionCoefficients coefficients_of(const ProjectionTransform& projection, double clip_inset = 0);
-
 /// The project stage: view space to NDC, by way of clip space.
 class ProjectionStage {
  public:

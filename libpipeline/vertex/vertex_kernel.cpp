@@ -148,6 +148,19 @@ PIPELINE_END_KERNELS();
 #if HWY_ONCE
 
 namespace pipeline {
+namespace {
+
+/// The nearest double if products with it stay in range, and within one rounding of products with the number
+/// itself; else NaN, which fails every rounding test.
+double safe_double(const Ball& number) {
+  if (number.is_exact_zero()) return 0;
+  const double nearest = number.nearest_double();
+  const double size = std::fabs(nearest);
+  const bool is_fine = size > 0x1p-500 && size < 0x1p500 && number.radius() <= kUnitRoundoff * size;
+  return is_fine ? nearest : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
 
 Coefficient::Coefficient(const Ball& number) {
   if (number.is_exact_zero()) return;
@@ -161,6 +174,28 @@ Coefficient::Coefficient(const Ball& number) {
   // passes the test is not a tie for the ball.
   pair_error = number.exponent() == 0 ? 0x1p-94 * std::fabs(value) + 8 * number.radius()
                                       : std::numeric_limits<double>::quiet_NaN();
+}
+
+ProjectionCoefficients coefficients_of(const ProjectionTransform& projection, double clip_inset) {
+  const Ball near = projection.near;
+  const Ball far = projection.far;
+  const Ball z_scale = (projection.is_perspective ? -(far + near) : Ball(-2)) / (far - near);
+  const Ball z_offset = (projection.is_perspective ? Ball(-2) * far * near : -(far + near)) / (far - near);
+  ProjectionCoefficients coefficients;
+  coefficients.is_perspective = projection.is_perspective;
+  const std::array<Ball, 3> scales = {projection.x_scale, projection.y_scale, z_scale};
+  const std::array<Ball, 3> offsets = {projection.x_offset, projection.y_offset, z_offset};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    coefficients.scales[axis] = Coefficient(scales[axis]);
+    coefficients.scales[axis].value = safe_double(scales[axis]);
+    coefficients.offsets[axis] = Coefficient(offsets[axis]);
+    coefficients.offsets[axis].value = safe_double(offsets[axis]);
+  }
+  coefficients.near = projection.near;
+  coefficients.far = projection.far;
+  coefficients.depth_range = safe_double(far - near);
+  coefficients.clip_w = 1 - clip_inset;
+  return coefficients;
 }
 
 constinit const KernelTable<const VertexKernel*> kVertexKernels = PIPELINE_KERNEL_TABLE(kKernel);

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "libpipeline/numbers/ball.h"
 #include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
 
@@ -115,6 +115,10 @@ struct ProjectionCoefficients {
   double depth_range = 0;  // far - near
   double clip_w = 1;       // w times this bounds the clip volume
 };
+
+/// A scale or an offset is NaN, which fails every test, if products with it may leave a double's range. The
+/// planes of the clip volume are pulled in by `clip_inset`.
+ProjectionCoefficients coefficients_of(const ProjectionTransform& projection, double clip_inset = 0);
 
 /// A unit vector's image that is shorter may be nothing but rounding errors.
 constexpr double kNearlyLost = 0x1p-40;

@@ -59,12 +59,8 @@ void check(FuzzBytes bytes) {
   const Polygon cut = clipped_at(plane, triangle);
   check_same_corners(cut, clipped_at(plane, {b, c, a}));
   check_same_corners(cut, clipped_at(plane, {c, b, a}));
-  unsigned common = ~0u, any = 0;
-  for (const ClipVertex& v : triangle) {
-    common &= outcode(v);
-    any |= outcode(v);
-  }
-  if (common != 0) require(inside.empty(), "nothing is left of what lies outside of one plane");
+  const auto [any, all] = outcodes(triangle);
+  if (all != 0) require(inside.empty(), "nothing is left of what lies outside of one plane");
   if (any == 0) require(is_same(inside, triangle), "what lies inside of all planes is unchanged");
 }
 

@@ -1,4 +1,4 @@
-#include "libpipeline/vertex/view_volume.h"
+#include "libpipeline/vertex/clip.h"
 
 #include <gtest/gtest.h>
 

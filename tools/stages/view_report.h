@@ -7,7 +7,6 @@
 #include "libpipeline/scene/camera.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/projection.h"
-#include "libpipeline/vertex/view_volume.h"
 #include "tools/rim/statistics.h"
 
 namespace pipeline {
