@@ -125,6 +125,7 @@ std::size_t LostDigits::count_between_rows(std::span<const Triangle> p_ndc) cons
 /// Chooses the rows, and looks at the triangles that are kept.
 void LostDigits::look_at_kept() {
   look_for_decimals();
+  coefficients_ = coefficients_of(projection_);
   for (std::size_t few = kSmallestScene; few < kSmallScene && kept_.size() > few; few *= 2) ys_.thin_out();
   rows_.resize(ys_.count);
   const std::size_t most_work = kept_.size() > kSmallScene ? kWorkForLarge : kMostWork;
@@ -209,12 +210,10 @@ void LostDigits::look_at(Place& place, double z, Surface& surface, std::uint32_t
 void LostDigits::undo_rounding(Surface& surface) const {
   constexpr double kSame = 1e-6;
   const Triangle whole = projected(surface.p_view);
-  bool is_whole = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 &p = whole[i], &q = surface.p_ndc[i];
-    is_whole &= std::fabs(p.x - q.x) + std::fabs(p.z - q.z) < kSame;
-  }
-  if (is_whole) {
+  const auto are_same = [](const Vec3& p, const Vec3& q) {
+    return std::fabs(p.x - q.x) + std::fabs(p.z - q.z) < kSame;
+  };
+  if (std::ranges::equal(whole, surface.p_ndc, are_same)) {
     surface.plane = Plane(surface.p_ndc = whole);
     return;
   }
@@ -226,17 +225,11 @@ void LostDigits::undo_rounding(Surface& surface) const {
 }
 
 Triangle LostDigits::projected(const Triangle& p_view) const {
-  const auto& [is_perspective, x_scale, x_offset, y_scale, y_offset, near, far, sides] = projection_;
-  Triangle p_ndc;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& p = p_view[i];
-    const double d = -p.z, w = is_perspective ? d : 1, q = is_perspective ? p.z : 1;
-    p_ndc[i] = {(x_scale.nearest_double() * p.x + x_offset.nearest_double() * q) / w,
-                (y_scale.nearest_double() * p.y + y_offset.nearest_double() * q) / w,
-                is_perspective ? ((d - near) * far - (far - d) * near) / (d * (far - near))
-                               : ((d - near) - (far - d)) / (far - near)};
-  }
-  return p_ndc;
+  VertexBlock vertices;
+  ImageBlock p_ndc;
+  vertices.fill({&p_view, 1});
+  vertex_kernel().project(coefficients_, {}, vertices, p_ndc);
+  return p_ndc.triangle(0);
 }
 
 /// A bound on the error, from lost digits, of a plane's depth where it is `z`. Model and view have rounded

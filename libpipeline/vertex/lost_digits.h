@@ -9,6 +9,7 @@
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/transform.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 namespace pipeline {
 
@@ -123,6 +124,7 @@ class LostDigits {
   [[nodiscard]] double wrong_share(const Place& place, double x, double y, unsigned first_trial) const;
 
   ProjectionTransform projection_;
+  ProjectionCoefficients coefficients_;  // set with the rows
   ViewFromClip view_from_clip_;
   double x_scale_, y_scale_;
   std::optional<int> decimals_;  // of the text written
