@@ -49,21 +49,28 @@ void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t
                             CoordinateRounder& rounder) const {
   if (is_identity_) return;
   RoundingTest test = rounder.rounding_test();
-  TransformedBlock block;
+  VertexBlock p;
+  ImageBlock image;
   const std::size_t end_of_triangles = std::min(end, batch.size());
   std::size_t i = begin;
   try {
     while (i < end_of_triangles) {
       const std::size_t count = std::min(end_of_triangles - i, VertexBlock::kTriangles);
-      block.first_triangle = i;
-      block.p.fill(std::span(batch.triangles).subspan(i, count));
-      vertex_kernel().transform(coefficients_, test, block.p, block.image);
+      p.fill(std::span(batch.triangles).subspan(i, count));
+      vertex_kernel().transform(coefficients_, test, p, image);
       // Doubles cannot decide the last decimal of numbers this large, and more of them will follow.
-      if (!test.needs_pairs && block.image.passes_rounding_test[0] == 0) {
+      if (!test.needs_pairs && image.passes_rounding_test[0] == 0) {
         test.needs_pairs = true;
-        vertex_kernel().transform(coefficients_, test, block.p, block.image);
+        vertex_kernel().transform(coefficients_, test, p, image);
       }
-      for (std::size_t index = 0; index < count; ++index, ++i) set_image(batch, block, index, rounder);
+      for (std::size_t index = 0; index < count; ++index, ++i)
+        for (std::size_t v = 0; v < 3; ++v)
+          if (const std::size_t at = 3 * index + v; image.passes_rounding_test[at] != 0)
+            batch.triangles[i][v] = image.vertex(at);
+          else
+            rounder.set_vertex_exactly(batch, i, v,
+                                       apply_in_balls(matrix_, coefficients_.origin, p.vertex(at)),
+                                       size_of(p.triangle(index)));
     }
     for (; i < end; ++i) apply(batch.spheres[i - batch.size()], rounder);
   } catch (...) {
@@ -85,22 +92,6 @@ void VertexTransform::apply(Sphere& sphere, CoordinateRounder& rounder) const {
                                         sphere.locations[v], size_of(p.triangle(v / 3)));
     sphere.points[v] = rounded.p;
     sphere.low_parts[v] = rounded.low_part;
-  }
-}
-
-/// Replaces triangle `index` of a block by its image; recalculates vertices that failed the rounding test.
-void VertexTransform::set_image(TriangleBatch& batch, const TransformedBlock& block, std::size_t index,
-                                CoordinateRounder& rounder) const {
-  const std::size_t triangle = block.first_triangle + index;
-  for (std::size_t v = 0; v < 3; ++v) {
-    const std::size_t i = 3 * index + v;
-    if (block.image.passes_rounding_test[i] != 0) {
-      batch.triangles[triangle][v] = block.image.vertex(i);
-    } else {
-      const double input_size = size_of(block.p.triangle(index));
-      const BallVec3 image = apply_in_balls(matrix_, coefficients_.origin, block.p.vertex(i));
-      rounder.set_vertex_exactly(batch, triangle, v, image, input_size);
-    }
   }
 }
 

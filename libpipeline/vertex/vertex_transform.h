@@ -29,15 +29,6 @@ class VertexTransform {
   [[nodiscard]] const AffineMatrix& matrix() const { return matrix_; }
 
  private:
-  /// Some triangles of a batch, from `first_triangle` on, and their images by a kernel.
-  struct TransformedBlock {
-    std::size_t first_triangle = 0;
-    VertexBlock p;
-    ImageBlock image;
-  };
-
-  void set_image(TriangleBatch& batch, const TransformedBlock& block, std::size_t index,
-                 CoordinateRounder& rounder) const;
   void apply(Sphere& sphere, CoordinateRounder& rounder) const;
   void set_coefficients();
 
