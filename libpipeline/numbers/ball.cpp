@@ -24,10 +24,6 @@ Ball::Ball(double value) : value_{value, 0} {
   if (value != 0 && (size > kSafeMax || size < kSafeMin)) *this = normalized(value_, 0, 0);
 }
 
-Ball Ball::with_error(DoubleDouble value, double error, std::int64_t exponent) {
-  return normalized(value, error, exponent);
-}
-
 /// The general case; the larger of the midpoint and the error sets the exponent.
 Ball Ball::normalized_anew(DoubleDouble value, double error, std::int64_t exponent) {
   const double leading = std::max(std::fabs(value.hi), error);

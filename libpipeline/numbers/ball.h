@@ -21,7 +21,9 @@ class Ball {
   /// Exactly `value`, which must be finite; subnormal numbers included.
   Ball(double value);  // NOLINT(google-explicit-constructor): a double is a ball of radius 0
   /// (value +- error) * 2^exponent, value and error within the normal range of a double.
-  static Ball with_error(DoubleDouble value, double error, std::int64_t exponent = 0);
+  static Ball with_error(DoubleDouble value, double error, std::int64_t exponent = 0) {
+    return normalized(value, error, exponent);
+  }
 
   friend Ball operator+(const Ball& a, const Ball& b) {
     if (a.is_exact_zero()) return b;

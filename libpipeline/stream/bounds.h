@@ -1,12 +1,11 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "libpipeline/numbers/decimal_units.h"
-#include "libpipeline/numbers/vec.h"
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
@@ -51,8 +50,7 @@ inline ErrorBound rounding_error(NumberFormat format) {
 inline ErrorBound error_in_view(const ErrorBound& world, const Vec3& eye, double row_sum,
                                 const ErrorBound& own) {
   constexpr double kRoot3 = 1.7320509;
-  const double eye_size = std::fmax(std::fabs(eye.x), std::fmax(std::fabs(eye.y), std::fabs(eye.z)));
-  const double size_error = world.relative * (eye_size + kRoot3 * own.absolute);
+  const double size_error = world.relative * (largest_in(eye) + kRoot3 * own.absolute);
   return {(row_sum * (world.absolute + size_error) + own.absolute) * ErrorBound::kRoundUp,
           (row_sum * kRoot3 * world.relative * (1 + own.relative) + own.relative) * ErrorBound::kRoundUp};
 }

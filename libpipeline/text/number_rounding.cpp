@@ -80,9 +80,8 @@ PrintableNumber round_wide_to_shortest(const Ball& ball, double input_size) {
 PrintableNumber round_to_text(const Ball& ball, NumberFormat format, double input_size) {
   if (format.shortest) return round_to_shortest(ball, input_size);
   const double nearest = ball.nearest_double();
-  if (!std::isfinite(nearest)) return {nearest, 0, true};
   // A negative exponent means a number far below half a unit in the last decimal, for any count of decimals.
-  if (ball.exponent() < 0) return {nearest, 0, true};
+  if (!std::isfinite(nearest) || ball.exponent() < 0) return {nearest, 0, true};
   if (ball.exponent() > 0) {
     const int shift = static_cast<int>(ball.exponent());
     const DoubleDouble value = {nearest, std::ldexp(ball.value().lo, shift)};

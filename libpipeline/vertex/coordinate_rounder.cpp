@@ -31,10 +31,9 @@ RoundingTest CoordinateRounder::rounding_test() const {
           format_.decimals > kMaxDecimalsOfDoubles};
 }
 
-void CoordinateRounder::expect_finite(double coordinate, const char* name, LineAndColumn vertex) const {
+void CoordinateRounder::expect_finite(double coordinate, char name, LineAndColumn vertex) const {
   if (std::isfinite(coordinate)) return;
-  std::string found = "an overflow of its ";
-  found += name;
+  const std::string found = std::string("an overflow of its ") + name;
   throw InputError(location_of(vertex), "a vertex whose image is within a double's range", found);
 }
 
@@ -60,9 +59,9 @@ RoundedVertex CoordinateRounder::rounded_exactly(const BallVec3& p, LineAndColum
   const PrintableNumber x = round_to_text(p.x, format_, size);
   const PrintableNumber y = round_to_text(p.y, format_, size);
   const PrintableNumber z = round_to_text(p.z, format_, size);
-  expect_finite(x.hi, "x", location);
-  expect_finite(y.hi, "y", location);
-  expect_finite(z.hi, "z", location);
+  expect_finite(x.hi, 'x', location);
+  expect_finite(y.hi, 'y', location);
+  expect_finite(z.hi, 'z', location);
   if (!(is_certain && x.is_certain && y.is_certain && z.is_certain)) add_uncertain(location, p, input_size);
   return {{x.hi, y.hi, z.hi}, {x.lo, y.lo, z.lo}};
 }

@@ -79,7 +79,7 @@ class CoordinateRounder {
   }
 
  private:
-  void expect_finite(double coordinate, const char* name, LineAndColumn vertex) const;
+  void expect_finite(double coordinate, char name, LineAndColumn vertex) const;
   [[nodiscard]] static double size_within_bounds(double input_size, const BallVec3& p);
 
   Precision precision_;
