@@ -21,23 +21,18 @@ SceneReader::SceneReader(TextReader& text) : text_(text) {
 }
 
 Located<Vec3> SceneReader::read_camera_vec3(const std::string& name) {
-  next_argument_line(name + " (three numbers)");
+  text_.expect_word(line_, name + " (three numbers)");
   const SourceLocation location = line_.location();
   return {line_.vec3(name), location};
 }
 
 Located<Projection> SceneReader::read_camera_projection() {
-  next_argument_line("fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F)");
+  text_.expect_word(line_, "fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F)");
   const std::string_view first = line_.peek();
   const bool is_named = first == "ortho" || first == "frustum";
   if (is_named) line_.word();
   const SourceLocation location = line_.location();
   return {read_projection(is_named ? first : "perspective", line_), location};
-}
-
-/// Moves on to the next line that is not blank, unless a word is left on the command's own line.
-void SceneReader::next_argument_line(std::string_view expected, std::string_view of) {
-  if (line_.at_end()) text_.expect_filled_line(line_, expected, of);
 }
 
 std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>& p_model,
@@ -72,7 +67,8 @@ Command SceneReader::next() {
   if (argument_lines == 0)
     line_.expect_end(quoted(word));
   else if (argument_lines == 1)  // messages name a triangle's lines otherwise
-    arguments.empty() ? next_argument_line("the arguments of ", word) : next_argument_line(arguments);
+    arguments.empty() ? text_.expect_word(line_, "the arguments of ", word)
+                      : text_.expect_word(line_, arguments);
   switch (kind) {
     case CommandKind::object:
       if (word == "sphere") return read_sphere();
@@ -201,7 +197,7 @@ TriangleCommand SceneReader::read_triangle() {
   const bool has_attributes = appearance_.attributes.has_value();
   TriangleCommand command;
   for (std::size_t i = 0; i < 3; ++i) {
-    next_argument_line(kVertexNames[i]);
+    text_.expect_word(line_, kVertexNames[i]);
     command.locations[i] = {line_.line_number(), line_.column()};
     if (has_attributes) {
       read_vertex(i);
@@ -230,7 +226,7 @@ SphereCommand SceneReader::read_sphere() {
     return std::isfinite(coordinate + radius) && coordinate + radius > coordinate;
   };
   command.radius = number_where(
-      line_, {"a radius"}, "above 0 that changes the coordinates of the center", [&](double radius) {
+      line_, "a radius", "above 0 that changes the coordinates of the center", [&](double radius) {
         return is_seen_in(center.x, radius) && is_seen_in(center.y, radius) && is_seen_in(center.z, radius);
       });
   line_.expect_end("the radius of the sphere");

@@ -95,7 +95,6 @@ class SceneReader {
  private:
   Located<Vec3> read_camera_vec3(const std::string& name);
   Located<Projection> read_camera_projection();
-  void next_argument_line(std::string_view expected, std::string_view of = {});
   TriangleCommand read_triangle();
   void read_vertex(std::size_t index);
   [[nodiscard]] bool is_allowed(const SceneCommand& command) const;

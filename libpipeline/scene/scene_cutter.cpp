@@ -27,11 +27,6 @@ void write_repeated(TextWriter& part, std::string_view command, std::uint64_t co
   for (; count > 0; --count) part.append(command);
 }
 
-/// Moves on to the next line that is not blank, unless a word is left on this one.
-void next_argument_line(TextReader& text, LineScanner& line, std::string_view keyword) {
-  if (line.at_end()) text.expect_filled_line(line, "the arguments of ", keyword);
-}
-
 }  // namespace
 
 SceneCutter::SceneCutter(TextReader& text) : text_(text) {
@@ -113,7 +108,7 @@ void SceneCutter::carry_out(TextWriter* part) {
     line_.expect_end("'pop'");
     pop(at_keyword);
   } else {
-    next_argument_line(text_, line_, keyword);
+    text_.expect_word(line_, "the arguments of ", keyword);
     (command += line_.rest()) += '\n';
     if (kind == CommandKind::transform)
       levels_.back().text += command;
@@ -155,7 +150,7 @@ void SceneCutter::copy_triangle(TextWriter& part) {
   const std::string keyword(line_.word());
   part.append(keyword + "\n");
   for (int count = find_scene_command(keyword)->argument_lines; count > 0; --count) {
-    next_argument_line(text_, line_, keyword);
+    text_.expect_word(line_, "the arguments of ", keyword);
     part.append(line_.rest());
     part.append("\n");
     line_ = LineScanner();

@@ -87,6 +87,10 @@ class TextReader {
   bool next_line(LineScanner& line);
   /// Finds the next line that holds a word; false at the end of the text.
   bool next_filled_line(LineScanner& line);
+  /// Finds such a line unless a word is left on `line`, as a command's arguments may follow on its line.
+  void expect_word(LineScanner& line, std::string_view expected, std::string_view word = {}) {
+    if (line.at_end()) expect_filled_line(line, expected, word);
+  }
   /// Finds that line; at the end of the text, an InputError names `expected`, followed by `word` in quotes.
   void expect_filled_line(LineScanner& line, std::string_view expected, std::string_view word = {});
   /// True if the next `count` lines that hold a word are buffered, so that reading them will not block.
