@@ -8,7 +8,8 @@ namespace pipeline {
 namespace {
 
 double number_from_zero(LineScanner& line, std::string_view name, std::string_view of = {}) {
-  return number_where(line, {name, of}, "of at least 0", [](double value) { return value >= 0; });
+  return number_where(
+      line, name, "of at least 0", [](double value) { return value >= 0; }, of);
 }
 
 Vec3 read_intensity(LineScanner& line, std::string_view of) {
@@ -24,7 +25,7 @@ Background read_background(LineScanner& line) {
   Background background;
   background.color = read_color(line, "the background");
   if (!line.at_end())
-    background.alpha = number_where(line, {"the alpha of the background"}, "from 0 to 255",
+    background.alpha = number_where(line, "the alpha of the background", "from 0 to 255",
                                     [](double value) { return value >= 0 && value <= 255; });
   line.expect_end("the alpha of the background");
   return background;
@@ -55,15 +56,12 @@ Material read_material(LineScanner& line) {
   material.diffuse = number_from_zero(line, "the diffuse factor");
   material.specular = number_from_zero(line, "the specular factor");
   material.shininess = line.whole("the shininess, a whole number below 2^64");
-  if (line.at_end()) {
-    line.expect_end("the shininess");
-    return material;
-  }
+  if (line.at_end()) return material;
   const auto is_part = [](double value) { return value >= 0 && value <= 1; };
   const auto is_index = [](double value) { return value >= 0.01 && value <= 100; };
-  material.reflectance = number_where(line, {"the reflectance"}, "from 0 to 1", is_part);
-  material.index = number_where(line, {"the refractive index"}, "from 0.01 to 100", is_index);
-  material.alpha = number_where(line, {"the alpha"}, "from 0 to 1", is_part);
+  material.reflectance = number_where(line, "the reflectance", "from 0 to 1", is_part);
+  material.index = number_where(line, "the refractive index", "from 0.01 to 100", is_index);
+  material.alpha = number_where(line, "the alpha", "from 0 to 1", is_part);
   line.expect_end("the alpha");
   return material;
 }
@@ -87,19 +85,15 @@ Light read_light(LineScanner& line) {
   return light;
 }
 
-template <typename T, typename Read>
-void set_once(std::optional<Located<T>>& part, std::string_view keyword,
-              const SourceLocation& keyword_location, const LineScanner& line, Read&& read) {
-  if (part) throw given_twice(quoted(keyword), part->location, keyword_location);
-  const SourceLocation location = line.location();
-  part = {read(), location};
-}
-
 }  // namespace
 
 void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                           AttributeSource source, Appearance& appearance) {
-  const auto set = [&](auto& part, auto&& read) { set_once(part, keyword, keyword_location, line, read); };
+  const SourceLocation location = line.location();
+  const auto set = [&](auto& part, auto&& read) {
+    if (part) throw given_twice(quoted(keyword), part->location, keyword_location);
+    part = {read(), location};
+  };
   if (keyword == "attributes") {
     set(appearance.attributes, [&] { return read_attributes(line, source); });
   } else if (keyword == "background") {
@@ -107,7 +101,6 @@ void read_appearance_part(std::string_view keyword, const SourceLocation& keywor
   } else if (keyword == "ambient") {
     set(appearance.ambient, [&] { return read_intensity(line, "the ambient light"); });
   } else if (keyword == "material") {
-    const SourceLocation location = line.location();
     appearance.materials.push_back({read_material(line), location});
     appearance.last_absorption = appearance.last_paint = std::nullopt;
   } else if (keyword == "absorption" || keyword == "paint") {
@@ -115,7 +108,7 @@ void read_appearance_part(std::string_view keyword, const SourceLocation& keywor
       throw InputError(keyword_location, "'material' before " + quoted(keyword), "none");
     auto& last = keyword == "paint" ? appearance.last_paint : appearance.last_absorption;
     if (last) throw given_twice(quoted(keyword), *last, keyword_location);
-    last = line.location();
+    last = location;
     Material& material = appearance.materials.back().value;
     if (keyword == "absorption") {
       material.absorption = read_intensity(line, "the absorption");
@@ -127,7 +120,6 @@ void read_appearance_part(std::string_view keyword, const SourceLocation& keywor
     set(appearance.attenuation, [&] { return read_attenuation(line); });
   } else {
     assert(keyword == "light");
-    const SourceLocation location = line.location();
     appearance.lights.push_back({read_light(line), location});
   }
 }

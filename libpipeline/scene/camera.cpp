@@ -17,18 +17,18 @@ std::string to_text(const Vec3& v) {
 }
 
 double number_above_zero(LineScanner& line, std::string_view name) {
-  return number_where(line, {name}, "above 0", [](double value) { return value > 0; });
+  return number_where(line, name, "above 0", [](double value) { return value > 0; });
 }
 
 double number_other_than(double other, std::string_view other_name, LineScanner& line,
                          std::string_view name) {
   const std::string condition = "other than " + std::string(other_name);
-  return number_where(line, {name}, condition, [&](double value) { return value != other; });
+  return number_where(line, name, condition, [&](double value) { return value != other; });
 }
 
 /// Takes `far`, the last number of every projection.
 double far_beyond(double near, LineScanner& line) {
-  return number_where(line, {"far"}, "beyond near", [&](double value) { return value > near; });
+  return number_where(line, "far", "beyond near", [&](double value) { return value > near; });
 }
 
 /// Takes the optional aspect rule after a perspective's numbers, to the end of the line.
@@ -47,7 +47,7 @@ AspectRule read_aspect_rule(LineScanner& line) {
 Perspective read_perspective(LineScanner& line) {
   Perspective p;
   const auto is_inside_half_turn = [](double degrees) { return degrees > 0 && degrees < 180; };
-  p.fov_y_degrees = number_where(line, {"fovY"}, "above 0 and below 180 degrees", is_inside_half_turn);
+  p.fov_y_degrees = number_where(line, "fovY", "above 0 and below 180 degrees", is_inside_half_turn);
   p.aspect = number_above_zero(line, "aspect");
   p.near = number_above_zero(line, "near");
   p.far = far_beyond(p.near, line);
@@ -123,12 +123,6 @@ void check_camera(const CameraParameters& camera) {
   if (camera.up && is_parallel_to_view(camera.eye->value, camera.look->value, camera.up->value))
     throw InputError(camera.up->location, "an up direction that is not parallel to the view direction",
                      to_text(camera.up->value));
-}
-
-CameraParameters without_position(const CameraParameters& camera) {
-  CameraParameters projection_only;
-  projection_only.projection = camera.projection;
-  return projection_only;
 }
 
 CameraParameters merged(const CameraParameters& preferred, const CameraParameters& otherwise) {

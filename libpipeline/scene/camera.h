@@ -58,9 +58,6 @@ Projection read_projection(std::string_view keyword, LineScanner& line);
 bool read_camera_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                       CameraParameters& camera);
 
-/// The projection alone, which is all that the stages after view need.
-CameraParameters without_position(const CameraParameters& camera);
-
 /// True if up x (look - eye) is 0 as far as 31 digits can tell.
 bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up);
 

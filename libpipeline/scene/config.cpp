@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <tuple>
 
 #include "libpipeline/numbers/double_double.h"
 #include "libpipeline/text/number_parser.h"
@@ -33,14 +34,9 @@ int read_size(LineScanner& line, const std::string& name) {
   return static_cast<int>(size);
 }
 
-struct Limit {
-  double value = 0;
-  double low_part = 0;
-  bool is_decimal = false;
-};
-
-/// Reads the line of a limit, left or bottom; its negation is the opposite limit.
-Limit read_negative_limit(const LineScanner& line, const std::string& name) {
+/// Reads the line of a limit, left or bottom; its negation is the opposite limit. Returns its value, its low
+/// part, and whether it is a decimal.
+std::tuple<double, double, bool> read_negative_limit(const LineScanner& line, const std::string& name) {
   LineScanner ahead = line;
   const double limit = ahead.number("the " + name + ", a negative number");
   if (limit >= 0) line.fail("the " + name + ", a negative number");
@@ -48,7 +44,7 @@ Limit read_negative_limit(const LineScanner& line, const std::string& name) {
     line.fail("the " + name + ", a number from -1e200 to -1e-200");
   ahead.expect_end("the " + name);
   DoubleDouble exact;
-  if (!parse_exact_decimal(line.peek(), exact)) return {limit};
+  if (!parse_exact_decimal(line.peek(), exact)) return {limit, 0, false};
   return {exact.hi, exact.lo, true};
 }
 
@@ -85,14 +81,10 @@ Viewport read_config(TextReader& text) {
   line.expect_end("the height");
   // Width and height alone are a complete config.
   if (!text.next_filled_line(line)) return viewport;
-  const Limit left = read_negative_limit(line, "left limit of X");
-  const Limit bottom = read_negative_limit(required_line(text, "the bottom limit of Y"), "bottom limit of Y");
-  viewport.left = left.value;
-  viewport.left_low_part = left.low_part;
-  viewport.left_is_decimal = left.is_decimal;
-  viewport.bottom = bottom.value;
-  viewport.bottom_low_part = bottom.low_part;
-  viewport.bottom_is_decimal = bottom.is_decimal;
+  std::tie(viewport.left, viewport.left_low_part, viewport.left_is_decimal) =
+      read_negative_limit(line, "left limit of X");
+  std::tie(viewport.bottom, viewport.bottom_low_part, viewport.bottom_is_decimal) =
+      read_negative_limit(required_line(text, "the bottom limit of Y"), "bottom limit of Y");
   read_depth_limits(required_line(text, "the front and rear limits of Z"), viewport);
   if (text.next_filled_line(line)) line.fail("nothing after the limits of Z");
   return viewport;

@@ -24,19 +24,14 @@ inline InputError given_twice(const std::string& name, const SourceLocation& fir
   return {second, "one " + name, "a second one after " + to_string(first)};
 }
 
-/// A number's name in messages: `name` and `of` together, as LineScanner::number takes them.
-struct NumberName {
-  std::string_view name;
-  std::string_view of = {};
-};
-
-/// Takes the next number of the line. An InputError at the number unless `holds(number)`:
-/// "expected `name` `condition`, found ...".
+/// Takes the next number of the line, named as by LineScanner::number. An InputError at the number unless
+/// `holds(number)`: "expected `name` `condition`, found ...".
 template <typename Predicate>
-double number_where(LineScanner& line, const NumberName& name, std::string_view condition, Predicate holds) {
+double number_where(LineScanner& line, std::string_view name, std::string_view condition, Predicate holds,
+                    std::string_view of = {}) {
   const LineScanner at_number = line;
-  const double value = line.number(name.name, name.of);
-  if (!holds(value)) at_number.fail(std::string(name.name).append(name.of).append(" ").append(condition));
+  const double value = line.number(name, of);
+  if (!holds(value)) at_number.fail(std::string(name).append(of).append(" ").append(condition));
   return value;
 }
 

@@ -16,8 +16,9 @@ void read_value(LineScanner& line, const VertexAttribute<Value>& attribute, bool
   for (std::size_t i = 0; i < numbers.size(); ++i)
     *numbers[i] = attribute.range.empty() || !has_range
                       ? line.number(attribute.each[i], of)
-                      : number_where(line, {attribute.each[i], of}, attribute.range,
-                                     [&](double number) { return attribute.is_in_range(number); });
+                      : number_where(
+                            line, attribute.each[i], attribute.range,
+                            [&](double number) { return attribute.is_in_range(number); }, of);
 }
 
 }  // namespace

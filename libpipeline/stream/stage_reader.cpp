@@ -31,7 +31,7 @@ std::string keyword_hint(std::string_view word) {
 
 Bounds read_bounds(LineScanner& line) {
   const auto number = [&](std::string_view name) {
-    return number_where(line, {name}, "of at least 0", [](double value) { return value >= 0; });
+    return number_where(line, name, "of at least 0", [](double value) { return value >= 0; });
   };
   const auto space = std::ranges::find(Bounds::kSpaces, line.peek());
   if (space == Bounds::kSpaces.end()) line.fail("the space 'world', 'view' or 'ndc'");

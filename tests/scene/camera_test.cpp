@@ -68,14 +68,6 @@ TEST(Camera, EachPartIsReadOnce) {
             "in.txt:4:1: expected one up, found a second one after in.txt:3:1");
 }
 
-TEST(Camera, WithoutItsPositionIsTheProjection) {
-  CameraParameters complete = camera({0, 0, 5}, {}, {0, 1, 0});
-  complete.projection = {Perspective{60, 1, 1, 100}, {"in.txt", 4, 1}};
-  const CameraParameters projection_only = without_position(complete);
-  EXPECT_FALSE(projection_only.eye || projection_only.look || projection_only.up);
-  EXPECT_EQ(to_string(projection_only.projection->location), "in.txt:4:1");
-}
-
 TEST(Camera, MergedPartsAreThePreferredOnes) {
   CameraParameters preferred;
   preferred.look = {{1, 1, 1}, {"--look"}};

@@ -91,7 +91,8 @@ int view_main(int argc, char** argv) {
     const NormalTransform normal_to_view(view);
     StageWriter writer(tool.output(), numbers.format(), bare);
     UncertainDigits uncertain_lights;
-    StageHeader header = {reader.header().framed, without_position(camera),
+    StageHeader header = {reader.header().framed,
+                          {{}, {}, {}, camera.projection},  // later stages need no position
                           in_view_space(reader.header().appearance, light, view, uncertain_lights)};
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     if (const auto& world = reader.header().bounds; world && !bare)
