@@ -51,21 +51,37 @@ struct StageHeader {
 };
 
 /// The last line of a failed stage's output: "error tool: message".
-std::string error_line(const std::string& reason);
+inline std::string error_line(const std::string& reason) {
+  return "error " + on_one_line(reason) + "\n";
+}
 
 /// The text ends with a line `error`. `reason()` is its content: "tool: message" of the failed stage.
 class EarlierFailure : public InputError {
  public:
-  EarlierFailure(const SourceLocation& location, std::string reason);
+  EarlierFailure(const SourceLocation& location, const std::string& reason)
+      : InputError(location, told(reason)), reason_(reason) {}
   [[nodiscard]] const std::string& reason() const { return reason_; }
   /// "tool failed"; the whole reason if it does not name a tool.
-  [[nodiscard]] std::string in_short() const;
+  [[nodiscard]] std::string in_short() const {
+    const std::string tool = reason_.substr(0, reason_.find(':'));
+    const bool is_named =
+        !tool.empty() && tool.size() < reason_.size() && tool.find(' ') == std::string::npos;
+    return is_named ? tool + " failed" : told(reason_);
+  }
 
  private:
+  static std::string told(const std::string& reason) {
+    return "an earlier stage failed" + (reason.empty() ? ", without saying why" : ": " + reason);
+  }
+
   std::string reason_;
 };
 
 /// The failure that an `error` line reports; `line` stands at the word `error`.
-EarlierFailure earlier_failure(LineScanner line);
+inline EarlierFailure earlier_failure(LineScanner line) {
+  const SourceLocation location = line.location();
+  line.word();
+  return {location, std::string(line.rest_with_comment())};
+}
 
 }  // namespace pipeline

@@ -43,14 +43,39 @@ class StageLoop {
   }
 
   /// For stages that read triangles. The last one notes that none came.
-  void note_if_no_triangle_came() const;
+  void note_if_no_triangle_came() const {
+    if (tool_.timing().triangle_count == 0 && Tool::is_last_stage()) tool_.note("no triangle came");
+  }
   /// Adds the extents in `format` to the statistics, and writes them once the output is safe.
-  void write_statistics(NumberFormat format);
+  void write_statistics(NumberFormat format) {
+    if (!statistics_.is_wanted()) return;
+    statistics_.add(extent_, format);
+    tool_.close_output();
+    statistics_.finish();
+    statistics_.commit();
+  }
 
  private:
-  void write(const TriangleBatch& batch);
-  void finish(const UncertainDigits& uncertain_lights);
-  void note_uncertain(const char* one_of_them, const UncertainDigits& uncertain) const;
+  void write(const TriangleBatch& batch) {
+    writer_.write(batch);
+    if (statistics_.is_wanted()) extent_.add(batch);
+    tool_.output().flush();
+    tool_.timing().lap(&Timing::write_seconds);
+  }
+  /// Completes the text, and notes uncertain digits.
+  void finish(const UncertainDigits& uncertain_lights) {
+    writer_.finish();
+    statistics_.add("triangles", tool_.timing().triangle_count);
+    note_uncertain("light", uncertain_lights);
+    note_uncertain("vertex", rounder_.uncertain());
+  }
+  void note_uncertain(const char* one_of_them, const UncertainDigits& uncertain) const {
+    if (uncertain.count == 0) return;
+    const std::uint64_t others = uncertain.count - 1;
+    const std::string and_others = others == 0 ? "" : " and of " + std::to_string(others) + " more";
+    tool_.note(to_string(rounder_.location_of(uncertain.first)) + ": the digits of this " + one_of_them +
+               and_others + " are not certain: numbers cancel here beyond 31 digits");
+  }
 
   Tool& tool_;
   StageWriter& writer_;
