@@ -138,14 +138,6 @@ std::string_view LineScanner::rest_with_comment() const {
   return without_trailing_blanks(text);
 }
 
-SourceLocation LineScanner::location() const {
-  return {*file_, line_number_, column()};
-}
-
-SourceLocation LineScanner::location_of(std::string_view word) const {
-  return {*file_, line_number_, static_cast<std::size_t>(word.data() - line_.data()) + 1};
-}
-
 void LineScanner::fail(const std::string& expected, const std::string& hint) const {
   throw InputError(location(),
                    expected_but_found(expected, at_end() ? "the end of the line" : quoted(peek())) +

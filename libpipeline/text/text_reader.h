@@ -47,9 +47,7 @@ class LineScanner {
     return static_cast<std::size_t>(rest_.data() - line_.data()) + 1;
   }
   /// The location of the next word, or of the end of the line.
-  [[nodiscard]] SourceLocation location() const;
-  /// The location of a word taken from this line.
-  [[nodiscard]] SourceLocation location_of(std::string_view word) const;
+  [[nodiscard]] SourceLocation location() const { return {*file_, line_number_, column()}; }
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
   /// The rest of the line, without the blanks around it.
   [[nodiscard]] std::string_view rest() const { return rest_; }
