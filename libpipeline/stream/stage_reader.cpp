@@ -114,18 +114,10 @@ void StageReader::keep_text() {
   triangles_->keep_text();
 }
 
-void StageReader::accept_spheres() {
-  accepts_spheres_ = !header_.projected && !header_.appearance.columns().w;
-}
-
 void StageReader::expect_framed() const {
   if (!header_.framed)
     throw InputError(header_end_, "a framed text (model --framed)",
                      text_.bytes_read() == 0 ? "an empty one" : "one without 'framed'");
-}
-
-bool StageReader::read(TriangleBatch& batch) {
-  return deferred_error_.read(batch, [&] { fill(batch); });
 }
 
 void StageReader::fill(TriangleBatch& batch) {
@@ -201,10 +193,6 @@ void StageReader::read_clipped(LineScanner& line) {
   unclipped_ = std::make_shared<const ClipTriangle>(unclipped.vertices);
   unclipped_material_ = unclipped.material;
   unclipped_number_ = triangles_->next_number();
-}
-
-bool StageReader::is_end(const LineScanner& line) const {
-  return header_.framed && line.peek() == "end";
 }
 
 /// Takes the last line of a framed text, newline included: a text without it has been truncated.

@@ -33,13 +33,15 @@ class StageReader {
   /// Accepts `clipped` triangles from now on, which only projected texts have; without this they are errors.
   void accept_clipped() { accepts_clipped_ = true; }
   /// Accepts spheres from now on, which no projected text has; without this they are errors.
-  void accept_spheres();
+  void accept_spheres() { accepts_spheres_ = !header_.projected && !header_.appearance.columns().w; }
   /// An InputError unless the text is framed: only then is an empty text known to be complete.
   void expect_framed() const;
   /// Fills the batch with the next triangles: at least one, and as many as are buffered, up to kBatchSize.
   /// False, with an empty batch, at the proper end of the text. An error is thrown only after the triangles
   /// before it are delivered, for any block size.
-  bool read(TriangleBatch& batch);
+  bool read(TriangleBatch& batch) {
+    return deferred_error_.read(batch, [&] { fill(batch); });
+  }
 
  private:
   bool read_header_line(LineScanner& line);
@@ -48,7 +50,7 @@ class StageReader {
   void read_triangle(LineScanner& line, TriangleBatch& batch);
   void expect_unclipped_material(const LineScanner& line, TriangleBatch& batch) const;
   void read_clipped(LineScanner& line);
-  [[nodiscard]] bool is_end(const LineScanner& line) const;
+  [[nodiscard]] bool is_end(const LineScanner& line) const { return header_.framed && line.peek() == "end"; }
   void read_end(LineScanner& line);
   void expect_unframed_end() const;
   [[noreturn]] void reject(LineScanner& line, const std::string& also_expected);

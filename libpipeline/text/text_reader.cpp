@@ -158,8 +158,8 @@ bool TextReader::next_line(LineScanner& line) {
     scanned_ = is_ended ? static_cast<std::size_t>(newline - buffer_.get()) : end_;
     const std::size_t length = scanned_ - begin_;
     if (length > kMaxLineLength && length > kMaxLineLength + mark_length())
-      throw InputError({file_, line_number_ + 1, kMaxLineLength + 1}, "the end of the line",
-                       "more than 1048576 characters");
+      throw InputError({file_, line_number_ + 1, kMaxLineLength + 1},
+                       expected_but_found("the end of the line", "more than 1048576 characters"));
     if (!is_ended && fill()) continue;
     if (!is_ended && length == mark_length()) return false;
     line = take_line(length, is_ended);
@@ -216,10 +216,6 @@ void TextReader::skip(std::size_t length, std::size_t line_count) {
   begin_ += length;
   scanned_ = std::max(scanned_, begin_);
   line_number_ += line_count;
-}
-
-SourceLocation TextReader::end_location() const {
-  return {file_, line_number_ + 1, 1};
 }
 
 /// Reads one more block after the unread part; false at the end of the file. May block.

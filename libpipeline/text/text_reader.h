@@ -85,12 +85,12 @@ class TextReader {
   bool next_line(LineScanner& line);
   /// Finds the next line that holds a word; false at the end of the text.
   bool next_filled_line(LineScanner& line);
+  /// Finds that line; at the end of the text, an InputError names `expected`, followed by `word` in quotes.
+  void expect_filled_line(LineScanner& line, std::string_view expected, std::string_view word = {});
   /// Finds such a line unless a word is left on `line`, as a command's arguments may follow on its line.
   void expect_word(LineScanner& line, std::string_view expected, std::string_view word = {}) {
     if (line.at_end()) expect_filled_line(line, expected, word);
   }
-  /// Finds that line; at the end of the text, an InputError names `expected`, followed by `word` in quotes.
-  void expect_filled_line(LineScanner& line, std::string_view expected, std::string_view word = {});
   /// True if the next `count` lines that hold a word are buffered, so that reading them will not block.
   [[nodiscard]] bool has_buffered_lines(std::size_t count) const;
   /// True if the line read last ended with a newline, not with the text.
@@ -112,7 +112,7 @@ class TextReader {
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
   [[nodiscard]] std::size_t bytes_read() const { return bytes_read_; }
   /// The location just after the last line, for errors about something missing.
-  [[nodiscard]] SourceLocation end_location() const;
+  [[nodiscard]] SourceLocation end_location() const { return {file_, line_number_ + 1, 1}; }
 
  private:
   [[nodiscard]] std::size_t mark_length() const;  // of the byte order mark, if the next line begins with one

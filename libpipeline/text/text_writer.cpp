@@ -50,10 +50,6 @@ char* TextWriter::reserve(std::size_t size) {
   return buffer_.data() + end_;
 }
 
-void TextWriter::commit(const char* end) {
-  end_ = static_cast<std::size_t>(end - buffer_.data());
-}
-
 void TextWriter::flush() {
   if (descriptor_ == kNowhere) return;
   const std::string_view text = collected();

@@ -27,7 +27,7 @@ class TextWriter {
   void append(std::string_view text);
   /// Room for at least `size` characters; `commit` marks the end of the filled ones.
   char* reserve(std::size_t size);
-  void commit(const char* end);
+  void commit(const char* end) { end_ = static_cast<std::size_t>(end - buffer_.data()); }
   /// Writes the buffered text, unless this writer has no descriptor.
   void flush();
   [[nodiscard]] std::string_view collected() const { return {buffer_.data(), end_}; }

@@ -196,14 +196,6 @@ CommandLine::CommandLine(const ToolDescription& tool, const std::string& version
 
 CommandLine::~CommandLine() = default;
 
-void CommandLine::begin_group(const std::string& name) {
-  group_ = name;
-}
-
-void CommandLine::set_usage(const std::string& usage) {
-  usage_ = usage;
-}
-
 bool CommandLine::is_given(const std::string& name) const {
   if (!app_) return false;
   // CLI11's own search for a name would end the program if there is no memory.
@@ -316,10 +308,6 @@ void CommandLine::add_choice_of_words(const std::string& name, const std::vector
   declare(name, [=](CLI::App& app) {
     app.add_option_function<std::string>(name, choose, help)->type_name(type_name)->default_str(default_word);
   });
-}
-
-void CommandLine::declare(const std::string& name, const std::function<void(CLI::App&)>& add) {
-  declared_.push_back({name, group_, add});
 }
 
 void CommandLine::add_to_app(std::span<const std::string> words) {

@@ -68,9 +68,9 @@ class CommandLine {
 
   /// Puts later options into this group of --help; options before the first group go to General, with
   /// --help.
-  void begin_group(const std::string& name);
+  void begin_group(const std::string& name) { group_ = name; }
   /// Replaces the usage lines of --help that CLI11 makes of the operands.
-  void set_usage(const std::string& usage);
+  void set_usage(const std::string& usage) { usage_ = usage; }
   void add_flag(const std::string& name, bool& chosen, const std::string& help);
   /// A flag with an optional `word`: "--name" sets `chosen`, "--name word" also sets `more`.
   void add_flag_with_word(const std::string& name, const std::string& word, bool& chosen, bool& more,
@@ -125,7 +125,9 @@ class CommandLine {
     std::string name, group;
     std::function<void(CLI::App&)> add;
   };
-  void declare(const std::string& name, const std::function<void(CLI::App&)>& add);
+  void declare(const std::string& name, const std::function<void(CLI::App&)>& add) {
+    declared_.push_back({name, group_, add});
+  }
   /// Gives CLI11 the operands and the options that the words name, or all if an option-like word names none.
   void add_to_app(std::span<const std::string> words);
 

@@ -27,10 +27,6 @@ Statistics::Statistics(CommandLine& options) {
                    });
 }
 
-void Statistics::open() {
-  if (is_wanted()) file_.emplace(path_);
-}
-
 void Statistics::add(std::string_view key, std::uint64_t count) {
   lines_.append(key).append(" ").append(std::to_string(count)).append("\n");
 }
@@ -74,10 +70,6 @@ void Statistics::finish() {
   if (!file_) return;
   write_all(file_->descriptor(), lines_, path_);
   file_->close();
-}
-
-void Statistics::commit() {
-  if (file_) file_->commit();
 }
 
 }  // namespace pipeline

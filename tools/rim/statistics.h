@@ -25,7 +25,9 @@ class Statistics {
     return path_ == kStandardError.path ? kStandardError : NamedFile{"--stats", path_};
   }
   /// Opens the file, if one is requested, before the work, so that a bad name is an error at once.
-  void open();
+  void open() {
+    if (is_wanted()) file_.emplace(path_);
+  }
   void add(std::string_view key, std::uint64_t count);
   /// Adds the counts of triangles outside the view volume or, with `on_screen`, of those that no pixel shows.
   void add(const UnseenPlaces& unseen, bool on_screen);
@@ -36,7 +38,9 @@ class Statistics {
   /// Writes and closes the file.
   void finish();
   /// Moves the file to its name.
-  void commit();
+  void commit() {
+    if (file_) file_->commit();
+  }
 
  private:
   void add_range(std::string_view axis, const CoordinateExtent::Range& range, NumberFormat format);
