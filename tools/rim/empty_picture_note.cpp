@@ -49,12 +49,15 @@ std::string beside(UnseenPlace place, const std::string& what) {
   return kSides[side] + (" the " + what);
 }
 
-/// "(z is 0.6, the limit of the config is 0.5)"; or, if the limit is a plane of the camera, "(z is 0.6, the
-/// limit is 0.5, the camera's near)".
-std::string beside_limit(double low, double high, double limit, bool is_plane, const char* plane,
-                         const char* space = "") {
-  return "(" + range('z', low, high, limit) + space + ", the limit " + (is_plane ? "" : "of the config ") +
-         "is " + rounded(limit) + (is_plane ? std::string(", the camera's ") + plane : "") + ")";
+/// "beyond the rear limit (z is 0.6, the limit of the config is 0.5)"; or, if the limit is a plane of the
+/// camera, "beyond the rear limit (z is 0.6, the limit is 0.5, the camera's far)".
+std::string past_limit(UnseenPlace place, const BoundingBox& extent, double limit, bool is_plane,
+                       const std::string& space = "") {
+  const bool is_near = place == UnseenPlace::near;
+  return (is_near ? "before the front limit (" : "beyond the rear limit (") +
+         range('z', extent.low.z, extent.high.z, limit) + space + ", the limit " +
+         (is_plane ? "" : "of the config ") + "is " + rounded(limit) +
+         (is_plane ? is_near ? ", the camera's near)" : ", the camera's far)" : ")");
 }
 
 /// "left of the window (x from -3 to -1.5, the window from -1 to 1)"
@@ -70,16 +73,14 @@ std::string beside_window(UnseenPlace place, const BoundingBox& extent, const Vi
 }
 
 std::string where_on_screen(UnseenPlace place, const BoundingBox& extent, const Viewport& screen) {
-  const double low_z = extent.low.z, high_z = extent.high.z;
   switch (place) {
     case UnseenPlace::near:
-      return "before the front limit " +
-             beside_limit(low_z, high_z, screen.front, screen.front == -1, "near");
-    case UnseenPlace::far:
-      if (low_z == 1 && high_z == 1 && screen.rear == 1)  // the limit itself, which belongs to no pixel
+      return past_limit(place, extent, screen.front, screen.front == -1);
+    case UnseenPlace::far:  // perhaps at the limit itself, which belongs to no pixel
+      if (extent.low.z == 1 && extent.high.z == 1 && screen.rear == 1)
         return "at the camera's far, which shows nothing (z is 1, perhaps rounded: a near that is too close "
                "to the eye leaves z no digits)";
-      return "beyond the rear limit " + beside_limit(low_z, high_z, screen.rear, screen.rear == 1, "far");
+      return past_limit(place, extent, screen.rear, screen.rear == 1);
     case UnseenPlace::without_area:
       return "without area on the screen, as when seen edge-on";
     case UnseenPlace::between_centers:
@@ -104,14 +105,11 @@ std::string where_in_view_space(UnseenPlace place, const BoundingBox& extent) {
 }
 
 std::string where_is_sphere(UnseenPlace place, const BoundingBox& extent, const UnseenSpheres& spheres) {
-  const auto limit = [&](double value, bool is_plane, const char* plane) {
-    return beside_limit(extent.low.z, extent.high.z, value, is_plane, plane, " in view space");
-  };
+  const std::string space = " in view space";
   if (place == UnseenPlace::behind) return behind_eye(extent);
   if (place == UnseenPlace::near)
-    return "before the front limit " + limit(spheres.front, spheres.front_is_near, "near");
-  if (place == UnseenPlace::far)
-    return "beyond the rear limit " + limit(spheres.rear, spheres.rear_is_far, "far");
+    return past_limit(place, extent, spheres.front, spheres.front_is_near, space);
+  if (place == UnseenPlace::far) return past_limit(place, extent, spheres.rear, spheres.rear_is_far, space);
   return place == UnseenPlace::elsewhere ? "met by no ray between the limits of Z" : beside(place, "window");
 }
 
