@@ -24,10 +24,6 @@ int open_for_reading(const std::string& path) {
   return descriptor;
 }
 
-void print_on_stderr(const std::string& line) {
-  std::fprintf(stderr, "%s\n", on_one_line(line).c_str());
-}
-
 /// Reopens closed standard descriptors on /dev/null in the wrong direction: their use is still an error, and
 /// no file of ours gets their numbers.
 void open_closed_descriptors() {
@@ -40,12 +36,6 @@ void open_closed_descriptors() {
 bool is_pipe(int descriptor) {
   struct stat status = {};
   return ::fstat(descriptor, &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
-}
-
-/// Ignores the signal, so that a write beyond a file's size limit fails like any other, and is reported and
-/// cleaned up.
-void make_file_size_limit_an_error() {
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 std::string end_line;  // for the handler
@@ -98,7 +88,7 @@ Tool::Tool(const ToolDescription& description, OutputKind output_kind)
       input_help_(std::string(description.input) + "; - is standard input"),
       output_(STDOUT_FILENO, "<stdout>") {
   open_closed_descriptors();
-  make_file_size_limit_an_error();
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a file's size limit fails like any other
   options_.add_flag("--timing", wants_timing_, "Report on stderr the time for reading, working and writing");
 }
 
@@ -195,12 +185,8 @@ bool Tool::is_last_stage() {
   return !is_pipe(STDOUT_FILENO);
 }
 
-void Tool::note(const std::string& message) const {
-  print_on_stderr(name_ + ": note: " + message);
-}
-
 void Tool::report(const std::string& line) {
-  print_on_stderr(line);
+  std::fprintf(stderr, "%s\n", on_one_line(line).c_str());
 }
 
 int Tool::fail_misuse(const std::string& message) {
@@ -209,7 +195,7 @@ int Tool::fail_misuse(const std::string& message) {
 
 /// Reports the message on stderr and to the next stage.
 int Tool::fail(const std::string& message, int status) {
-  print_on_stderr(name_ + ": " + message);
+  report(name_ + ": " + message);
   tell_next_stage(name_ + ": " + message);
   return status;
 }
@@ -219,9 +205,9 @@ int Tool::fail(const std::string& message, int status) {
 int Tool::fail_after(const EarlierFailure& failure) {
   const bool makes_picture = output_kind_ == OutputKind::other_text;
   if (!input_ || !is_pipe(input_->descriptor()))
-    print_on_stderr(name_ + ": " + failure.what());
+    report(name_ + ": " + failure.what());
   else if (makes_picture || is_last_stage())
-    print_on_stderr(name_ + (makes_picture ? ": no picture: " : ": no output: ") + failure.in_short());
+    report(name_ + (makes_picture ? ": no picture: " : ": no output: ") + failure.in_short());
   tell_next_stage(failure.reason());
   return kExitFailure;
 }
@@ -259,7 +245,7 @@ void Tool::report_timing() {
                 name_.c_str(), counted(timing_.triangle_count, "triangle").c_str(), seconds,
                 timing_.read_seconds, timing_.work_seconds, timing_.write_seconds, read_mb, written_mb,
                 seconds > 0 ? read_mb / seconds : 0.0);
-  print_on_stderr(line + (timing_.details.empty() ? "" : "; " + timing_.details));
+  report(line + (timing_.details.empty() ? "" : "; " + timing_.details));
 }
 
 }  // namespace pipeline

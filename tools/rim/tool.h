@@ -91,7 +91,7 @@ class Tool {
   /// True if standard output is not a pipe, so that no later stage can report.
   [[nodiscard]] static bool is_last_stage();
   /// "tool: note: ..." on stderr: a warning; the run continues.
-  void note(const std::string& message) const;
+  void note(const std::string& message) const { report(name_ + ": note: " + message); }
   /// Prints a result on stderr, without the tool's name.
   static void report(const std::string& line);
 
