@@ -109,8 +109,7 @@ void project(Tool& tool, const ProjectOptions& chosen, Statistics& statistics) {
   ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);
   if (header.projected) stage.keep_unclipped_triangles();
   if (header.bounds) stage.keep_bounds(header.bounds->value.error);
-  ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
-  report.suspect_radians(given);
+  ViewReport report(stage, given, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
   const NumberFormat format = chosen.numbers.format();
   LostDigits lost_digits(projection, format.shortest ? std::nullopt : std::optional(format.decimals),
                          reader.first_decimals());

@@ -18,7 +18,9 @@ bool has_vertex_in(const ViewVolume& volume, const Triangle& p_view) {
 
 }  // namespace
 
-void ViewReport::suspect_radians(const Located<Projection>& projection) {
+ViewReport::ViewReport(const ProjectionStage& stage, const Located<Projection>& projection,
+                       const ViewVolume& volume, bool counts_all)
+    : stage_(stage), volume_(volume), counts_all_(counts_all) {
   const auto* perspective = std::get_if<Perspective>(&projection.value);
   if (perspective == nullptr || perspective->fov_y_degrees >= std::numbers::pi) return;
   Perspective in_degrees = *perspective;

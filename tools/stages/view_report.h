@@ -16,12 +16,11 @@ namespace pipeline {
 /// view).
 class ViewReport {
  public:
-  /// `volume` is the stage's view volume.
-  ViewReport(const ProjectionStage& stage, const ViewVolume& volume, bool counts_all)
-      : stage_(stage), volume_(volume), counts_all_(counts_all) {}
+  /// `volume` is the view volume of the stage and its projection, whose fovY below pi may be meant in
+  /// radians.
+  ViewReport(const ProjectionStage& stage, const Located<Projection>& projection, const ViewVolume& volume,
+             bool counts_all);
 
-  /// Makes the report check whether a perspective's fovY below pi was meant in radians.
-  void suspect_radians(const Located<Projection>& projection);
   /// Takes a batch before the stage and after it.
   void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc);
 

@@ -34,11 +34,9 @@ TracedScene::TracedScene(Tool& tool, const TraceOptions& chosen, const Viewport&
       projection(clip_from_view(given)),
       header(projected_header(reader.header(), given, projection)),
       exact(projection, tool.input().file(), header.projected.has_value()),
-      view(exact.stage(), ViewVolume(projection), counts),
+      view(exact.stage(), given, ViewVolume(projection), counts),
       drawing({.coverage = TypeValue<CenterCoverage>(), .depth = {}}, screen, chosen.sample_count, false),
-      spheres(projection, screen) {
-  view.suspect_radians(given);
-}
+      spheres(projection, screen) {}
 
 void TracedScene::read(Tool& tool, bool keeps_dropped) {
   if (keeps_dropped) triangles.keep_dropped();
