@@ -61,7 +61,7 @@ function expectOurs(place, isFolder) {
   const status = fs.lstatSync(place, {throwIfNoEntry: false});
   if (!status) return;
   const page = isFolder ? path.join(place, "index.html") : place, isPage = fs.lstatSync(page, {throwIfNoEntry: false})?.isFile() && read(page).includes(TITLE);
-  const hasMore = isFolder && (!status.isDirectory() || fs.readdirSync(place, {withFileTypes: true}).some(entry => !entry.isFile() || !(entry.name in files)));
+  const hasMore = isFolder && (!status.isDirectory() || fs.readdirSync(place, {withFileTypes: true}).some(entry => !entry.isFile() || !Object.hasOwn(files, entry.name)));
   if (!isPage || hasMore) throw new Error(`${place} is in the way, and none of this page's`);
 }
 

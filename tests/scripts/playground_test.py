@@ -150,9 +150,14 @@ class TheBuild(unittest.TestCase):
             path.parent.mkdir(exist_ok=True)
             path.write_text("mine")
 
+        def beside_a_page(path):
+            write(path / "constructor")
+            (path / "index.html").write_text("<title>Pipeline playground</title>")
+
         for name, make in (("playground.html", link), ("playground.html", os.mkfifo), ("playground", link),
                            ("playground.html", write), ("playground", lambda path: write(path / "mine.txt")),
                            ("playground", lambda path: write(path / "index.html")),
+                           ("playground", beside_a_page),
                            ("playground", lambda path: (path / "worker.bin").mkdir(parents=True))):
             with tempfile.TemporaryDirectory() as folder:
                 make(pathlib.Path(folder, name))
