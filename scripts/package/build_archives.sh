@@ -16,8 +16,8 @@ configure() {
 
 # Packs the folder pack/$1. Whoever unpacks it owns it; time and user of packing leave no trace.
 pack() {
-  tar -C pack --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --mode=u+rwX,go=rX --format=gnu -cf - "$1" |
-    xz -9e -T1 > "out/$1.tar.xz"
+  tar -C pack --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --mode=u+rwX,go=rX --format=gnu -cf "$1.tar" "$1"
+  xz -9e -T1 < "$1.tar" > "out/$1.tar.xz"
 }
 
 # Puts the program of the build folder $1, stripped by $2, into the folder $3.

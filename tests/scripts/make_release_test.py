@@ -8,7 +8,6 @@ import os
 import pathlib
 import re
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -19,7 +18,8 @@ SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
 # Stands for the build in the root: writes what the words after -- and --bind ask for.
 BWRAP = """#!/bin/sh
 [ ! -e "$0.fails" ] || { echo no namespaces >&2; exit 1; }
-[ ! -e "$0.hangs" ] || { : > "$0.started"; sleep 60; }
+[ ! -e "$0.hangs" ] || { : > "$0.started"; exec sleep 99; }
+[ ! -e "$0.commits" ] || git -c user.name=a -c user.email=a@b.invalid commit -qm 'area: Do more' --allow-empty
 while [ "$1" != --bind ]; do [ "$3" != /page ] || page=$2; shift; done
 mkdir -p "$2/out"
 cp "$page/playground.html" "$2/out/pipeline-9.8.7-playground.html"
@@ -30,6 +30,12 @@ PLAYGROUND = """#!/bin/sh
 echo run >> "${PATH%%:*}/playground.runs"
 mkdir -p "$2/playground"
 echo page > "$2/playground.html"
+"""
+# Fails to do what the file beside it names, after half of it.
+GIT = f"""#!/bin/sh
+case "$*" in *"$(cat "$0.fails")"*) ;; *) exec {shutil.which("git")} "$@" ;; esac
+{shutil.which("git")} "$@" scripts
+exit 1
 """
 
 
@@ -50,12 +56,14 @@ class MakeRelease(unittest.TestCase):
                  "# Log\n\n## 9.8.7 - 2026-11-26\n\n- New.\n\n## 9.8.6 - 2026-11-25\n\n- Old.\n")
         self.put(self.tree / ".gitignore", "/build/\n")
         self.put(self.tree / "build/playground/root/usr/bin/emcmake", "")
-        self.put(self.tree / "build/playground/npm/node_modules/.bin/esbuild", "")
+        for name in ("scripts/playground/package-lock.json", "build/playground/npm/done"):
+            self.put(self.tree / name, "{}")
         self.put(self.bin / "bwrap", BWRAP)
         self.put(self.bin / "mmdebstrap", '#!/bin/sh\nfor new; do :; done\nmkdir -p "$new"\n')
         self.put(self.bin / "node", "#!/bin/sh\necho v0\n")
         self.put(self.bin / "dpkg-query", "#!/bin/sh\necho $#\n")
         self.git("init", "--quiet")
+        self.git("config", "core.autocrlf", "true")  # changes no byte of a release
         self.commit()
 
     def put(self, path, text):
@@ -65,7 +73,8 @@ class MakeRelease(unittest.TestCase):
 
     def git(self, *words):
         identity = ("-c", "user.name=a", "-c", "user.email=a@b.invalid")
-        subprocess.run(["git", *identity, *words], cwd=self.tree, check=True, capture_output=True)
+        return subprocess.run(["git", *identity, *words], cwd=self.tree, check=True,
+                              capture_output=True).stdout
 
     def commit(self):
         self.git("add", "-A")
@@ -86,8 +95,8 @@ class MakeRelease(unittest.TestCase):
         self.assertEqual(os.listdir(self.out), [])
 
     def test_makes_a_folder_with_notes_and_checksums(self):
-        status, output, messages = self.run_it("9.8.7", "new/")
-        self.assertEqual((status, output.splitlines()[-1], messages), (0, "made new/", ""))
+        status, output, messages = self.run_it("9.8.7", "./new//.")
+        self.assertEqual((status, output.splitlines()[-1], messages), (0, "made ./new//.", ""))
         self.assertRegex(output, "^building 9.8.7 on two processors takes some 30 minutes")
         self.assertEqual(os.listdir(self.out), ["new"])
         new = self.out / "new"
@@ -104,10 +113,16 @@ class MakeRelease(unittest.TestCase):
         (self.out / "link").symlink_to("nowhere")
         (self.out / "folder").mkdir()
         (self.out / "file").write_text("mine")
-        for name in ("link", "folder", "file"):
+        for name in ("link", "folder", "file", "/"):
             self.assertEqual(self.run_it("9.8.7", name),
                              (1, "", f"make-release: {name} is there already: name a new folder\n"))
         self.assertEqual(sorted(os.listdir(self.out)), ["file", "folder", "link"])
+        self.assertEqual((self.out / "file").read_text(), "mine")
+        lock = self.tree / "build/package/lock"
+        lock.parent.mkdir()
+        lock.symlink_to(self.out / "file")
+        self.assertEqual(self.run_it("9.8.7", "file/new")[0], 1)  # before anything is built
+        self.assertFalse((self.bin / "playground.runs").exists())
         self.assertEqual((self.out / "file").read_text(), "mine")
 
     def test_only_a_clean_commit_is_released(self):
@@ -119,28 +134,47 @@ class MakeRelease(unittest.TestCase):
         self.commit()
         self.refused("the tag v9.8.7 names another commit")
 
+    def test_when_git_fails_there_is_no_release(self):
+        self.put(self.bin / "git", GIT)
+        for word in ("archive", "status"):
+            self.put(self.bin / "git.fails", word)
+            self.assertEqual((self.run_it("9.8.7", "new")[0], os.listdir(self.out)), (1, []))
+
     def test_the_tag_is_the_last_step(self):
-        self.put(self.bin / "bwrap.fails", "")
+        for name in ("fails", "commits"):
+            self.put(self.bin / f"bwrap.{name}", "")
         tags = self.tree / ".git/refs/tags"
         for words, status, names in ((["--tag"], 1, []), ([], 0, []), (["--tag"], 0, ["v9.8.7"])):
             self.assertEqual(self.run_it(*words, "9.8.7", f"new{len(words)}")[0], status)
             self.assertEqual(os.listdir(tags), names)
             (self.bin / "bwrap.fails").unlink(missing_ok=True)
+        tagged, built = self.git("rev-parse", "v9.8.7^{commit}", "HEAD^").split()  # a commit came meanwhile
+        self.assertEqual(tagged, built)
+        self.git("tag", "-d", "v9.8.7")
+        self.git("config", "user.name", "")
+        self.assertEqual(
+            self.run_it("--tag", "9.8.7", "new")[::2],
+            (1, "make-release: a tag needs user.name and user.email (git config)\n"))
 
     def test_all_that_is_missing_is_told_at_once(self):
         shutil.rmtree(self.tree / "build")
-        (self.bin / "node").unlink()
-        for name in ("sh", "dirname", "readlink", "git", "grep", "awk"):
+        for name in ("node", "dpkg-query"):
+            (self.bin / name).unlink()
+        for name in ("sh", "dirname", "readlink", "realpath", "git", "grep", "awk", "cmp"):
             os.symlink(shutil.which(name), self.bin / name)
         done = subprocess.run([self.tree / "scripts/package/make-release", "9.8.7", "new"], cwd=self.out,
                               capture_output=True, text=True, env={"PATH": str(self.bin)})
         self.assertEqual(
-            done.stderr, "make-release: missing: node flock build/playground/root/usr/bin/emcmake "
-            "build/playground/npm/node_modules/.bin/esbuild; run scripts/install-packages --checks and then "
-            "--playground\n")
+            done.stderr, "make-release: missing: node flock dpkg-query "
+            "build/playground/root/usr/bin/emcmake build/playground/npm; run scripts/install-packages "
+            "--checks and then --playground\n")
 
     def test_version_and_changelog_are_those_of_the_commit(self):
         self.refused("CMakeLists.txt has another version than 9.8.6", version="9.8.6")
+        self.put(self.tree / "CMakeLists.txt", "project(pipeline VERSION 90807 LANGUAGES CXX)\n")
+        self.commit()
+        self.refused("CMakeLists.txt has another version than 9.8.7")
+        self.put(self.tree / "CMakeLists.txt", "project(pipeline VERSION 9.8.7 LANGUAGES CXX)\n")
         self.put(self.tree / "CHANGELOG.md", "# Log\n\n## Unreleased\n\n- New.\n")
         self.commit()
         self.refused("CHANGELOG.md has no section '## 9.8.7 - DATE'")
@@ -171,9 +205,17 @@ class MakeRelease(unittest.TestCase):
         until = time.monotonic() + 30
         while not (self.bin / "bwrap.started").exists() and time.monotonic() < until:
             time.sleep(0.05)
-        os.killpg(process.pid, signal.SIGTERM)
+        process.terminate()  # it alone
         process.communicate(timeout=60)
         self.assertEqual((process.returncode, os.listdir(self.out)), (1, []))
+
+    def test_an_archive_of_half_the_files_is_an_error(self):
+        text = (SOURCE / "scripts/package/build_archives.sh").read_text()
+        pack = re.search(r"^pack\(\) \{.*?^\}", text, re.M | re.S)[0]
+        self.put(self.bin / "tar", "#!/bin/sh\nexit 1\n")
+        done = subprocess.run(["sh", "-euc", f"mkdir out\n{pack}\npack x"], cwd=self.bin, capture_output=True,
+                              env={"PATH": f"{self.bin}:/usr/bin:/bin", "SOURCE_DATE_EPOCH": "0"})
+        self.assertEqual(done.returncode, 1)
 
     def test_home_is_one_setting(self):
         for name in ("README.md", "CMakeLists.txt"):
@@ -187,7 +229,7 @@ class MakeRelease(unittest.TestCase):
             home = address.rstrip("/")
             self.assertIn(f"({home}/releases/latest) · [**Try it in the browser**]({page})\n", after[0])
             self.assertIn(f'HOMEPAGE_URL "{home}"', after[1])
-        for address, status in (("h.org", 2), ("https://h.org/|", 2), ("", 0)):
+        for address, status in (("h.org", 2), ("https://h.org/|", 2), ("https://", 2), ("ht", 2), ("", 0)):
             self.assertEqual(self.run_it("--home", address)[0], status)
         self.assertEqual([path.read_text() for path in paths], before)
 
