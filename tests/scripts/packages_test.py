@@ -109,6 +109,7 @@ class Packages(ToolTest):
     def test_only_what_is_asked_for_counts(self):
         self.lack("xvfb", "libgtest-dev")
         self.assertEqual(self.install(), (0, "", ""))
+        self.assertEqual(self.install("--checks", "--playground")[:2], (2, ""))
 
     def test_a_package_of_another_name_does_not_keep_the_others_out(self):
         self.lack("cmake", "chromium-driver", "xvfb")
@@ -169,6 +170,17 @@ class Packages(ToolTest):
             output.startswith(
                 "install-packages: this is no Debian system; see to it that the like of these is there: g++ ")
         )
+
+
+class BuildRelease(ToolTest):
+    def test_where_nothing_can_be_written_it_fails(self):
+        tree = pathlib.Path("a tree").resolve()
+        (tree / "scripts").mkdir(parents=True)
+        shutil.copy(SOURCE / "scripts/build-release", tree / "scripts")
+        (tree / "build").symlink_to("/proc")
+        done = subprocess.run([tree / "scripts/build-release"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
+                         (1, "build-release: failed, see above"))
 
 
 class Demo(ToolTest):
