@@ -28,7 +28,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 
 set(CPACK_SOURCE_GENERATOR TGZ)
 set(CPACK_SOURCE_PACKAGE_FILE_NAME pipeline-${PROJECT_VERSION})
-# The files that .gitignore names.
-set(CPACK_SOURCE_IGNORE_FILES "/[.]git(/|$)" ${PROJECT_SOURCE_DIR}/build/ ${PROJECT_SOURCE_DIR}/out/ ${PROJECT_SOURCE_DIR}/out[.]bmp
-  ${PROJECT_SOURCE_DIR}/z_buffer[.]txt /__pycache__/)
+# The files that .gitignore names, as regular expressions.
+string(REGEX REPLACE "[^/A-Za-z0-9_-]" "." root "${PROJECT_SOURCE_DIR}")
+set(CPACK_SOURCE_IGNORE_FILES "/[.]git(/|$)" "^${root}/(build|out)/" "^${root}/(out[.]bmp|z_buffer[.]txt)$" /__pycache__/)
 include(CPack)
