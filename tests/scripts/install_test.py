@@ -310,25 +310,35 @@ class Licenses(unittest.TestCase):
             self.assertIn(owner, text)
         printed = subprocess.run([PREFIX / "bin/pipeline", "--licenses"], capture_output=True, text=True)
         self.assertEqual(printed.stdout, (SOURCE / "LICENSE").read_text() + "\n" + text + "\n")
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("bin/pipeline", "share/doc/pipeline/LICENSE", "libexec/pipeline/model"):
+                pathlib.Path(folder, name).parent.mkdir(parents=True)
+                shutil.copy(PREFIX / name, pathlib.Path(folder, name))
+            done = subprocess.run([pathlib.Path(folder, "bin/pipeline"), "--licenses"], capture_output=True)
+            self.assertEqual((done.returncode, b"could not print all licenses" in done.stderr), (2, True))
 
-    def listed(self, *words):
-        done = subprocess.run([SOURCE / "scripts/package/third-party", *words], capture_output=True,
-                              text=True)
+    def listed(self, build, *words):
+        path = f"{build}/../bin:{os.environ['PATH']}"
+        done = subprocess.run([SOURCE / "scripts/package/third-party", *words, build], capture_output=True,
+                              text=True, env={**os.environ, "PATH": path})
         return done.stdout or done.stderr
 
     def test_a_part_without_a_license_is_named(self):
         folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, folder)
         for name, text in {
-                "build/CMakeCache.txt": "CMAKE_HOME_DIRECTORY:INTERNAL=/src\n",
-                "build/tool.linked": "tool: \\\n  /src/own.o \\\n  /prefix/include/stdio.h \\\n  /x/part.a\n",
+                "build/CMakeCache.txt": "CMAKE_HOME_DIRECTORY:INTERNAL=/s rc\n",
+                "bin/ninja": "#!/bin/sh\necho 'tools/a.o: #\n    /s rc/a.h\n    /usr/include/stdio.h'\n",
+                "build/tool.linked": "tool: \\\n  own.o \\\n  /prefix/include/stdio.h \\\n  /x/part.a\n",
                 "npm/node_modules/@a/b/LICENSE": "of b", "npm/package-lock.json": json.dumps({
                     "packages": {
                         "": {}, "node_modules/@a/b": {"version": "2"}, "node_modules/c": {"version": "3"},
                         "node_modules/d": {"version": "4", "dev": True}}})}.items():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text)
-        words = ["--npm", folder / "npm", "--prefix", "/prefix", folder / "build"]
+        words = [folder / "build", "--npm", folder / "npm", "--prefix", "/prefix"]
+        self.assertEqual(self.listed(*words), f"third-party: ninja lists no headers of {folder}/build\n")
+        (folder / "bin/ninja").chmod(0o755)
         self.assertEqual(self.listed(*words), "third-party: no package has /x/part.a\n")
         linked = folder / "build/tool.linked"
         linked.write_text(linked.read_text().replace("/x/part.a", ""))
@@ -350,11 +360,14 @@ class Packages(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="pipeline-packages-")
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
-        for config in ("CPackConfig.cmake", "CPackSourceConfig.cmake"):
-            done = subprocess.run(["cpack", "--config", config, "-B", folder.name], cwd=BUILD,
-                                  capture_output=True, text=True)
-            if done.returncode != 0:
-                raise AssertionError(done.stdout + done.stderr)
+        (cls.folder / "c++ (a tree)").symlink_to(SOURCE)
+        cls.other = cls.folder / "a build"
+        lines = """cd "$1"; cpack -B "$2"; cd "$2"
+            cmake -G Ninja -S "c++ (a tree)" -B "a build" -DPIPELINE_TESTS=OFF
+            cd "a build"; cpack --config CPackSourceConfig.cmake -B "$2\""""
+        done = subprocess.run(["sh", "-euc", lines, "sh", BUILD, folder.name], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise AssertionError(done.stdout + done.stderr)
         cls.package, = cls.folder.glob("*.deb")
         cls.archive, = cls.folder.glob("*.tar.gz")
         subprocess.run(["dpkg-deb", "-x", cls.package, cls.folder / "root"], check=True)
@@ -386,6 +399,13 @@ class Packages(unittest.TestCase):
         owners = subprocess.run(["dpkg-query", "-S", *names], capture_output=True,
                                 text=True).stdout.splitlines()
         self.assertEqual([line for line in owners if not line.startswith("pipeline: ")], [])
+
+    def test_the_folders_that_licenses_are_looked_for_in_may_have_blanks(self):
+        text = (self.other / "scripts/cmake_install.cmake").read_text()
+        script = self.folder / "licenses.cmake"
+        script.write_text(re.search(r"execute_process\(.*?endif\(\)", text, re.S)[0])
+        done = subprocess.run(["cmake", "-P", script], capture_output=True, text=True)
+        self.assertEqual(done.stderr, f"third-party: ninja lists no headers of {self.other}\n")
 
     @unittest.skipUnless(shutil.which("lintian"), "lintian is missing (Debian: lintian)")
     def test_lintian_finds_no_error(self):

@@ -157,8 +157,8 @@ class TheBuild(unittest.TestCase):
         for name, make in (("playground.html", link), ("playground.html", os.mkfifo), ("playground", link),
                            ("playground.html", write), ("playground", lambda path: write(path / "mine.txt")),
                            ("playground", lambda path: write(path / "index.html")),
-                           ("playground", beside_a_page),
-                           ("playground", lambda path: (path / "worker.bin").mkdir(parents=True))):
+                           ("playground", beside_a_page), ("playground", lambda path:
+                                                           (path / "worker.bin").mkdir(parents=True))):
             with tempfile.TemporaryDirectory() as folder:
                 make(pathlib.Path(folder, name))
                 before = sorted(pathlib.Path(folder).rglob("*"))
