@@ -13,6 +13,9 @@
 
 namespace pipeline {
 SceneReader::SceneReader(TextReader& text) : text_(text) {
+  text_.expect_word(line_, "the eye (three numbers)");
+  if (const auto w = line_.peek(); w.size() > 1 && w >= "A" && w < "{" && !find_scene_command(w))
+    line_.fail("the x of the eye", " (a scene begins with numbers: pipeline help scene)");
   camera_.eye = read_camera_vec3("the eye");
   camera_.look = read_camera_vec3("the point looked at");
   camera_.up = read_camera_vec3("the up direction");
@@ -46,8 +49,7 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
   std::array<DecimalMarks, 24> marks;
   const FixedTextPart part =
       vertex_line_.read_triangles(text, TriangleFrame::scene, limit, marks, p_model, attributes);
-  const bool has_current_color = appearance_.columns().color && !vertex_line_.attributes().color;
-  if (has_current_color)
+  if (appearance_.columns().color && !vertex_line_.attributes().color)
     attributes.colors.resize(p_model.size(), {current_color_, current_color_, current_color_});
   if (appearance_.columns().material) attributes.materials.resize(p_model.size(), lines_.material);
   first_line = text_.line_number() + 1;
@@ -101,13 +103,11 @@ bool SceneReader::is_allowed(const SceneCommand& command) const {
 void SceneReader::refuse(const SceneCommand* command) const {
   const std::string_view word = line_.peek();
   if (command == nullptr) {
-    const bool is_vertex = has_triangle_ && begins_like_number(word);
-    const bool is_normal = word == "normal" || word == "vn";
-    const auto any = scene_words([](const SceneCommand&) { return true; });
-    line_.fail(expected_commands(), is_vertex ? " (a triangle has three vertices)"
-                                    : is_normal
-                                        ? " (normals are columns of vertex lines, after 'attributes normal')"
-                                        : spelling_hint(word, any));
+    line_.fail(expected_commands(),
+               has_triangle_ && begins_like_number(word) ? " (a triangle has three vertices)"
+               : word == "normal" || word == "vn"
+                   ? " (normals are columns of vertex lines, after 'attributes normal')"
+                   : spelling_hint(word, scene_words([](const SceneCommand&) { return true; })));
   }
   const std::string expected = command->kind == CommandKind::color
                                    ? "'color' or 'attributes color' before the first triangle, too"

@@ -147,6 +147,8 @@ TEST(Scene, NamesWhatIsMissingOrWrong) {
        "4:1: expected fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F), found the end "
        "of the input"},
       {"x 0 5\n", "1:1: expected the x of the eye, found 'x'"},
+      {"camera {\n",
+       "1:1: expected the x of the eye, found 'camera' (a scene begins with numbers: pipeline help scene)"},
       {"0 0 5\n0 nan 0\n", "2:3: expected the y of the point looked at, found 'nan'"},
       {"0 0 5\n0 0 0\n0 1\n", "3:4: expected the z of the up direction, found the end of the line"},
       {"0 0 5 0\n", "1:7: expected the end of the line after the z of the eye, found '0'"},
