@@ -959,6 +959,8 @@ class Readers(ToolTest):
         ("a.obj", b"PK\x03\x04", 0, OTHER + "a ZIP archive: unzip unpacks it"),
         ("a.obj", V.encode("utf-16"), 0, OTHER + "text in UTF-16: iconv -f UTF-16 -t UTF-8 converts it"),
         ("a.obj", "\n<!DOCTYPE html><html>", 0, OTHER + "a page of HTML in place of the file"),
+        *((name, text, 0, OTHER + "a program")
+          for name, text in (("a.py", "import x\n"), ("a", "#!/bin/sh\n"))),
         ("a.dae", "<?xml version='1.0'?><COLLADA/>", 0, OTHER + "XML, such as COLLADA, X3D or AMF: assimp "
          "export a.dae a.glb converts it (Debian: assimp-utils)"))
 

@@ -56,8 +56,7 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
   const std::string_view begin =
       bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf"), bytes.size()));
   const std::string name = in_lower_case(path);
-  const auto refuse = [&](std::string_view found, std::string_view cure) {
-    const std::string& file = model.name;
+  const auto refuse = [&, file = model.name](std::string_view found, std::string_view cure) {
     std::string text = std::string(found) + (cure.empty() ? "" : ": ") + std::string(cure);
     if (cure == kAssimp)
       text += " " + file + " " + file.substr(0, file.rfind('.')) + ".glb converts it (Debian: assimp-utils)";
@@ -81,9 +80,10 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
     model.format = "STL", read_stl(bytes, model);
   else if (is_obj(model.name, bytes) || name.ends_with(".obj"))
     model.format = "OBJ", read_obj(bytes, files, model);
+  else if (begin.empty() || name.ends_with(".py") || begin.starts_with("#!"))
+    refuse(begin.empty() ? "an empty file" : "a program", "");
   else
-    refuse(begin.empty() ? "an empty file" : "another, perhaps one that assimp reads",
-           begin.empty() ? "" : kAssimp);
+    refuse("another, perhaps one that assimp reads", kAssimp);
   if (!files.refusal().empty()) model.note(files.refusal() + ": left out");
   complete(model);
   add_normals(model, crease_degrees);
