@@ -370,7 +370,7 @@ class TransparentBackground(OutputTest):
         for name in ("out.bmp", "out.ppm", "-"):
             done = run("zbuf", "--size", "8x8", "--background", "01020300", "-o", name, stdin=self.CORNER)
             self.assertEqual((done.returncode, done.stderr.decode()),
-                             (2, f"zbuf: --background: {expected}'01020300' (try zbuf --help)\n"))
+                             (2, f"zbuf: --background: {expected}an alpha of 0 (try zbuf --help)\n"))
             done = run("zbuf", "--size", "8x8", "-o", name, stdin="background 1 2 3 254\n" + self.CORNER)
             self.assertEqual((done.returncode, done.stderr.decode()),
                              (1, f"zbuf: <stdin>:1:12: {expected}an alpha of 254\n"))

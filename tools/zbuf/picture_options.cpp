@@ -105,8 +105,8 @@ void PictureOptions::complete(bool is_terminal, bool writes_seen) {
   }
   if (const auto color = parse_color(background);
       color && !color->is_opaque() && has_image() && !can_hold_alpha(image_path))
-    throw UsageError("--background: " +
-                     expected_but_found(expected_opaque_background(), pipeline::quoted(background)));
+    throw UsageError("--background: " + expected_but_found(expected_opaque_background(),
+                                                           "an alpha of " + std::to_string(color->alpha())));
   if (sample_count > 1 && !(depth_array_path.empty() && triangle_array_path.empty()))
     throw UsageError(
         (depth_array_path.empty() ? "--triangle-array: " : "--depth-array: ") +
