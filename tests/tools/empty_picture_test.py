@@ -107,8 +107,10 @@ NOTES = [
         "ambient light with channels up to 255", "ambient 0 64 0\n" + LIT + TRIANGLE,
         "model: note: <stdin>:5:9: ambient light of 64 is 64 times full light: 1 is full, so divide by 255 "
         "if this is a color"),
-    claim("a bright light", "light 0 0 5 16 8 4\n" + TRIANGLE,
-          "zbuf: note: the picture is white: the light is too bright (1 is full; several lights add up)"),
+    claim(
+        "a bright light", "light 0 0 5 16 8 4\n" + TRIANGLE,
+        "zbuf: note: the picture is white: the light or a material is too bright (1 is full, "
+        "also for KA, KD and KS; several lights add up)"),
     claim(
         "too much light that shows no edge",
         "light 0 0 5 255 255 255\n" + TRIANGLE + "translate -1.5 0 -1\n" + TRIANGLE,

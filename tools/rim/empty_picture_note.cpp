@@ -290,7 +290,7 @@ std::optional<std::string> odd_colors_note(const ShownColors& shown, const Color
   if (auto note = dark_note(shown, setting)) return note;
   if (is_most(shown.white, all) && !setting.has_noted_brightness)
     return looks(shown.white, all, "white", true) +
-           "the light is too bright (1 is full; several lights add up)";
+           "the light or a material is too bright (1 is full, also for KA, KD and KS; several lights add up)";
   if (!is_most(shown.as_background, all)) return std::nullopt;
   if (shown.as_background == all) return "the picture is empty: what is seen has the color of the background";
   return percent(shown.as_background, all) + " of what is drawn has the color of the background";
