@@ -31,7 +31,7 @@ MEMORY, PROCESSES = 1024, 64
 
 def protection(command, read, hidden, user):
     """A Sandbox, or one without words but with a user. Raises a CommandFailure if neither is possible."""
-    asked = argparse.Namespace(read=list(read), env=[], sandbox="auto")
+    asked = argparse.Namespace(read=list(read), env=[], sandbox="or another user")
     box = confined.sandbox(command, asked, [pathlib.Path(path) for path in hidden])
     if box.words:
         return box

@@ -6,21 +6,23 @@ usage: check_stage_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import os
 import pathlib
 import re
-import shutil
 import signal
 import subprocess
 import unittest
 
-from toolbox import BIN, SOURCE, ToolTest, run_script
+from toolbox import BIN, SOURCE, ToolTest, has_bubblewrap, run_script
 
 SCENE = ("3 4 7\n0.3 -0.2 0.1\n0.2 1 0.1\n50 1.3 1 50\ntriangle\n0 0 0\n1 0 0.3\n0 1 0\ntriangle\n0.5 0.2 "
          "-1\n1 0.7 0\n0 -1 0\nend\n")
 SCENES = ("1-one-triangle", "2-camera", "3-transforms", "4-push-and-pop", "5-window", "6-hidden-surfaces")
 
+# As root, without a sandbox where bubblewrap does not work.
+MODE = "no" if os.geteuid() == 0 and not has_bubblewrap() else "auto"
+
 
 def check(*words):
     """A finished run of check-stage; its stdout without the last line, on the sandbox, if there is one."""
-    done = run_script("check-stage", "--read", BIN, *words)
+    done = run_script("check-stage", "--sandbox", MODE, "--read", BIN, *words)
     done.stdout, done.note = re.fullmatch(r"((?s:.*?))((?:no|in a) sandbox.*\n)?", done.stdout).groups()
     return done
 
@@ -48,7 +50,7 @@ class Program(ToolTest):
         for stage in ("model", "view", "project", "zbuf"):
             self.assertEqual(self.told(stage, f'exec "$BIN/{stage}" "$@"', status=0), "scene: right\n")
 
-    @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
+    @unittest.skipUnless(has_bubblewrap(), "no bubblewrap")
     def test_ours_are_found_only_if_they_are_named(self):
         os.mkdir("tools")
         for tool in ("model", "view", "project", "zbuf"):
@@ -61,6 +63,26 @@ class Program(ToolTest):
                 done = subprocess.run([*command, "--sandbox", "yes", "--", *words], env=environment,
                                       capture_output=True, text=True)
                 self.assertEqual((done.returncode, done.stderr), (status, ""), (words, done.stdout))
+
+    def test_root_runs_none_without_a_sandbox_unasked(self):
+        os.symlink("/bin/false", "bwrap")
+        environment = {**os.environ, "BIN": str(BIN), "PATH": f"{os.getcwd()}:{os.environ['PATH']}"}
+        program = script('exec "$BIN/view"')
+        reason = "bubblewrap does not work here: no reason given"
+        refused = (
+            f"{reason}, and without a sandbox a program would be run as root: --sandbox no does that with a "
+            "program that you trust\n")
+        conform = SOURCE / "tests/conformance/conform", "--stage", "view", "--only", "background"
+        for command in (SOURCE / "scripts/check-stage", "view", "--scene", "scene"), conform:
+            for mode, told in ("auto", reason), ("no", "--sandbox no"):
+                words = [*command, "--sandbox", mode, "--", program]
+                done = subprocess.run(words, env=environment, capture_output=True, text=True)
+                if mode == "auto" and os.geteuid() == 0:
+                    self.assertEqual((done.returncode, done.stdout, done.stderr),
+                                     (2, "", f"{command[0].name}: {refused}"))
+                else:
+                    self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+                    self.assertIn(f"no sandbox ({told})\n", done.stdout)
 
     def test_ours_are_right_on_the_six_scenes(self):
         for stage in ("model", "zbuf"):
@@ -82,7 +104,8 @@ class Program(ToolTest):
 
     def test_watch_runs_again_when_the_program_has_changed(self):
         words = [
-            SOURCE / "scripts/check-stage", "--read", BIN, "view", "--scene", "scene", "--watch", "--",
+            SOURCE / "scripts/check-stage", "--sandbox", MODE, "--read", BIN, "view", "--scene", "scene",
+            "--watch", "--",
             script("seq 1000 >&2; cat")]
         with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env={**os.environ, "BIN": str(BIN)}) as process:

@@ -80,7 +80,7 @@ class ManyPipes(ToolTest):
 
     def test_check_stage(self):
         words = ["--scene", "scene.txt", "--config", "config.txt", "--", BIN / "project"]
-        self.assertEqual(self.drawn_by("check-stage", "project", *words), {"zbuf"})
+        self.assertEqual(self.drawn_by("check-stage", "project", "--sandbox", "no", *words), {"zbuf"})
 
 
 if __name__ == "__main__":

@@ -59,6 +59,15 @@ def run_script(name, *words, **settings):
     return subprocess.run([SOURCE / "scripts" / name, *map(str, words)], **settings)
 
 
+def has_bubblewrap():
+    try:
+        return not subprocess.run(
+            ["bwrap", "--unshare-all", "--ro-bind", "/", "/", "--proc", "/proc", "true"],
+            stderr=subprocess.DEVNULL).returncode
+    except OSError:
+        return False
+
+
 def tools_with(tool, script):
     """A new folder of the tools, in which one is a script of sh; the real one is $real there."""
     folder = pathlib.Path(f"with-{tool}").absolute()

@@ -61,8 +61,10 @@ def add_options(parser):
         help="processes of a run at a time (default: %(default)s)")
     add("--env", action="append", default=[], metavar="NAME",
         help="an environment variable that the program gets beside PATH, LANG and LC_ALL; may be repeated")
-    add("--sandbox", choices=("auto", "yes", "no"), default="auto",
-        help="run the program in a sandbox: where bubblewrap works (auto, the default), always or never")
+    add(
+        "--sandbox", choices=("auto", "yes", "no"), default="auto",
+        help="run the program in a sandbox: always, never, or where bubblewrap works (auto, the default; "
+        "root runs none elsewhere)")
     add("--read", action="append", default=[], metavar="PATH",
         help="a file or folder that the program may read in its sandbox, too; may be repeated")
 
@@ -92,7 +94,7 @@ def program_path(word):
 
 def sandbox(command, options, hidden):
     """The Sandbox for a command, which hides our own tools, too, unless the command names them. Raises a
-    Refused if one is asked for and does not work."""
+    Refused if it does not work, and one is asked for or the program would have root's rights unasked."""
     for path in options.read:
         if not os.path.exists(path):
             raise Refused(f"--read {path}: {os.strerror(errno.ENOENT)}")
@@ -108,6 +110,10 @@ def sandbox(command, options, hidden):
         reason = "bubblewrap does not work here: " + (complaint or "no reason given").splitlines()[-1]
     if options.sandbox == "yes":
         raise Refused(reason)
+    if options.sandbox == "auto" and os.geteuid() == 0:
+        raise Refused(
+            f"{reason}, and without a sandbox a program would be run as root: --sandbox no does that "
+            "with a program that you trust")
     return Sandbox((), "--sandbox no" if options.sandbox == "no" else reason, options.env)
 
 
