@@ -37,7 +37,7 @@ DRAW = r'''pipe() {
 draw() {
   [ ! -e "$1" ] || return 0
   run pipe "$@" || { fail "$1" "${1%.png} ($2)"; rm -f draw.sh; exit 1; }
-  printf '%s' "$record" | sed "s|^  |${1%.png} ($2): |" >&2
+  [ -z "$record" ] || printf '%s\n' "$record" | sed "s|^  |${1%.png} ($2): |" >&2
 }
 '''
 
