@@ -79,6 +79,12 @@ elif "MOMENT" == "half":
     for option, path in zip(words, words[1:]):
         if option == "--z-buffer" and os.path.isfile(path): os.truncate(path, os.path.getsize(path) // 2)
     sys.exit()
+elif "MOMENT" == "half a picture":
+    status = subprocess.run(words).returncode
+    for option, path in zip(words, words[1:]):
+        path = path.split(":")[-1]
+        if option == "--image" and os.path.isfile(path): os.truncate(path, os.path.getsize(path) - 1)
+    sys.exit(status)
 elif "MOMENT" in ("after all", "fails"):
     status = subprocess.run(words).returncode
     if "MOMENT" == "after all": print("TOOL: note: a\\n\\nzbuf: status 7\\n", file=sys.stderr)
@@ -136,6 +142,14 @@ class KilledStages(ToolTest):
         if command in DEPTHS:
             self.make_tools("zbuf", "half")
             self.kill("zbuf: has not written all of the depths, .*", *command.split(), *words.split())
+            self.assertEqual(self.contents(), before)
+        if command.split()[0] in FRAMED:
+            drawing = "trace" if "--trace" in command else "zbuf"
+            self.make_tools(drawing, "half a picture")
+            self.kill(
+                r"\d of \d frames have not been drawn: .*" if command.startswith("film") else
+                rf"{drawing}: has not written all of (?!.*\.pipeline-)[\w/]+\.\w+, though it ended well",
+                *command.split(), *words.split())
             self.assertEqual(self.contents(), before)
         number = list(COMMANDS).index(command)
         with self.subTest(signal=signals[number % 3], stage=stages[number % len(stages)]):

@@ -97,6 +97,9 @@ class Stages(ToolTest):
                 self.assert_refused(self.stages(folder, scene="bad"),
                                     "model: bad:1:1: expected the x of the eye, found 'x'")
                 self.assertEqual((self.left(), os.listdir("old")), (["bad", "old"], []))
+        with open("bad") as bad:
+            self.assert_refused(self.stages("dir", scene="-", stdin=bad),
+                                "model: <stdin>:1:1: expected the x of the eye, found 'x'")
         self.assertEqual(self.stages("dir", config="none").returncode, 1)
         self.assertEqual(self.left(), ["bad", "old"])
 

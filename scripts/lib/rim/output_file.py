@@ -132,11 +132,6 @@ class OutputFile:
         while block := file.read(1 << 20):
             self.write(block)
 
-    def expect_something(self):
-        """Raises the error of a tool that has written nothing, though it ended well."""
-        if self.temporary and os.path.getsize(self.temporary) == 0:
-            raise OutputError(f"the tools have written nothing to {shown(self.path)}")
-
     def close(self):
         with self.errors("write"):
             descriptor, self.descriptor = self.descriptor, None
@@ -187,10 +182,7 @@ def replaced_at_end(*paths, others=()):
                 text = text.replace(shown(temporary), shown(path))
             failure.args = (text,)
             raise
-        written = [files[path] for path in beside]
-        for file in written:
-            file.expect_something()
-        commit_all([*written, *others])
+        commit_all([*(files[path] for path in beside), *others])
 
 
 def expect_writable(path):

@@ -12,6 +12,8 @@ import tempfile
 from lib.rim.child import MORE, MOST_SAID, Said, beginning, cpu_seconds, finished, run
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import digest
+from lib.rim.output_file import own_descriptor, target_of
+from lib.showing.pictures import is_whole
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
@@ -169,11 +171,17 @@ def checked(done, tool, words=()):
     return done
 
 
-def expect_files(tool, words):
-    """Raises an error if a file of the command's own, a Path among the words, is not there after the run."""
-    for word in words:
+def expect_files(tool, words, folder=None):
+    """Raises an error if a file of the command's own, a Path among the words, is not there after the run in a
+    folder, or the picture is not whole, unless it is a device or a pipe."""
+    for option, word in zip(["", *words], words):
+        path = os.path.join(folder or "", re.sub("^(bmp|ppm|png):", "", str(word)))
+        name = shown(os.path.basename(path) if isinstance(word, pathlib.Path) else path)
         if isinstance(word, pathlib.Path) and not word.exists():
-            raise ToolCrash(f"{tool}: has not written {word.name}, though it ended well")
+            raise ToolCrash(f"{tool}: has not written {name}, though it ended well")
+        is_picture = option == "--image" and path != "-" and own_descriptor(target_of(path)) is None
+        if is_picture and os.path.isfile(path) and os.access(path, os.R_OK) and not is_whole(path):
+            raise ToolCrash(f"{tool}: has not written all of {name}, though it ended well")
 
 
 def expect_rows(depths, count):
@@ -245,7 +253,7 @@ class Tools:
             for (process, said), (tool, *_) in zip(runs, calls)]
         expect_success(*done)
         for each, each.seconds, (tool, *words) in zip(done, seconds, calls):
-            expect_files(tool, words)
+            expect_files(tool, words, cwd)
         return done
 
     def through(self, *runs, stdin=b""):

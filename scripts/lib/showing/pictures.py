@@ -1,6 +1,7 @@
 """Picture files: reads BMP, PPM and PNG of 8 bits a channel, writes PNG. A picture is a width, a height and
 rows of RGB bytes, top first."""
 import itertools
+import os
 import re
 import struct
 import zlib
@@ -196,6 +197,9 @@ def png_chunk(kind, body):
     return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
 
+PNG_END = png_chunk(b"IEND", b"")
+
+
 def png(width, height, rows):
     """The bytes of a PNG."""
     return png_of_lines(width, height, 3, [b"\0" + row for row in rows])
@@ -205,7 +209,7 @@ def png_of_lines(width, height, channels, lines, level=9):
     """The bytes of a PNG of rows with their filters."""
     header = struct.pack(">IIBBBBB", width, height, 8, 6 if channels == 4 else 2, 0, 0, 0)
     pixels = zlib.compress(b"".join(lines), level)
-    return PNG_SIGNATURE + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(b"IEND", b"")
+    return PNG_SIGNATURE + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + PNG_END
 
 
 def size_of(picture):
@@ -213,6 +217,19 @@ def size_of(picture):
     if picture[:2] == b"P6":
         return tuple(map(int, PPM_HEADER.match(picture[:MAX_PPM_HEADER]).groups()[:2]))
     return struct.unpack_from(*((">II", picture, 16) if picture[:2] == b"\x89P" else ("<ii", picture, 18)))
+
+
+def is_whole(path):
+    """True if a picture file, as zbuf writes it, is as long as its header says; a PNG has its end."""
+    with open(path, "rb") as file:
+        head = file.read(MAX_PPM_HEADER)
+        length = file.seek(0, os.SEEK_END)
+        file.seek(max(0, length - len(PNG_END)))
+        end = file.read()
+    if head[:2] == b"BM":
+        return length == int.from_bytes(head[2:6], "little")
+    header = PPM_HEADER.match(head)
+    return length == header.end() + 3 * int(header[1]) * int(header[2]) if header else end == PNG_END
 
 
 def with_pixels_of(picture, others):
