@@ -315,18 +315,21 @@ class Separate(ToolTest):
             for left in ("link.png", "same.png"):
                 pathlib.Path(left).unlink(missing_ok=True)
 
-    def test_no_output_is_a_file_called_minus(self):
+    def test_no_output_is_a_file_called_minus_or_has_no_name(self):
+        told = (("-", "no standard output, found '-' (./- for one of this name)"),
+                ("", "the name of a file, found ''"))
         for command, words in (("inspect", "./- config.txt -o"), ("trade", "./- config.txt --plot"),
                                ("farm", "./- config.txt -o x.png --z-buffer"), ("film", "./- -o"),
                                ("fly", "./- --scene-out"), ("fly", "./- --picture-out"),
                                ("join-images", "./- ./- -o"), ("compare", "./- ./- --image"),
                                ("grade", "hand-ins tests -o"), ("grade", "--kit plain tests -o")):
-            pathlib.Path("-").write_text("mine")
-            done = script(command, *words.split(), "-", *["--turn=1"] * (command == "film"))
-            self.assertEqual(
-                (done.returncode, done.stdout, done.stderr.decode(), pathlib.Path("-").read_text()),
-                (2, b"", f"{command}: {words.split()[-1]}: expected no standard output, found '-' "
-                 f"(./- for one of this name) (try {command} --help)\n", "mine"))
+            for name, expected in told:
+                pathlib.Path("-").write_text("mine")
+                done = script(command, *words.split(), name, *["--turn=1"] * (command == "film"))
+                self.assertEqual(
+                    (done.returncode, done.stdout, done.stderr.decode(), pathlib.Path("-").read_text()),
+                    (2, b"", f"{command}: {words.split()[-1]}: expected {expected} (try {command} --help)\n",
+                     "mine"))
 
     def test_standard_input_is_an_input(self):
         with open("scene.txt") as scene:

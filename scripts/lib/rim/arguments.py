@@ -154,13 +154,15 @@ class CommandParser(argparse.ArgumentParser):
                 self.error(f"{name}: expected a place outside of '{shown(folder)}', found '{shown(path)}'")
 
     def expect_separate(self, options, *outputs, inputs=()):
-        """Ends the program where an output is another output or an input, by path, link or inode, or is `-`:
-        commands that take it pass STANDARD_OUTPUT. Outputs are pairs of a name for messages and a path or
-        None, and so are inputs beside the usual operands."""
+        """Ends the program where an output is another output or an input, by path, link or inode, or has no
+        name, or is `-`: commands that take it pass STANDARD_OUTPUT. Outputs are pairs of a name for messages
+        and a path or None, and so are inputs beside the usual operands."""
         operands = [(name.upper(), getattr(options, name, None)) for name in OPERANDS]
         names = {}
         for is_output, files in ((False, [*operands, *inputs]), (True, outputs)):
             for name, path in files:
+                if is_output and path == "":
+                    self.error(f"{name}: expected the name of a file, found ''")
                 if is_output and path == "-":
                     self.error(f"{name}: expected no standard output, found '-' (./- for one of this name)")
                 if path is None or (place := place_of(path)) is None:
