@@ -79,6 +79,10 @@ elif "MOMENT" == "half":
     for option, path in zip(words, words[1:]):
         if option == "--z-buffer" and os.path.isfile(path): os.truncate(path, os.path.getsize(path) // 2)
     sys.exit()
+elif "MOMENT" == "empty": sys.exit()
+elif "MOMENT" == "no text":
+    os.write(1, b"\\xff\\n\\n")
+    sys.exit()
 elif "MOMENT" == "half a picture":
     status = subprocess.run(words).returncode
     for option, path in zip(words, words[1:]):
@@ -142,6 +146,10 @@ class KilledStages(ToolTest):
         if command in DEPTHS:
             self.make_tools("zbuf", "half")
             self.kill("zbuf: has not written all of the depths, .*", *command.split(), *words.split())
+            self.assertEqual(self.contents(), before)
+        for moment in ("empty", "no text") if command.split()[0] not in FRAMED else ():
+            self.make_tools("model", moment)
+            self.kill(r"(?!.*\.pipeline-)\S.*", *command.split(), *words.split())
             self.assertEqual(self.contents(), before)
         if command.split()[0] in FRAMED:
             drawing = "trace" if "--trace" in command else "zbuf"

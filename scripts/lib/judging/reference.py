@@ -12,7 +12,7 @@ from lib.judging.matrices import image
 from lib.judging.scene import Scene
 from lib.maths.window import Window
 from lib.rim.command import CommandFailure
-from lib.running.pipe_tools import ToolFailure, ToolOutOfMemory, Tools, opaque_background
+from lib.running.pipe_tools import ToolCrash, ToolFailure, ToolOutOfMemory, Tools, opaque_background
 from lib.showing.pictures import read_picture
 from lib.text.stage_text import parse_stage_text, text_of
 
@@ -37,6 +37,8 @@ class Reference:
         text, self.scene_data, model = self.accepted(text_of(scene, "the scene"))
         stage1 = parse_stage_text(model.decode(), "model")
         self.header = stage1.header
+        if not {"eye", "look", "up"} <= self.header.keys():
+            raise ToolCrash("model: has written no camera, though it ended well")
         self.scene = Scene(text, stage1.header)
         self.world = stage1.points
         self.window = self.accepted_window(config) if config is not None else None

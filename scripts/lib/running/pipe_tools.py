@@ -221,7 +221,10 @@ class Tools:
     def run(self, tool, *words, stdin=b"", most=MOST_SAID):
         """A finished run with the bytes `stdin` as input, its stdout and `most` of its stderr as bytes."""
         done = run(self.command(tool, words), most, input=stdin, stdout=subprocess.PIPE)
-        return checked(done, tool, words)
+        checked(done, tool, words)
+        if tool in PIPE and not done.stdout.isascii():
+            raise ToolCrash(f"{tool}: has written bytes that are no text, though it ended well")
+        return done
 
     def output(self, tool, *words, stdin=b""):
         return self.run(tool, *words, stdin=stdin).stdout
