@@ -22,7 +22,7 @@ from grade_parts.programs import Unusable, remove_what_is_left, take_user, verdi
 from lib.judging.hand_in import KINDS, STAGE_OF
 from lib.judging.judge import HandIn as Judge
 from lib.judging.pixel_words import AT_BORDERS
-from lib.judging.program import end_all
+from lib.judging.program import confined, end_all
 from lib.judging.reference import kinds_of
 from lib.judging.verdict import OPEN, UNDECIDED, WRONG, FileVerdict, Verdict
 from lib.rim.child import adopt_orphans
@@ -211,11 +211,10 @@ def work(connection, path, tests, level, limits, scratch, pipe):
     os.umask(0o022)  # a user of its own reads what is handed in
     end_with_writers_of(*pipe)
     tempfile.tempdir = scratch
-    most = limits.mebibytes * MEBIBYTE  # a program that is run has limits of its own
-    resource.setrlimit(resource.RLIMIT_AS,
-                       (most, resource.getrlimit(resource.RLIMIT_AS)[1] if limits.program else most))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (LARGEST_FILE,) * 2)
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    # A program that is run has limits of its own.
+    confined.set_limit(resource.RLIMIT_AS, limits.mebibytes * MEBIBYTE, limits.program is not None)
+    confined.set_limit(resource.RLIMIT_FSIZE, LARGEST_FILE)
+    confined.set_limit(resource.RLIMIT_CORE, 0)
     try:
         graded = grade(path, tests, level, limits, connection.send)
     except (MemoryError, ToolCrash) as error:  # a tool without memory is ended by a signal

@@ -686,6 +686,13 @@ class Hostile(ClassTest):
         with self.assertRaises(OSError):
             contents.read(("in", "stage2.txt"), 10**6)
 
+    def test_a_lower_limit_that_only_root_could_raise_stays(self):
+        line = 'ulimit -f 2048; ulimit -v 1500000; exec "$0" "$@"'
+        done = subprocess.run(["sh", "-c", line, SOURCE / "scripts/grade", "hand-ins", "tests"],
+                              env={**os.environ, "BIN": str(BIN)}, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.scores(), {"zoe": 1.0})
+
     def test_what_a_judge_writes_has_a_limit(self):
         def greedy(*_):
             with open("large", "wb") as file:

@@ -194,10 +194,11 @@ def drop_capabilities():
             prctl(PR_CAPBSET_DROP, capability)
 
 
-def set_limit(name, value):
+def set_limit(name, value, may_be_raised=False):
+    """Sets a limit, or leaves a lower one that only root could raise."""
     hard = resource.getrlimit(name)[1]
     value = value if hard == resource.RLIM_INFINITY else min(value, hard)
-    resource.setrlimit(name, (value, value))
+    resource.setrlimit(name, (value, hard if may_be_raised else value))
 
 
 def reason_of(status, sizes, limits):
