@@ -204,9 +204,6 @@ TEST(Ball, QuotientThatIsADoubleIsExact) {
     ASSERT_TRUE(result.is_exact()) << std::hexfloat << quotient << ", " << b;
     ASSERT_EQ(midpoint<2304>(result), Exact2304(quotient));
   }
-}
-
-TEST(Ball, QuotientOfOneAndThreeIsNotExact) {
   EXPECT_FALSE((Ball(1) / Ball(3)).is_exact());
 }
 
@@ -220,16 +217,10 @@ TEST(Ball, RootOfASquareIsExact) {
   }
 }
 
-TEST(Ball, RootOfASquareOfAllBitsIsExact) {
-  const double long_number = 1 + 0x1p-52;
-  EXPECT_TRUE(sqrt(Ball(long_number) * Ball(long_number)).is_exact());
-}
-
-TEST(Ball, RootOfTwoIsNotExact) {
+TEST(Ball, RootKnowsWhetherItIsExact) {
+  const Ball all_bits = Ball(1 + 0x1p-52);
+  EXPECT_TRUE(sqrt(all_bits * all_bits).is_exact());
   EXPECT_FALSE(sqrt(Ball(2)).is_exact());
-}
-
-TEST(Ball, RootOfZeroIsZero) {
   EXPECT_TRUE(sqrt(Ball()).is_exact_zero());
 }
 
@@ -267,14 +258,12 @@ TEST(Ball, SignIsNeverThatOfAnotherMember) {
   }
 }
 
-TEST(Ball, SignOfAnExactNumberIsKnown) {
+TEST(Ball, SignIsKnownUnlessItReachesZero) {
   EXPECT_EQ(Ball(kSmallest).sign(), 1);
   EXPECT_EQ(Ball(-1e-300).sign(), -1);
   EXPECT_EQ((Ball(-1e-300) * Ball(1e-300)).sign(), -1);
   EXPECT_EQ(Ball().sign(), 0);
-}
-
-TEST(Ball, SignOfABallThatReachesZeroIsOpen) {
+  // A ball that reaches zero:
   EXPECT_EQ(Ball::with_error({1, 0}, 1).sign(), 0);
   EXPECT_EQ(Ball::with_error({-1, 0}, 2).sign(), 0);
 }
@@ -306,12 +295,9 @@ TEST(Ball, NearestDoublePastTheRangeIsInfinite) {
   EXPECT_EQ((Ball(-kLargest) * Ball(kLargest) * Ball(kLargest)).nearest_double(), -HUGE_VAL);
 }
 
-TEST(Ball, NearestDoubleOfZeroPlusOrMinusAHugeErrorIsZero) {
+TEST(Ball, NearestDoubleFarBelowTheRangeIsZeroWhateverTheError) {
   const Ball unknown = Ball::with_error({0, 0}, 1e300) * Ball(1e300) * Ball(1e300) * Ball(1e300);
   EXPECT_EQ(unknown.nearest_double(), 0);
-}
-
-TEST(Ball, NearestDoubleFarBelowTheRangeIsZero) {
   EXPECT_EQ((Ball(1e-300) * Ball(1e-300)).nearest_double(), 0);
   EXPECT_EQ((Ball(kSmallest) * Ball(kSmallest) * Ball(kSmallest)).nearest_double(), 0);
 }

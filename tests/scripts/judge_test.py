@@ -791,12 +791,11 @@ class Wrong(HandIn):
         scene = SCENE.replace("push\n", "color 200 100 50\npush\n", 1).encode()
         right = [tool("model", stdin=scene), tool("view", stdin=tool("model", stdin=scene))]
         line, more = "the line 'attributes'", "the numbers after x, y and z"
-        for pattern, words in ((rb"attributes.*\n", line), (rb"(?m)^((\S+ ){2}\S+)( \S+){3}$", more),
-                               (rb"(?m)^attributes.*\n|(?<=\d)( \S+00){3}$", f"{line} and {more}"), (rb"$^",
-                                                                                                     "")):
+        for pattern, by, words in ((rb"attributes.*\n", b"", line), (rb"$^", b"", ""),
+                                   (rb"(?m)^((\S+ ){2}\S+)( \S+){3}$", rb"\1", more),
+                                   (rb"(?m)^attributes.*\n|(?<=\d)( \S+00){3}$", b"", f"{line} and {more}")):
             pathlib.Path("stage1.txt").write_bytes(right[0])
-            pathlib.Path("stage2.txt").write_bytes(re.sub(pattern, rb"\1" if words == more else b"",
-                                                          right[1]))
+            pathlib.Path("stage2.txt").write_bytes(re.sub(pattern, by, right[1]))
             self.scene = scene.decode()
             file = self.verdict(config=False).files[1]
             remarks = [remark for remark in file.remarks if remark.startswith("it drops")]

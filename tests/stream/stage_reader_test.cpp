@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/stream/stage_text_io.h"
@@ -274,15 +275,12 @@ TEST(StageReader, NamesWhatIsWrong) {
 }
 
 TEST(StageReader, KnowsWhereItsHeaderEnds) {
-  const TextFile file("# c\nup 0 1 0\n\n 0 0 0\n1 0 0\n0 1 0\n");
-  TextReader reader(file.descriptor(), "in.txt");
-  EXPECT_EQ(to_string(StageReader(reader).header_end()), "in.txt:4:2");
-}
-
-TEST(StageReader, TheHeaderOfAnEmptyTextEndsAtItsStart) {
-  const TextFile file("");
-  TextReader reader(file.descriptor(), "in.txt");
-  EXPECT_EQ(to_string(StageReader(reader).header_end()), "in.txt:1:1");
+  for (const auto& [text, place] :
+       {std::pair("# c\nup 0 1 0\n\n 0 0 0\n1 0 0\n0 1 0\n", "in.txt:4:2"), {"", "in.txt:1:1"}}) {
+    const TextFile file(text);
+    TextReader reader(file.descriptor(), "in.txt");
+    EXPECT_EQ(to_string(StageReader(reader).header_end()), place);
+  }
 }
 
 // Errors in triangles.

@@ -119,12 +119,9 @@ TEST(TextReader, ReadsTextThatArrivesByteByByte) {
   EXPECT_EQ(lines_from(slow.descriptor()), (Lines{"one two", "", "", "four"}));
 }
 
-TEST(TextReader, TakesALastLineOfTheGreatestLength) {
+TEST(TextReader, ALastLineIsTooLongByOneCharacter) {
   const std::string longest(kMaxLineLength, 'x');
   EXPECT_EQ(lines_of(longest), Lines{longest});
-}
-
-TEST(TextReader, ALastLineIsTooLongByOneCharacter) {
   EXPECT_EQ(error_of_reading(std::string(kMaxLineLength + 1, 'x')),
             "in.txt:1:1048577: expected the end of the line, found more than 1048576 characters");
 }
@@ -146,19 +143,12 @@ TEST(TextReader, FilledLinesPassOverBlankLinesAndComments) {
   EXPECT_FALSE(reader.next_filled_line(line));
 }
 
-TEST(TextReader, TheEndIsTheLocationAfterTheLastLine) {
-  const TextFile file("a\nb\n");
-  TextReader reader(file.descriptor(), "in.txt");
-  for (LineScanner line; reader.next_line(line);) {
-  }
-  EXPECT_EQ(to_string(reader.end_location()), "in.txt:3:1");
-}
-
-TEST(TextReader, CountsTheBytesItHasRead) {
+TEST(TextReader, KnowsWhereTheTextEndsAndItsBytes) {
   const TextFile file("ab\r\n# c\n");
   TextReader reader(file.descriptor(), "in.txt");
   for (LineScanner line; reader.next_line(line);) {
   }
+  EXPECT_EQ(to_string(reader.end_location()), "in.txt:3:1");
   EXPECT_EQ(reader.bytes_read(), 8u);
 }
 
@@ -174,8 +164,8 @@ TEST(TextReader, NothingIsBufferedBeforeTheFirstRead) {
   EXPECT_FALSE(reader.has_buffered_lines(1));
 }
 
-TEST(TextReader, LinesThatHaveArrivedAreBuffered) {
-  const TextInPieces slow({"a\nb\nc\n"}, TextInPieces::Then::silence);
+TEST(TextReader, FilledLinesThatHaveArrivedAreBuffered) {
+  const TextInPieces slow({"a\nb\n \t\r\n # b\n\nc\n"}, TextInPieces::Then::silence);
   TextReader reader(slow.descriptor(), "in.txt");
   LineScanner line;
   reader.next_line(line);
@@ -191,14 +181,6 @@ TEST(TextReader, HalfALineDoesNotCountAsBuffered) {
   EXPECT_FALSE(reader.has_buffered_lines(1));
   reader.next_line(line);
   EXPECT_EQ(line.rest(), "bc");
-}
-
-TEST(TextReader, BlankLinesAndCommentsDoNotCountAsBuffered) {
-  const TextInPieces slow({"a\n\n \t\r\n # b\n\n"}, TextInPieces::Then::silence);
-  TextReader reader(slow.descriptor(), "in.txt");
-  LineScanner line;
-  reader.next_line(line);
-  EXPECT_FALSE(reader.has_buffered_lines(1));
 }
 
 // The text before it is delivered first.
@@ -231,6 +213,7 @@ TEST(TextReader, TheBeginningIsTheWholeLinesOfTheFirstBlock) {
   EXPECT_EQ(beginning_from(TextFile("a\n\nb").descriptor()), "a\n\n");
   EXPECT_EQ(beginning_from(TextFile("a").descriptor()), "a");
   EXPECT_EQ(beginning_from(TextFile("").descriptor()), "");
+  EXPECT_EQ(beginning_from(TextFile("\xEF\xBB\xBFx\n").descriptor()), "x\n");  // no byte order mark
 }
 
 TEST(TextReader, TheBeginningIsNotConsumed) {
@@ -241,10 +224,6 @@ TEST(TextReader, TheBeginningIsNotConsumed) {
   EXPECT_TRUE(reader.next_line(line));
   EXPECT_EQ(line.location().line, 1u);
   EXPECT_EQ(line.rest(), "a");
-}
-
-TEST(TextReader, TheBeginningHasNoByteOrderMark) {
-  EXPECT_EQ(beginning_from(TextFile("\xEF\xBB\xBFx\n").descriptor()), "x\n");
 }
 
 TEST(TextReader, TheBeginningOfAPipeIsWholeLines) {
