@@ -98,7 +98,7 @@ subprocess.run(["{BIN}/zbuf", *(sys.argv[1:] or ["config.txt"])], check=True)"""
     "files-without-a-name": (
         "import os, time\nfor i in range(8): f = os.open('f', 66); os.unlink('f'); os.write(f, bytes(50 << "
         "20))\ntime.sleep(60)", "writes more than 256 MiB"),
-    "fills-shared-memory": ("i=0; while i=$((i + 1)); do head -c 50000000 /dev/zero > /dev/shm/f$i; done",
+    "fills-shared-memory": ("while head -c 50000000 /dev/zero > /dev/shm/f$i; do i=1$i; done; sleep 9",
                             f"writes more than 256 MiB|{TIME}", None),
     "memory-of-many": (
         "import os, time\nfor i in range(10):\n    if not os.fork(): x = b'x' * (40 << 20); time.sleep(60)\n"
