@@ -68,7 +68,7 @@ Command SceneReader::next() {
   line_.word();
   if (argument_lines == 0)
     line_.expect_end(quoted(word));
-  else if (argument_lines == 1)  // messages name a triangle's lines otherwise
+  else if (argument_lines == 1)  // messages name a triangle's lines differently
     arguments.empty() ? text_.expect_word(line_, "the arguments of ", word)
                       : text_.expect_word(line_, arguments);
   switch (kind) {
@@ -110,8 +110,8 @@ void SceneReader::refuse(const SceneCommand* command) const {
                    : spelling_hint(word, scene_words([](const SceneCommand&) { return true; })));
   }
   const std::string expected = command->kind == CommandKind::color
-                                   ? "'color' or 'attributes color' before the first triangle, too"
-                                   : quoted(word) + " before the first triangle";
+                                   ? "'color' or 'attributes color' before the first object, too"
+                                   : quoted(word) + " before the first object";
   throw InputError(location_, expected, quoted(word) + " after it");
 }
 
@@ -127,7 +127,7 @@ std::string SceneReader::expected_commands() const {
     return command.kind == CommandKind::use && appearance_.materials.size() > 1;
   });
   std::string commands = "a command (" + listed(scene_words(is_of_all));
-  if (!has_triangle_) commands += "; before the first triangle also " + listed(scene_words(comes_first));
+  if (!has_triangle_) commands += "; before the first object also " + listed(scene_words(comes_first));
   for (const std::string_view word : others)
     commands.append(word == others.front() ? "; also " : " and ").append(word);
   return commands + ")";

@@ -134,13 +134,13 @@ void SceneCutter::pop(const LineScanner& at_pop) {
   depth_kept_ = std::min(depth_kept_, --depth_);
 }
 
-/// Returns the command, or throws: a setting after the first triangle would apply to some parts only.
+/// Returns the command, or throws: a setting after the first object would apply to some parts only.
 const SceneCommand& SceneCutter::expect_allowed(const LineScanner& at_keyword) const {
   const SceneCommand* command = find_scene_command(at_keyword.peek());
   if (command == nullptr) at_keyword.fail("a command of a scene");
   const bool is_color = command->kind == CommandKind::color;
   if (is_in_preamble_ || !(is_color || command->is_setting()) || (is_color && has_color_)) return *command;
-  throw InputError(at_keyword.location(), quoted(command->word) + " before the first triangle",
+  throw InputError(at_keyword.location(), quoted(command->word) + " before the first object",
                    quoted(command->word) + " after it");
 }
 

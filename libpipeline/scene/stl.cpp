@@ -72,12 +72,12 @@ void read_binary(std::string_view bytes, Model& model) {
   std::uint64_t count = facet_count(bytes);
   if (count == 0 && most > 0) {
     count = most;
-    model.note("its count of triangles is 0, but it has bytes of " + counted(count, "triangle") +
-               ", which are drawn");
+    model.note("its header announces 0 triangles, but it has data for " + counted(count, "triangle") +
+               ": this data is drawn");
   }
   if (count < most)
-    model.note("it has bytes of " + counted(most, "triangle") + ", but counts " + std::to_string(count) +
-               ", which are drawn");
+    model.note("it has data for " + counted(most, "triangle") + ", but its header announces " +
+               std::to_string(count) + ": the rest is not drawn");
   if (count > most)
     model.fail(counted(count, "triangle") + " in a binary STL file", std::to_string(most) + ": it is cut");
   const std::size_t place = bytes.substr(0, kHeader - 7).find("COLOR=");

@@ -47,8 +47,8 @@ def statistics(path):
 
 
 def belts_of(spheres):
-    """The number of belts into which each sphere is cut, for project and zbuf: a sphere has nearly 4 N^2
-    facets."""
+    """The number of belts into which each sphere is cut, for project and zbuf: a sphere becomes
+    4 N (N - 1) triangles."""
     return max(BELTS[0], min(BELTS[1], math.isqrt(MAX_FACETS // (4 * spheres))))
 
 
@@ -106,8 +106,7 @@ class Inspection:
                 raise ToolFailure(str(failure).split(": trace draws it")[0] + ": --trace draws it") from None
         belts = belts_of(spheres)
         self.notes.append(
-            f"project and zbuf have {4 * belts * (belts - 1)} facets in place of each sphere, and count those"
-        )
+            f"project and zbuf have {4 * belts * (belts - 1)} triangles for each sphere, and count these")
         return self.tools.through(["model", "--framed", "--digits", "exact", "--facets", belts],
                                   ["view", "--digits", "exact"], stdin=self.scene_data)
 

@@ -119,9 +119,9 @@ TEST(Appearance, NamesWhatIsWrong) {
       {"material 1 1 0 1.5\n", "5:16: expected the shininess, a whole number below 2^64, found '1.5'"},
       {"attenuation 0 0 0\n", "5:13: expected an attenuation other than 0 0 0, found 0 0 0"},
       {kTriangleLines + "light 0 0 0 1 1 1\n",
-       "9:1: expected 'light' before the first triangle, found 'light' after it"},
+       "9:1: expected 'light' before the first object, found 'light' after it"},
       {kTriangleLines + "color 1 2 3\n",
-       "9:1: expected 'color' or 'attributes color' before the first triangle, too, found 'color' after it"},
+       "9:1: expected 'color' or 'attributes color' before the first object, too, found 'color' after it"},
   };
   for (const auto& [text, error] : refusals)
     EXPECT_EQ(error_of_appearance(text), "scene.txt:" + error) << text;

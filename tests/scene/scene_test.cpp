@@ -132,7 +132,7 @@ TEST(Scene, LocatesItsCommand) {
 }
 
 const std::string kFirstCommands =
-    "a command (triangle, sphere, translate, scale, rotate, push, pop or end; before the first triangle also "
+    "a command (triangle, sphere, translate, scale, rotate, push, pop or end; before the first object also "
     "color, attributes, background, light, ambient, material or attenuation)";
 
 // Errors of the camera.

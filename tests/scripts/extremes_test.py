@@ -141,7 +141,7 @@ class Mistakes(unittest.TestCase):
     def test_notes_are_shortened_to_what_they_are_about(self):
         for note, words in (
             ("view: note: <stdin>:4:1: the digits of this vertex and of 2 more are not certain: numbers "
-             "cancel here beyond 31 digits", "view: uncertain digits"),
+             "cancel here, and 31 digits are too few", "view: uncertain digits"),
             ("project: note: in 2 % of what is drawn, 7 digits are too few to tell where the edges are; try "
              "--digits 12 for every stage",
              "project: moved edges"), ("zbuf: note: the picture is empty: no triangle came",

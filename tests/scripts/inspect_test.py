@@ -689,7 +689,7 @@ class InABrowser(ToolTest):
         self.assertEqual(self.js("return text('#title')"),
                          "scene.txt: 1 triangle and 1 sphere, 41 × 41 pixels")
         self.assertRegex(self.js("return text('#notes')"),
-                         r"^project and zbuf have \d+ facets in place of each sphere")
+                         r"^project and zbuf have \d+ triangles for each sphere")
         # Its outline, seen from the front: an ellipse twice as wide as high, inside of which the pointer
         # finds it.
         front = ("const {wire} = panels[arguments[0]], {spheres} = wire.stage; Object.assign(wire.view, "

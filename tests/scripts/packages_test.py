@@ -168,8 +168,7 @@ class Packages(ToolTest):
         self.assertEqual((status, messages), (0, ""))
         self.assertTrue(
             output.startswith(
-                "install-packages: this is no Debian system; see to it that the like of these is there: g++ ")
-        )
+                "install-packages: this is not a Debian system; install equivalents of these packages: g++ "))
 
 
 class BuildRelease(ToolTest):

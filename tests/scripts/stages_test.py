@@ -164,8 +164,8 @@ class Stages(ToolTest):
             "-1e34 0.5 1e32\n0 5 9\n0 1 0\n60 1 1 10\ntriangle\n1 2 3\n4 5 6\n7 8 9\nend\n")
         notes = self.stages("out", scene="far.txt").stderr.decode().splitlines()
         self.assertIn(
-            "view: note: the digits of a vertex and of 2 more are not certain: numbers cancel here beyond "
-            "31 digits", notes)
+            "view: note: the digits of a vertex and of 2 more are not certain: numbers cancel here, and "
+            "31 digits are too few", notes)
         self.assertEqual([note for note in notes if "exact" in note or notes.count(note) > 1], [])
         pathlib.Path("near.txt").write_text(
             "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntranslate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\n"
@@ -175,7 +175,7 @@ class Stages(ToolTest):
             if note.startswith("model")]
         self.assertEqual(notes, [
             "model: note: near.txt:9:1: the digits of this vertex and of 2 more are not certain: numbers "
-            "cancel here beyond 31 digits"])
+            "cancel here, and 31 digits are too few"])
 
     def test_pipes_are_read_once(self):
         line = (f'"{STAGES}" <(cat "{SAMPLE}/scene.txt") <(cat "{SAMPLE}/config.txt") one && "{STAGES}" - '

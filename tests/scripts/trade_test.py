@@ -411,7 +411,7 @@ class Clock(unittest.TestCase):
 
 class Notes(unittest.TestCase):
     def test_the_line_of_a_text_that_the_user_never_sees_is_left_out(self):
-        uncertain = "and of 2 more are not certain: numbers cancel here beyond 31 digits"
+        uncertain = "and of 2 more are not certain: numbers cancel here, and 31 digits are too few"
         self.assertEqual(
             without_inner_location(
                 f"view: note: /tmp/x/model --digits exact.txt:4:1: the digits of this vertex {uncertain}",

@@ -219,7 +219,7 @@ class Silence(ToolTest):
             with open("out.txt", "wb") as file:
                 last = run(tool, stdin=HEADERS[tool], stdout=file)
             self.assertEqual((last.stderr.decode(), last.returncode),
-                             (f"{tool}: note: no triangle came\n", 0))
+                             (f"{tool}: note: the input has no triangles\n", 0))
 
 
 class FirstVisible(ToolTest):

@@ -559,8 +559,8 @@ class Materials(ToolTest):
         lines = done.stdout.decode().splitlines()
         self.assertEqual(done.returncode, 0)
         self.assertIn(
-            "mesh2scene: note: model.obj: it has more than 256 materials; from there on meshes have "
-            "the first\n", done.stderr.decode())
+            "mesh2scene: note: model.obj: it has more than 256 materials; meshes with further "
+            "ones get the first\n", done.stderr.decode())
         self.assertEqual([line for line in lines if line.startswith("material")],
                          [f"material 1 1 0.5 {i + 1}" for i in range(256)])
         self.assertEqual([line for line in lines if line.startswith("use")],
@@ -885,7 +885,7 @@ class Readers(ToolTest):
         ("a.stl", stl(1) + b"trailing", 1),
         ("named.obj", stl(1), 1),
         ("a.stl", stl(0), 1,
-         ": its count of triangles is 0, but it has bytes of 1 triangle, which are drawn"),
+         ": its header announces 0 triangles, but it has data for 1 triangle: this data is drawn"),
         ("a.stl", stl(3), 0, ": expected 3 triangles in a binary STL file, found 1: it is cut"),
         ("a.stl", "solid\n" + FACET, 0, ":9:1: expected endsolid, found the end of the file"),
         ("a.stl", "solid\n" + FACET.replace("1 0 0", "1 o 0"), 0, ":5:10: expected a coordinate, found 'o'"),

@@ -116,10 +116,11 @@ void note_what_hides(const Model& model, const SceneSetting& setting, bool is_fi
   constexpr double kLittle = 0.01;
   const double share = shown_share(model, setting);
   std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), share == 0 ? "nothing" : "%.2g %% of the picture", 100 * share);
+  std::snprintf(text.data(), text.size(), "%.2g %% of the picture", 100 * share);
   const std::string covered = text.data();
   if (share < kLittle && is_files_camera)
-    tool.note(model.name + ": its own camera shows it on " + covered + ": --eye-from 30 15 frames it");
+    tool.note(model.name + ": its own camera " +
+              (share == 0 ? "does not show it" : "shows it on " + covered) + ": --eye-from 30 15 frames it");
   else if (share > 0 && share < kLittle && chosen.at.empty() && chosen.view.zoom == 1)
     tool.note(model.name + ": it covers " + covered +
               ": parts of it lie far from each other, or it is thin; --at and --zoom look closer");
@@ -168,6 +169,6 @@ int mesh2scene_main(int argc, char** argv) {
                         ", by mesh2scene; zbuf --size " + chosen.size};
     if (!write_scene(model, setting, chosen.as_nodes, tool.output()))
       tool.note(name + ": it has more than " + counted(kMostMaterials, "material") +
-                "; from there on meshes have the first");
+                "; meshes with further ones get the first");
   });
 }

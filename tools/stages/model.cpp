@@ -43,7 +43,7 @@ void add_options(CommandLine& options, ModelOptions& chosen) {
                    "Number triangles from N on, for a part of a scene (cut-scene) to be joined with "
                    "others (default: 0)");
   options.add_word("--facets", "N", chosen.belts,
-                   "Turn every sphere into triangles: N belts of 2 N facets; all triangles get normals");
+                   "Turn every sphere into 4 N (N - 1) triangles, in N belts; all triangles get normals");
 }
 
 std::uint64_t first_number(const ModelOptions& chosen) {

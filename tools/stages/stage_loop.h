@@ -42,9 +42,9 @@ class StageLoop {
     finish(uncertain_lights);
   }
 
-  /// For stages that read triangles. The last one notes that none came.
+  /// For stages that read triangles. The last one notes that there are none.
   void note_if_no_triangle_came() const {
-    if (tool_.timing().triangle_count == 0 && Tool::is_last_stage()) tool_.note("no triangle came");
+    if (tool_.timing().triangle_count == 0 && Tool::is_last_stage()) tool_.note("the input has no triangles");
   }
   /// Adds the extents in `format` to the statistics, and writes them once the output is safe.
   void write_statistics(NumberFormat format) {
@@ -74,7 +74,7 @@ class StageLoop {
     const std::uint64_t others = uncertain.count - 1;
     const std::string and_others = others == 0 ? "" : " and of " + std::to_string(others) + " more";
     tool_.note(to_string(rounder_.location_of(uncertain.first)) + ": the digits of this " + one_of_them +
-               and_others + " are not certain: numbers cancel here beyond 31 digits");
+               and_others + " are not certain: numbers cancel here, and 31 digits are too few");
   }
 
   Tool& tool_;

@@ -36,7 +36,7 @@ NumberOptions::NumberOptions(CommandLine& options) {
                    expects("a number of decimals from 0 to 17, or exact", is_fine));
   options.add_choice<Precision>(
       "--precision", precision_, {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
-      "extended: coordinates printed are correctly rounded, or a note names one; double: faster");
+      "extended: printed coordinates are correctly rounded, or a note says where not; double: faster");
 }
 
 NumberFormat NumberOptions::format() const {
