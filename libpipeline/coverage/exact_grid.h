@@ -17,10 +17,10 @@
 
 namespace pipeline {
 
-/// Enough bits for products of coordinates of 126 bits each, as for --digits exact and ordinary picture
-/// sizes.
+/// Enough bits for products of coordinates of 126 bits each, as for --digits exact in pictures of
+/// ordinary size.
 using DoublesInt = FixedInt<4>;
-/// Enough bits for all exact geometry in practice: every text with more than 7 decimals (--digits exact),
+/// Enough bits for all exact geometry in practice: other texts with more than 7 decimals (--digits exact),
 /// vertices 10^30 pixels away, or coordinates of 10^-30 next to others of 1. In HugeInt, such triangles take
 /// some 50 times as long.
 using WideInt = FixedInt<6>;
@@ -83,9 +83,9 @@ struct AxisInDoubles {
   double largest = -1;
 };
 
-/// One direction of the grid. With half_step units to half a pixel, pixel centers are at (2 i + 1 - count) *
-/// half_step from the window's middle and n / 10^7 at n * vertex_factor; units finer by 2^k make both whole
-/// for all n / (10^7 * 2^k).
+/// One direction of the grid. Its unit is half a pixel / half_step: pixel centers are at (2 i + 1 - count) *
+/// half_step from the window's middle, and n / 10^7 is at n * vertex_factor. In units finer by 2^k, centers
+/// and all n / (10^7 * 2^k) are whole numbers.
 struct GridAxis {
   /// `limit` is the window's left or bottom limit, negative, in the same notation as an ExactTriangle's
   /// coordinates.

@@ -37,7 +37,7 @@ class DepthInPairs {
 /// included (halfway: the pixel on the right). Neighboring triangles thus both own the pixels on a shared
 /// edge, and a triangle that is narrower than a pixel still has one on each row. Horizontal edges do not
 /// count; the others include both ends.
-/// All arithmetic is in doubles, in a fixed order. Any finite coordinates are allowed, even if their
+/// The pixels are decided in doubles, in a fixed order. Any finite coordinates are allowed, even if their
 /// differences or products are not finite. Source: "Raster Based Graphics Pipeline", CSE 410 offline 2, 2022.
 class NearestRows {
  public:

@@ -59,7 +59,7 @@ struct ShownColors {
     double greatest = 0;      // for small_color, of the channels; else, of the light that arrives
   };
 
-  /// Below this share of the pixels drawn, few show.
+  /// A picture gets the note if fewer than this share of the drawn pixels show.
   static constexpr double kVisibleShare = 0.03;
 
   /// Adds the color of a surface at a pixel. True if it looks black: the next `add` is for the reason.

@@ -77,7 +77,7 @@ class Bvh {
   /// A ray prepared for the test of boxes.
   struct BoxRay {
     explicit BoxRay(const Ray& ray);
-    /// The children of a node that it enters between two distances, bits 1 and 2; sets `entry`.
+    /// The node's children that it enters between two distances: bits 0 and 1. `entry` gets where it enters.
     unsigned entered(const Node& node, double first, double limit, TwoDoubles& entry) const;
 
     std::array<TwoDoubles, 3> origin, inverse;  // by axis, twice

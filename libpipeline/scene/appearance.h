@@ -74,7 +74,7 @@ struct Appearance {
   }
 };
 
-/// The text with a line `attributes`: a scene's line names neither w, which `project` adds, nor material.
+/// Where a line `attributes` stands. In a scene it may not name w, which `project` adds, nor material.
 enum class AttributeSource { scene, stage_text };
 
 /// Reads the arguments of a setting (scene_commands.h), to the end of the line, and adds them to

@@ -47,7 +47,7 @@ struct ModelMaterial {
   double ambient = 1, diffuse = 1, specular = 0.15, shininess = 20;
 };
 
-/// The characters of a name that are kept.
+/// How many characters of a name are kept.
 constexpr std::size_t kLongestName = 1000;
 
 /// Triangles of one material.

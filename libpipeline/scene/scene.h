@@ -56,7 +56,7 @@ using Command = std::variant<TriangleCommand, SphereCommand, TranslateCommand, S
 ///     triangle | sphere | translate | scale | rotate | push | pop, each with its arguments
 ///     end
 ///
-/// Before the first triangle, only where a scene needs them:
+/// Before the first object, only where a scene needs them:
 ///
 ///     attributes [color] [normal]  vertex lines carry x y z [r g b] [nx ny nz]
 ///     color r g b                  of the triangles that follow; may change later if it stands here

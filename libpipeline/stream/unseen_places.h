@@ -8,10 +8,11 @@
 
 namespace pipeline {
 
-/// Why a triangle or sphere shows nowhere: the first that applies; fragments after without_area.
+/// Why a triangle or sphere shows nowhere: the first reason that applies. Its fragments beyond the limits of
+/// depth are looked at only after without_area.
 enum class UnseenPlace {
   behind,  // all of it behind the eye
-  near,    // all of it before the near plane or front limit, or a fragment and none visible
+  near,    // all of it before the near plane or front limit; or a fragment is, and no fragment is visible
   far,     // likewise beyond the far plane or rear limit
   left,    // all of it left of the view volume or the window
   right,   // likewise ...

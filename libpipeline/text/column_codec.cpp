@@ -90,7 +90,7 @@ FixedTextPart read_by_numbers(std::string_view text, TriangleFrame frame, const 
                               std::span<DecimalMarks> marks) {
   const std::size_t limit = std::min(columns.triangle_count(), marks.size());
   std::ranges::fill(marks.first(limit), DecimalMarks{0});
-  // Models have normals. A line without them is read faster than it is looked up.
+  // Lines recur in models, which have normals. A line with only a position is read faster than found.
   if (frame != TriangleFrame::scene || columns.group_count() == 1 || !columns.has_groups_alone())
     return read_by_lines(text, frame, limit, [&](const char* p, std::size_t triangle, std::size_t vertex) {
       return read_line(p, columns, triangle, vertex, marks[triangle]);

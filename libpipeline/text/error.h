@@ -29,7 +29,7 @@ std::string on_one_line(std::string_view text);
 /// A count and its noun, which is singular only after 1: "1 triangle", "0 triangles".
 std::string counted(std::uint64_t count, std::string_view noun);
 
-/// "expected `expected`, found `found`": the form of every message about input.
+/// "expected `expected`, found `found`": the form of messages about wrong input.
 std::string expected_but_found(const std::string& expected, const std::string& found);
 
 /// A failure to read or write: a full disk, a missing file. `what()` names the file and the system's reason.

@@ -36,8 +36,8 @@ struct FixedTextPart {
 /// Readers may load up to this many characters past the end of the text; their values do not matter.
 constexpr std::size_t kFixedTextSlack = 448;
 
-/// A bound on the length of a triangle in fixed form: nine numbers, each with a sign, 16 digits, a point, a
-/// separator, and a line end.
+/// A bound on the length of a triangle in fixed form: nine numbers, each with a sign, 16 digits (one to
+/// spare), a point and a separator, and one line end.
 constexpr std::size_t kMaxFixedTriangleLength = 9 * 19 + 1;
 
 /// The minimum length: nine numbers such as 0.1234567, each with a separator, and a line end.

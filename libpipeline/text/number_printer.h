@@ -33,7 +33,7 @@ char* print_shortest(char* out, double value);
 constexpr std::size_t kMaxFloatLength = 24;
 char* print_shortest_float(char* out, float value);
 
-/// Prints three numbers with a blank after each; `low_part` is to be added to their doubles.
+/// Prints three numbers with a blank after each; `low_part` is added, but not in the shortest form.
 inline char* print_three(char* out, const Vec3& numbers, const Vec3& low_part, NumberFormat format) {
   const auto print = [&](double hi, double lo) {
     out = format.shortest ? print_shortest(out, hi) : print_number(out, hi, lo, format);

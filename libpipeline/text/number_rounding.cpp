@@ -36,7 +36,7 @@ bool is_odd(DoubleDouble whole) {
 PrintableNumber round_to_decimals(DoubleDouble value, double error, int decimals) {
   const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
   if (error == 0) return {value.hi, value.lo};
-  // Past 2^1000 the scaled number would overflow; there, none of its decimals is known anyway.
+  // Up to 2^900 the scaled number cannot overflow; no decimal of a larger inexact number is known anyway.
   if (std::fabs(value.hi) > 0x1p900) return {value.hi, value.lo, false};
   const DoubleDouble scaled = value * scale;
   const double scaled_error = (error * scale + std::fabs(scaled.hi) * 0x1p-104) * (1 + 0x1p-40);

@@ -18,9 +18,9 @@ struct PrintableNumber {
 
 /// The number with the correctly rounded text of all numbers in the ball. A ball that contains a tie and is
 /// narrower than 2^-20 of the last unit counts as the tie (rounded to even); it is certain if all of it lies
-/// within 2^-20 of a unit of the tie. In the shortest form, a ball that contains 0 is 0; it is certain if all
-/// of it lies within 2^-60 of `input_size`, the size of the numbers that were read: where numbers cancel on
-/// the way, the width that counts as 0 does not grow. Overflow gives an infinite hi.
+/// within 2^-20 of a unit of the tie. In the shortest form, a ball that contains 0 is 0; it is certain if no
+/// number in it is larger than 2^-60 * `input_size`, the size of the numbers that were read: larger numbers
+/// that cancel on the way do not raise this limit. Overflow gives an infinite hi.
 PrintableNumber round_to_text(const Ball& ball, NumberFormat format, double input_size = 1);
 
 /// round_to_shortest for a ball whose ends may round to different doubles.

@@ -27,7 +27,7 @@ struct SphereForm {
 /// The model stage: carries out a scene's commands, model space to world space.
 class ModelStage {
  public:
-  /// Carries out the commands before the first object; the first `read` throws an error among them. Triangles
+  /// Carries out the commands before the first object; the first `read` throws an error in them. Triangles
   /// are numbered from `first_number` on.
   explicit ModelStage(SceneReader& scene, std::uint64_t first_number = 0, const SphereForm& spheres = {});
 

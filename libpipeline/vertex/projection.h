@@ -17,7 +17,7 @@ namespace pipeline {
 
 /// The choice of triangles to cut or drop before the perspective divide.
 enum class ClipMode {
-  automatic,  // clips triangles with a vertex less than near / 1024 before the eye, at the near plane
+  automatic,  // in perspective, clips at the near plane if a vertex has -z less than near / 1024
   near,       // clips every triangle at the near plane
   frustum,    // clips every triangle at all six planes
   reject,     // drops triangles wholly outside one plane, clips none

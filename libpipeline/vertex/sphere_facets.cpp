@@ -19,7 +19,7 @@ Vec3 SphereFacets::normal(std::size_t belt, std::size_t meridian) const {
 }
 
 SphereFacets::Facet SphereFacets::operator()(const SphereCommand& sphere, std::size_t index) const {
-  // The first belt and the last have one triangle per facet, the others two.
+  // The first belt and the last have one facet per quadrilateral, the others two.
   const std::size_t in_belt = 2 * belts_;
   std::size_t belt = 0, meridian = index, half = 0;
   if (index >= in_belt) {

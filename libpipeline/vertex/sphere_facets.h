@@ -8,8 +8,8 @@
 
 namespace pipeline {
 
-/// Cuts spheres into triangles: N belts from pole to pole, along z, of 2 N facets each. A facet is two
-/// triangles, or one at the poles.
+/// Cuts spheres into facets: N belts from pole to pole, along z, of 2 N quadrilaterals each. A quadrilateral
+/// is two facets; at the poles it is a triangle, and one facet.
 class SphereFacets {
  public:
   static constexpr std::size_t kMinBelts = 2;

@@ -128,10 +128,10 @@ struct VertexKernel {
   void (*transform)(const AffineCoefficients&, const RoundingTest&, const VertexBlock& p, ImageBlock& image);
   void (*project)(const ProjectionCoefficients&, const RoundingTest&, const VertexBlock& p_view,
                   ImageBlock& p_ndc);
-  /// Finds the sides of all planes with `beside`, else of near and far alone.
+  /// Finds the sides of all six planes if `beside`, else only of near and far.
   void (*find_sides)(const ProjectionCoefficients&, const VertexBlock& p_view, SideBlock& sides, bool beside);
-  /// Replaces normals by their images, as NormalTransform (attribute_transform.h) does. Returns their count;
-  /// stops at a partial SIMD vector, or one with a normal of 0 or an image below kNearlyLost.
+  /// Replaces normals by their images, as NormalTransform (attribute_transform.h) does. Returns how many it
+  /// replaced: it stops at a partial SIMD vector, or one with a normal of 0 or an image below kNearlyLost.
   std::size_t (*transform_normals)(const std::array<Vec3, 3>& rows, std::span<Vec3> normals);
 };
 

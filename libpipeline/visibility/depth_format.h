@@ -20,7 +20,7 @@ namespace pipeline {
 
 /// The depth rule: a fragment is drawn if it is not before the front limit, and wins a pixel if its stored
 /// depth is less than the pixel's.
-// Z8
+// docs/stages.md, Z8
 constexpr bool is_drawn(double z, double front) {
   return z >= front;
 }

@@ -13,10 +13,11 @@ namespace pipeline {
 Model read_model(const std::string& path, ModelFiles& files, double crease_degrees);
 
 /// Gives meshes without normals a unit normal for every corner; meshes of one surface are smoothed together.
-/// A corner's normal is the mean over the triangles at its position that turn from its own by at most
-/// `crease_degrees`, weighted by angle and by their plane's area there. A plane with over 80 % of their area
-/// keeps its normal, shared by triangles within half the crease; the others are smoothed without that plane.
-/// 0 if no triangle has an area.
+/// A corner's normal is the mean over its neighbors: the triangles at its position whose normals differ from
+/// its own triangle's by at most `crease_degrees`. A neighbor's weight is its angle there times the area of
+/// all triangles in its plane there. If one plane has over 80 % of the neighbors' area, a corner whose
+/// triangle is within half the crease of that plane takes its normal, and any other the mean without that
+/// plane. 0 if no triangle has an area.
 void add_normals(Model& model, double crease_degrees);
 
 constexpr const char* kPartlyColored = "some of its vertices have no color: they get the color of their mesh";

@@ -11,10 +11,9 @@ struct OutOfMemoryReport {
   void report() const noexcept;
 };
 
-/// Makes a failed allocation end the process, with a report and exit status 1, as it does from the start
-/// until the tool has read its command line: no open file can be harmed yet, and nothing catches exceptions.
-/// Sets and returns the report; before this call, it has the name under which the tool was started, and no
-/// error line.
+/// Makes a failed allocation end the process from here on, with `report` and exit status 1. Returns `report`.
+/// A process starts like this, with the name under which the tool was started and no error line, until its
+/// command line is read: no open file can be harmed yet, and nothing catches exceptions.
 OutOfMemoryReport end_process_without_memory(const OutOfMemoryReport& report) noexcept;
 /// Makes a failed allocation throw std::bad_alloc from here on.
 void throw_without_memory() noexcept;

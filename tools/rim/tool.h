@@ -92,7 +92,7 @@ class Tool {
   [[nodiscard]] static bool is_last_stage();
   /// "tool: note: ..." on stderr: a warning; the run continues.
   void note(const std::string& message) const { report(name_ + ": note: " + message); }
-  /// Prints a result on stderr, without the tool's name.
+  /// Prints a line on stderr as it is: the tool's name is not added.
   static void report(const std::string& line);
 
  private:

@@ -37,7 +37,7 @@ class TriangleStore {
   struct Setup {
     bool keeps_text = false;
     bool keeps_numbers = false;                         // the triangles' numbers, for set_numbers
-    std::optional<CoverageRules::Object> exact_depths;  // the rule by which corners give them
+    std::optional<CoverageRules::Object> exact_depths;  // the rule that calculates them; none if not wanted
     Color background;
     std::size_t pixel_count = 0;           // of the picture, or of its samples
     std::unique_ptr<Wireframe> wireframe;  // null unless edges are drawn

@@ -29,7 +29,7 @@ struct ZbufOptions : PictureOptions {
   [[nodiscard]] Viewport drawn_part(Viewport screen) const;
   /// Throws a UsageError if the depth format cannot store the depths between the limits of Z.
   void check_limits(const Viewport& screen) const;
-  /// The files and pipes of a run.
+  /// The files and pipes that a run writes.
   [[nodiscard]] std::vector<NamedFile> outputs(const Statistics& statistics) const;
 
  private:

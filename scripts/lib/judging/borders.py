@@ -87,8 +87,8 @@ class BorderRule:
 
     @property
     def shows_each_triangle(self):
-        """True if it shows half the visible pixels of each triangle that has one REACH inside its outline,
-        and a smaller one if there is any."""
+        """True if the picture shows at least half the visible pixels of each triangle with a pixel at least
+        REACH inside its outline and, if there are smaller triangles, a pixel of one of them."""
         visible, agreeing, deep = collections.Counter(), collections.Counter(), set()
         for row in range(self.triangles.grid.height):
             for column, t in enumerate(self.drawing.row(row)[0]):

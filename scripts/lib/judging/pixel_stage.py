@@ -205,8 +205,8 @@ class PixelStage:
 
 
 def blames_many_colors(verdict, shown, context, mismatch):
-    """Adds many colors to the causes in a picture's FileVerdict; False unless, where a Mismatch finds
-    nothing, more pixels lack their triangle's main color than the Mismatch has."""
+    """Adds the mistake many-colors to the causes in a picture's FileVerdict if, of the pixels that are
+    right by a Mismatch, more lack their triangle's main color than the Mismatch has pixels; else False."""
     drawing = context.drawing(mismatch.reading, mismatch.rule)
     pixels = shown.pixels(mismatch.rule.picture_flip, mismatch.rule.text_flip)
     seen = {(row, column): (t, pixels.colors[row][column])
