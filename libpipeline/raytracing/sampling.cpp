@@ -41,14 +41,14 @@ SamplePlaces::Place SamplePlaces::of(int row, int column, int sample) const {
 }
 
 SampleOrder::SampleOrder(int count) {
-  samples_.resize(static_cast<std::size_t>(count * count));
+  samples_.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(count));
   std::iota(samples_.begin(), samples_.end(), 0);
   const auto is_at_end = [&](int place) { return place == 0 || place == count - 1; };
-  const auto others = std::ranges::stable_partition(samples_, [&](int sample) {
+  const auto others = std::stable_partition(samples_.begin(), samples_.end(), [&](int sample) {
     return sample == count / 2 * count + count / 2 ||
            (is_at_end(sample / count) && is_at_end(sample % count));
   });
-  first_count_ = samples_.size() - others.size();
+  first_count_ = static_cast<std::size_t>(others - samples_.begin());
 }
 
 }  // namespace pipeline

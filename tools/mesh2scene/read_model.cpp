@@ -69,8 +69,8 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
       if (known.starts_with("pk") && !name.ends_with(".3mf")) refuse("a ZIP archive", "unzip unpacks it");
       refuse(what, cure);
     }
-  // NOLINTNEXTLINE(bugprone-branch-clone): some files are STL for sure, others only if nothing else
   if (is_binary_stl)
+    // NOLINTNEXTLINE(bugprone-branch-clone): some files are STL for sure, others only if nothing else
     model.format = "STL", read_stl(bytes, model);
   else if (begin.starts_with("ply"))
     model.format = "PLY", read_ply(bytes, model);

@@ -1,5 +1,6 @@
 #include "tools/zbuf/colored_rows.h"
 
+#include <cstddef>
 #include <utility>
 
 namespace pipeline {
@@ -7,8 +8,8 @@ namespace pipeline {
 ColoredRows::ColoredRows(TriangleStore& store, std::optional<SurfaceShader>& shader, int first_row,
                          int thread_count, PictureOutputs& outputs)
     : store_(store), shader_(shader), outputs_(outputs), row_(first_row), pool_(shader ? thread_count : 1) {
-  constexpr int kRowsOfThread = 8;
-  waiting_.resize(static_cast<std::size_t>(kRowsOfThread * pool_.size()));
+  constexpr std::size_t kRowsOfThread = 8;
+  waiting_.resize(kRowsOfThread * static_cast<std::size_t>(pool_.size()));
   colored_.resize(waiting_.size());
   if (shader) shader->set_workers(pool_.size());
 }
