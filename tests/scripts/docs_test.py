@@ -124,12 +124,16 @@ class Pages(unittest.TestCase):
     def test_lines_fit_into_120_columns(self):
         """Except tables, examples and pictures, which cannot be broken; the specification has none that is
         longer."""
-        specification = [SOURCE / "docs" / name for name in ("scene.md", "stage-text.md", "stages.md")]
         for page in PAGES + OTHER_PAGES:
             text = page.read_text()
-            kept = text if page in specification else re.sub(r"^([|#<]|!\[|    ).*", "", BLOCK.sub("", text),
-                                                             flags=re.M)
+            kept = text if page.stem in SPECIFICATION else re.sub(r"^([|#<]|!\[|    ).*", "",
+                                                                  BLOCK.sub("", text), flags=re.M)
             self.assertEqual([line for line in kept.split("\n") if len(line) > 120], [], name_of(page))
+
+    def test_no_wrapped_line_becomes_a_bullet(self):
+        for page in PAGES + OTHER_PAGES:
+            bullet = re.compile(r"(?:^(?![-+*] |[\s|#]|\d+\.).*[^:\n]|\([^()\n]*)\n *[-+*] .*", re.M)
+            self.assertEqual(bullet.findall(BLOCK.sub("", page.read_text())), [], name_of(page))
 
     def test_every_link_leads_somewhere(self):
         for page in PAGES + OTHER_PAGES:
@@ -232,12 +236,8 @@ class WhatThePagesName(unittest.TestCase):
 
     def test_every_command_of_pipeline_is_there(self):
         for page in PAGES:
-            for word in sorted(
-                    set(
-                        re.findall(
-                            r"(?:^|[^\w/-])pipeline ([a-z][a-z-]+)", "\n".join(
-                                re.findall(r"`[^`\n]*`|^    .*|^\$ .*", page.read_text(), re.MULTILINE)),
-                            re.MULTILINE))):
+            code = "\n".join(re.findall(r"`[^`\n]*`|^    .*|^\$ .*", page.read_text(), re.MULTILINE))
+            for word in sorted({*re.findall(r"(?:^|[^\w/-])pipeline ([a-z][a-z-]+)", code, re.MULTILINE)}):
                 with self.subTest(page=name_of(page), command=word):
                     known = word in ("help", "env") or (BIN_DIR.parent / "libexec/pipeline" / word).exists()
                     self.assertTrue(known, f"pipeline {word}")

@@ -88,9 +88,10 @@ def certainty(results):
 def promise(results):
     """The findings of the check of single digits."""
     counts = counts_of(results, "wrong_without_note")
-    found = f"{sum(counts)}" if any(counts) else "None"
-    return (f"{found} of {3 * len(counts)} runs of a stage printed, without a note, a digit wrong for the "
-            "numbers it had read.")
+    found = f"{sum(counts)}" if any(counts) else "none"
+    return (
+        f"In {3 * len(counts)} runs of a stage, {found} printed a wrong digit, given the numbers it had read, "
+        "without a note.")
 
 
 def tables(rows):
