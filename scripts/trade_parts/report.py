@@ -54,12 +54,11 @@ def about_times(times):
     """A sentence on the reliability of the times."""
     share = min(1, times.start_up / times.seconds_of_default)
     if times.unit != CPU_TIME:
-        return (f"Times tell nothing here, where programs hardly run: {times.unit} are counted,\n"
-                "over the default's, in all and (net) without those of an empty picture.")
-    words = (
-        f"CPU: medians of {times.rounds} round{'s' * (times.rounds != 1)}. {seconds(times.start_up)} of "
-        f"each, {100 * share:.0f} % of the default's, starts four\nprograms and writes an empty picture: net "
-        f"is the rest, over the default's.")
+        return (f"The programs run too briefly to be timed: {times.unit} are counted,\n"
+                "divided by the default's: all, and (net) without what an empty picture takes.")
+    words = (f"CPU: medians of {times.rounds} round{'s' * (times.rounds != 1)}. Starting four programs and "
+             f"writing an empty picture\ntakes {seconds(times.start_up)} of each, {100 * share:.0f} % of the "
+             f"default's: net is the rest, divided by the default's.")
     return words + ("\n" + TOO_SHORT if times.are_too_short else "")
 
 
@@ -91,7 +90,7 @@ def about_pixels(choice):
 def about_ties(choice):
     """A sentence on the settings that cost as much, or may cost less; empty if there is none."""
     if choice.untold:
-        return ("\nToo busy to tell which is cheapest, or too few rounds: this is the simplest.\n"
+        return ("\nThe cheapest is unknown (busy machine, or too few rounds): this is the simplest.\n"
                 f"These may be cheaper:{names(choice.untold)}\n"
                 "Repeat it when the machine is idle, or with more --rounds.")
     if choice.ties:

@@ -358,7 +358,7 @@ class Choices(unittest.TestCase):
             about_ties(Choice(self.seven, ties=(self.five,))),
             "\nThese cost the same, as far as anybody notices; this is the simplest:"
             "\n    --digits 5")
-        self.assertIn("\nToo busy to tell which is cheapest, or too few rounds: this is the simplest.\n",
+        self.assertIn("\nThe cheapest is unknown (busy machine, or too few rounds): this is the simplest.\n",
                       about_ties(Choice(self.seven, untold=(self.five,))))
 
 

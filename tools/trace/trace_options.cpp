@@ -42,8 +42,8 @@ void TraceOptions::add_pixels(CommandLine& options) {
       "adaptive: jittered, but only the five cells in the corners and the middle where these look alike\n"
       "(default: regular)");
   options.add_whole("--samples", sample_count, 1, kMaxSamples,
-                    "Smooth edges: a pixel is the mean of N x N samples, with --sampling by default " +
-                        std::to_string(kSamplesOfSampling) + " x " + std::to_string(kSamplesOfSampling));
+                    "Smooth edges: a pixel is the mean of N x N samples; by default " +
+                        std::to_string(kSamplesOfSampling) + " with any --sampling but basic");
   options.add_whole("--threshold", threshold, 0, 255,
                     "With --sampling adaptive: take all samples where a channel of the first five differs by "
                     "at least N levels");
