@@ -7,13 +7,13 @@
 
 // The proof, in homogeneous pixels (column * w, row * w, w): a center is d = (column, row, 1), the edges are
 // planes n_i = p_j x p_k through the eye, their sum is `plane`, and n_0 . p_0 is `volume`, above 0 (M. Olano
-// and T. Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997). Possible. A true point seen
+// and T. Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997). Possible: a true point seen
 // at d is w' d. The point p of the same weights differs from it by the moves of the corners: `error` in view
 // space, and printing. So |n . (p - w' d)| <= w' margin(n) for any plane n, as w' is at least least_w. Since
-// n_i . p is from 0 to volume, n_i . d >= -margin(n_i). Sure. Move the triangle continuously to the true one.
+// n_i . p is from 0 to volume, n_i . d >= -margin(n_i). Sure: move the triangle continuously to the true one.
 // The triangle stops covering d only when an edge meets d. There, n_i . p = 0 for the original edge, so |n_i
-// . d| <= margin(n_i). Depths. From plane . p = volume follows 1 / w' = (plane . d + printed) / (volume -
-// moved), where `moved` is due to `error` alone: printing moves points in proportion to w'. Rounding. No
+// . d| <= margin(n_i). Depths: from plane . p = volume follows 1 / w' = (plane . d + printed) / (volume -
+// moved), where `moved` is due to `error` alone: printing moves points in proportion to w'. Rounding: no
 // value here takes more than 30 roundings, of numbers that are at most the sum of the |terms|.
 
 namespace pipeline {

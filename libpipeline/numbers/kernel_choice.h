@@ -23,7 +23,7 @@ using KernelTable = std::array<Function, kTargets.size()>;
         HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function)  \
   }
 
-/// True if this processor can run a target's kernels; it is of the family compiled for.
+/// False if this processor cannot run a target of its family; targets of other families are not tested.
 inline bool can_run(std::size_t target) {
 #if defined(__x86_64__) && defined(__GNUC__)
   if (target > 2 && !__builtin_cpu_supports("sse4.2")) return false;
@@ -37,8 +37,8 @@ inline bool can_run(std::size_t target) {
   return target < kTargets.size();
 }
 
-/// The last target that this processor can run, at most the one named by the environment variable
-/// PIPELINE_KERNEL (for tests). An unknown name has no effect.
+/// The last target for which can_run() is true, perhaps of another family, and at most the one named by the
+/// environment variable PIPELINE_KERNEL (for tests). An unknown name has no effect.
 inline std::size_t best_target() {
   static const std::size_t best = [] {
     const char* const variable = std::getenv("PIPELINE_KERNEL");

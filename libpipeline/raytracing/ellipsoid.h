@@ -15,10 +15,10 @@ namespace pipeline {
 /// The image of a sphere under an affine map: the points c + u a + v b + w d with u^2 + v^2 + w^2 = 1, where
 /// c is the center and a, b, d are the half axes, which need not be perpendicular.
 /// A ray is mapped to the space of u, v and w, where the surface is the unit sphere, and the quadratic
-/// equation for the distance is solved in pairs of doubles: in doubles, f.f - 1 cancels for a ray that begins
-/// near the surface of a large sphere, and the distance has a relative error of 3e-9 at a radius of 1e8.
-/// Here, the error is within 2^-50 for rays that begin within 2^40 radii of the center, unless they graze the
-/// surface.
+/// equation for the distance is solved in pairs of doubles: in doubles, f.f - 1 cancels for a ray that
+/// begins, at f in that space, near the surface of a large sphere, and the distance has a relative error of
+/// 3e-9 at a radius of 1e8. Here, the error is within 2^-50 for rays that begin within 2^40 radii of the
+/// center, unless they graze the surface.
 class Ellipsoid {
  public:
   /// The ellipsoid of these points; none if they lie in a plane, as far as pairs of doubles can tell.

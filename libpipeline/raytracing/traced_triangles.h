@@ -50,11 +50,11 @@ struct TracedSphere {
   std::uint32_t material;
 };
 
-/// All triangles of a text, in view space and as `zbuf` reads them from `project --digits exact`, in that
-/// order. A cut triangle has one entry per piece; a dropped one has none, unless dropped triangles are kept,
-/// for rays that do not come from the eye: then its image has no area. An entry's index is its id. A plain
-/// triangle takes 154 bytes (82 as an image alone), colors and normals another 144 each. The spheres of the
-/// text follow: their ids begin after the last triangle's.
+/// All triangles of a text, in view space and as `zbuf` reads them from `project --digits exact`, in the
+/// order in which it writes them. A cut triangle has one entry per piece; a dropped one has none, unless
+/// dropped triangles are kept, for rays that do not come from the eye: then its image has no area. An entry's
+/// index is its id. A plain triangle takes 154 bytes (82 as an image alone), colors and normals another 144
+/// each. The spheres of the text follow: their ids begin after the last triangle's.
 class TracedTriangles {
  public:
   using Id = std::uint32_t;

@@ -65,7 +65,7 @@ class TriangleTexts {
   std::vector<std::size_t> ends_;
 };
 
-/// A reader passes on a batch of this many triangles.
+/// The most triangles that a reader puts into a batch.
 constexpr std::size_t kBatchSize = 2048;
 
 /// The center of a sphere, or of its image under an affine map, and the ends of three half axes.

@@ -23,7 +23,7 @@ struct FilePlace {
 /// links form a cycle, and for a descriptor that is not open: another file might get it later.
 std::optional<FilePlace> place_of(const std::string& path);
 
-/// True if an OutputFile `path` is a new file or replaces a regular one, complete or not at all.
+/// True if an OutputFile `path` would be a new file or replace a regular one; others are written to directly.
 bool is_replaced(const std::string& path);
 
 /// Notes a path that this process is about to make and that must not be left if it fails or is ended by a

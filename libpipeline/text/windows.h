@@ -1,7 +1,7 @@
 #pragma once
 
-// Included before every source of a build for Windows (CMakeLists.txt): the calls of POSIX that mingw-w64
-// lacks or gives another meaning.
+// Included before every source of a build for Windows (CMakeLists.txt): the POSIX calls that mingw-w64
+// lacks, or to which it gives another meaning.
 
 #include <fcntl.h>
 #include <io.h>

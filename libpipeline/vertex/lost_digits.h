@@ -24,7 +24,7 @@ class LostDigits {
   struct Found {
     double share = 0;               // of the pixels drawn
     bool is_of_edges = false;       // true if most of the loss is at edges
-    int decimals = 0;               // the count of decimals, which is too small
+    int decimals = 0;               // too few: of the text written or, if it is exact, of the text read
     std::optional<int> enough;      // with so many, no pixel should be wrong; none if 12 are too few
     bool may_be_one_plane = false;  // most of the loss is at surfaces that perhaps no digits tell apart
     bool near_helps = false;        // a larger near would lose fewer digits and hide nothing

@@ -22,7 +22,7 @@ class MatrixStack {
   void multiply(const AffineMatrix& t) { set_top(top_ * t); }
   void translate(const Vec3& offset) { set_top(translated(top_, offset)); }
   void scale(const Vec3& factors) { set_top(scaled(top_, factors)); }
-  /// Saves the top; false, with nothing done, if max_saved() matrices are saved.
+  /// Saves the top; false, with nothing done, if it is not the matrix saved last and max_saved() are stored.
   [[nodiscard]] bool push() {
     if (top_is_saved_ || (!saved_.empty() && saved_.back().matrix == top_)) {
       ++saved_.back().count;

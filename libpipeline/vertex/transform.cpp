@@ -10,7 +10,7 @@
 namespace pipeline {
 namespace {
 
-/// The image of x under a rotation about the unit axis a: cos x + (1 - cos) (a.x) a + sin (a x x).
+/// Turns x by t about the unit axis a: cos(t) x + (1 - cos(t)) (a . x) a + sin(t) cross(a, x).
 BallVec3 rodrigues(const BallVec3& x, const BallVec3& axis, const SineCosine& angle) {
   const BallVec3 kept = x * angle.cosine;
   const BallVec3 along = axis * (angle.versine * dot(axis, x));

@@ -66,7 +66,7 @@ class ZBufferAlgorithm {
 
     void make_spans() {
       TaggedSpan* const end = algorithm_.coverage_.spans(triangles_, rows_, end_);
-      if (!is_low_)  // the pixels of a band are in the cache
+      if (!is_low_)  // not for a band: its pixels are in the cache
         for (const TaggedSpan* span = end_; span != end; ++span) algorithm_.buffer_.fetch(span->span);
       end_ = end;
       if (end_ >= spans_.get() + kWaiting) draw_spans();

@@ -13,10 +13,10 @@ namespace pipeline {
 
 // The formats in which the z-buffer stores depths. A format rounds depths to stored values and compares
 // these, so two depths that round to the same value are equal, and the earlier triangle stays. `store` is
-// monotone; `depth` gives the depth of a stored value. Two depths that differ by `separation(size)` or more,
-// neither larger than `size`, are never stored as the same value. kName is the word that chooses the format,
-// kMeaning its line in --help. Not every format has room for every pair of limits: `needed_limits` is empty
-// if it can store the depths between a screen's limits, else it says which limits the format needs.
+// monotone; `depth` gives the depth of a stored value. Two depths between the limits that differ by
+// `separation(size)` or more, neither larger than `size`, are never stored as the same value. kName is the
+// word that chooses the format, kMeaning its line in --help. `needed_limits` is empty if the format has room
+// for the depths between a screen's limits, else it says which limits the format needs.
 
 /// The depth rule: a fragment is drawn if it is not before the front limit, and wins a pixel if its stored
 /// depth is less than the pixel's.

@@ -30,7 +30,7 @@ class Drawing {
   /// Calls `visit` with the tags, which it may change, of every row with something drawn; for no row if
   /// triangles are kept until their rows are visited.
   virtual void for_each_drawn_row(const std::function<void(std::span<PixelTag>)>& visit) = 0;
-  /// Calls `visit(VisibleRow)` for every drawn row, from the top.
+  /// Calls `visit(VisibleRow)` for every row of the screen's drawn_rows(), empty ones, too, from the top.
   virtual void for_each_row(const std::function<void(const VisibleRow&)>& visit) const = 0;
 };
 

@@ -92,8 +92,8 @@ class RowSweep {
   // The state of a sweep.
   std::span<Polygon> polygons_;
   std::vector<ActivePolygon> active_;  // the active polygon list
-  Polygon* visible_ = nullptr;         // the nearest active polygon, contenders excepted ...
-  int visible_end_ = 0;                // ... from the current column up to this one
+  Polygon* visible_ = nullptr;         // the nearest active polygon, not counting contenders
+  int visible_end_ = 0;                // where it and the contenders are chosen anew
   std::vector<Polygon*> contenders_;   // polygons to compare with it at every pixel
   int run_length_ = 1;                 // columns until the contenders are chosen anew
 };

@@ -21,9 +21,9 @@
 
 namespace pipeline {
 
-/// A picture cut into bands of neighboring rows, enough for all threads. Bands outside the drawn rows stay
-/// empty. A band is so low that its depths and tags stay in a core's cache while many triangles are drawn
-/// into it.
+/// A picture cut into bands of neighboring rows. Bands outside the drawn rows stay empty. A band has 8 to 64
+/// rows, as many as a core's cache can hold the depths and tags of while many triangles are drawn into it (8
+/// even if it cannot); more only in a picture so tall that there would be more than 512 bands.
 class RowBands {
  public:
   /// The size of a double and a PixelTag.

@@ -53,7 +53,7 @@ class ZBuffer {
     for (int row = rows_.first; row < rows_.end; ++row)
       if (is_filled_[index_of(row)] != 0) visit(tags_.row(row));
   }
-  /// Calls `visit(VisibleRow)` for every drawn row, from the top.
+  /// Calls `visit(VisibleRow)` for every row of the buffer, empty ones, too, from the top.
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {
     const auto columns = static_cast<std::size_t>(depths_.columns());

@@ -32,8 +32,8 @@ class Theirs:
             return None
 
     def stage(self, tool):
-        """Their points, and the indices of vertices that differ from ours in the digits they show. No vertex
-        is compared if the counts of triangles differ, or if the page draws only every n-th triangle."""
+        """Their points, and the indices of vertices that differ from ours in the digits they show, if
+        there are as many. None if the file cannot be read, or if the page draws only every n-th triangle."""
         theirs, text = self.read(KINDS[tool], read_points), self.inspection.lines[tool]
         if theirs is None or self.inspection.step > 1:
             return None

@@ -64,8 +64,8 @@ class Times:
                    self.seconds[setting].median - self.start_up) / (self.seconds_of_default - self.start_up)
 
     def verdict(self, setting, other):
-        """A verdict on the CPU time of a setting and another, paired by rounds: cheaper if a sign test finds
-        it less, and its median saves at least the tenth of NOTICED."""
+        """A verdict on the CPU time of a setting and another, paired by rounds: CHEAPER if a sign test finds
+        their ratio below 1, and its median is below NOTICED."""
         ratios = self.ratios(setting, other)
         low, high = median_interval(ratios)
         median = statistics.median(ratios)
@@ -103,8 +103,8 @@ def counted(pipe, turns, progress):
 
 
 def measured(pipe, settings, rounds, progress):
-    """The Times of all settings. A round runs each setting once, in a new order, so that other load on the
-    machine affects all alike."""
+    """The Times of all settings, or their Counts if runs are too short to time. A round runs each setting
+    once, expensive ones only in the first ROUNDS_OF_DEAR, in a new order: other load affects all alike."""
     dice, empty = random.Random(1), pipe.empty_scene()
     turns = [(EMPTY, DEFAULT, empty), (AGAIN, DEFAULT, None),
              *((setting, setting, None) for setting in dict.fromkeys([DEFAULT, *settings]))]

@@ -38,7 +38,7 @@ class ModelFiles {
   std::map<Inode, std::string> outputs_;
   std::map<Inode, std::string_view> mapped_;
   std::string_view model_;
-  std::string refused_;  // the first file that was not opened
+  std::string refused_;  // the file that refusal() names
   std::size_t megabytes_;
   std::size_t room_;  // in bytes, for further files
   bool has_folder_ = false;

@@ -120,7 +120,7 @@ class CommandLine {
                            const std::string& default_word, const std::string& help,
                            const std::function<void(std::size_t)>& take);
 
-  /// An option or operand that CLI11 gets only if needed: each takes some 5 % of a start's instructions.
+  /// An option or operand that CLI11 gets only if needed: each takes some 5 % of a tool's start-up.
   struct Declared {
     std::string name, group;
     std::function<void(CLI::App&)> add;

@@ -20,8 +20,8 @@ inline const NamedFile kStandardError = {"standard error", "/dev/stderr"};
 NamedFile file_or_stream(const std::string& name, const std::string& path, const NamedFile& stream);
 
 /// Throws a UsageError if an output of a run would share a regular file or a pipe with another output (one
-/// would replace the other, or both would mix) or with an input. Devices may be shared; standard output and
-/// standard error may share anything.
+/// would replace the other, or both would mix) or with an input. Devices may be shared. Standard output and
+/// standard error may be one file or pipe, and an output may replace an input if both are in place.
 void expect_separate(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
 }  // namespace pipeline

@@ -21,8 +21,8 @@ class NumberOptions {
   [[nodiscard]] NumberFormat format() const;
   /// A rounder for coordinates whose vertices come from `file`.
   [[nodiscard]] CoordinateRounder rounder(const std::string& file) const;
-  /// The rounding error to add to bounds; makes `rounder` keep it. A UsageError unless the precision is
-  /// extended.
+  /// Makes `rounder` keep within its rounding error, and returns that error, to be added to bounds. A
+  /// UsageError unless the precision is extended.
   [[nodiscard]] ErrorBound kept_bounds(CoordinateRounder& rounder) const;
 
  private:

@@ -42,7 +42,7 @@ class FragmentReport {
 
 /// For each triangle: is it nearer than all before it at some pixel or sample? With a depth epsilon, the text
 /// of `--seen` needs no other triangle: a fragment is drawn only where it is nearer than the pixel's depth by
-/// more than epsilon, and those refused there before it were not, so it is the nearest so far.
+/// more than epsilon; those refused there were not, when it was no smaller: so it is the nearest so far.
 class NearestSoFar {
  public:
   NearestSoFar(PixelRules rules, const Viewport& of_centers, int sample_count) {

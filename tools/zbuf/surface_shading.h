@@ -33,7 +33,7 @@ ShadingModel shading_model(const Appearance& appearance, std::optional<ShadingMo
 /// The shader of the triangles of a projected text; none for a text without colors and lights, unless a
 /// wireframe is requested. The header of a text with lights must have its projection. An InputError if a
 /// model needs lights and there are none, or if the header's background is not opaque and the image cannot
-/// hold an alpha. InputErrors name `header_end`, the place after the header.
+/// hold an alpha. InputErrors name `header_end`, the place after the header, or a refused background's line.
 std::optional<SurfaceShader> surface_shader(const StageHeader& header, const SourceLocation& header_end,
                                             const Viewport& screen, const PictureOptions& chosen,
                                             bool is_wireframe = false);

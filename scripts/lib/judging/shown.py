@@ -17,8 +17,8 @@ FLIPS = {
     "": lambda rows: rows, "upside down": lambda rows: rows[::-1],
     "mirrored": lambda rows: [row[::-1] for row in rows],
     "turned": lambda rows: [row[::-1] for row in rows[::-1]], "transposed": lambda rows: list(zip(*rows))}
-# The visible triangle of each pixel, row by row. `drawn` and `colors` are None without a picture; a row of
-# `depths` is None if the pixels of its numbers are unknown: those are in `listed`. `seen` pairs `drawn`
+# What each pixel shows, row by row: `drawn`, whether a triangle, and `colors`, both None without a picture,
+# and `depths`: a row is None if its numbers' pixels are unknown; `listed` has them. `seen` pairs `drawn`
 # (without a picture, the pixels with depths) with the range of columns that show any; None if unknown.
 Pixels = collections.namedtuple("Pixels", "drawn colors depths listed seen")
 

@@ -14,9 +14,9 @@ NO_POINTS = "the stages before give no points to judge it by"
 
 
 def stage_outcome(ours, stage, name, theirs, readings=(), clipped=()):
-    """The FileVerdict, by a Reference, on the Points of model, or that view or project made of one of the
-    readings; and the exact points that the program then has, None if unknown. `clipped` are lists of points
-    that are right after project, too, for each reading, the exact one last."""
+    """The FileVerdict of a Reference, `ours`, on `theirs`, the Points that a program wrote; and the exact
+    points that it probably has in memory, None if unknown. `readings` are what view or project may have had
+    as input, numbers in memory last. `clipped` has what our project makes of each: right, too."""
     scene = ours.scene
     if stage == "model":
         return outcome_among(name, theirs, ModelWays(scene, ours.world))
@@ -87,7 +87,7 @@ def outcome_among(name, theirs, ways):
 
 
 def used_digits(theirs):
-    """Mistakes are not named by numbers that show too few digits."""
+    """The digits to compare with: those shown, or EXACT if these are too few to identify a mistake."""
     return EXACT if theirs.digits.are_too_few else theirs.digits
 
 

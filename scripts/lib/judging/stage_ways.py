@@ -77,7 +77,7 @@ class ModelWays:
 
 
 class MatrixWays:
-    """The ways of view or project, each one matrix. `right` are (rule in words, matrix, its divisions)."""
+    """The ways of view or project, each one matrix. `right` are (rule in words, matrix, is_divided)."""
     scene_lines = ()
 
     def __init__(self, stage, scene, readings, right):

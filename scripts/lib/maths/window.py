@@ -120,7 +120,7 @@ class PixelOfTriangle:
 
     def single_crossing(self, rule):
         """The depth of the single point (a corner, or an edge-on triangle) in which the row crosses the
-        triangle by the rule `nearest`, in zbuf's doubles; else None."""
+        triangle by the rule `nearest`, in zbuf's doubles; exact if exact numbers give one, too. Else None."""
         span = self.span_in_doubles() if rule == "nearest" else None
         if span is None or span.depth is None:
             return None

@@ -12,8 +12,8 @@ OURS = ".pipeline-"  # how a mark begins, and what a killed tool may leave
 
 
 class WorkFolder:
-    """The mark is a file that names the command, and the `use` of a folder that is no output. It stays
-    for a retry, and goes with the folder."""
+    """The mark is a file with the command in its name and, if the folder is no output, its `use`. It stays,
+    so that a retry may take the folder, and is removed with it."""
     def __init__(self, path, command, use=""):
         self.path, self.command, self.use = pathlib.Path(path), command, use
         self.mark = self.path / (OURS + command + use)
@@ -117,5 +117,5 @@ class WorkFolder:
 
 
 def is_other(path):
-    """True if it is a link, a pipe or a device, which is not ours, nor is a link's target."""
+    """True for a link, a pipe or a device: none of these is ours, and neither is what a link leads to."""
     return os.path.lexists(path) and stat.S_IFMT(os.lstat(path).st_mode) not in (stat.S_IFREG, stat.S_IFDIR)

@@ -10,7 +10,7 @@ work=$(mktemp -d)
 trap 'rm -rf --one-file-system -- "$work"' EXIT
 trap 'exit 1' HUP INT TERM
 
-# Ends where this machine lacks what the others need.
+# Ends because this machine lacks what the steps need: $1 says what.
 skip() {
   echo "$name: skipped: $1"
   exit 77
