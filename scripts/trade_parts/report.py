@@ -57,8 +57,8 @@ def about_times(times):
         return (f"The programs run too briefly to be timed: {times.unit} are counted,\n"
                 "divided by the default's: all, and (net) without what an empty picture takes.")
     words = (f"CPU: medians of {times.rounds} round{'s' * (times.rounds != 1)}. Starting four programs and "
-             f"writing an empty picture\ntakes {seconds(times.start_up)} of each, {100 * share:.0f} % of the "
-             f"default's: net is the rest, divided by the default's.")
+             f"writing an empty\npicture takes {seconds(times.start_up)} of each, {100 * share:.0f} % of the "
+             "default's; net leaves that out.")
     return words + ("\n" + TOO_SHORT if times.are_too_short else "")
 
 

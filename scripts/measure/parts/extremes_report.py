@@ -90,8 +90,8 @@ def promise(results):
     counts = counts_of(results, "wrong_without_note")
     found = f"{sum(counts)}" if any(counts) else "none"
     return (
-        f"In {3 * len(counts)} runs of a stage, {found} printed a wrong digit, given the numbers it had read, "
-        "without a note.")
+        f"In {3 * len(counts)} runs of a stage, {found} printed a wrong digit, given the numbers it had read,"
+        " without a note.")
 
 
 def tables(rows):
