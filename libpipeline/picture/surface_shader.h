@@ -76,7 +76,7 @@ class SurfaceShader {
     return dark_surface(unclipped(p_ndc, index, own_color), surface);
   }
 
-  /// Statistics of the pixels shaded so far, or of some of them once these show enough.
+  /// Statistics of the pixels shaded so far; of some of them in a high picture, or once these show enough.
   [[nodiscard]] ShownColors shown() const;
   /// True if the triangles seen lie in one plane; known only while they show one color.
   [[nodiscard]] bool is_plane() const;

@@ -8,7 +8,7 @@
 namespace pipeline {
 
 // An error names a text in the wrong place: a scene given to view, or the output of model given to project.
-// Texts without a header, which any stage may have written, are accepted.
+// Where a stage's text is expected, one without a header is accepted: any stage may have written it.
 
 /// The texts that tools read, in the order of the pipe, and some that they do not.
 enum class TextKind {

@@ -58,7 +58,7 @@ class LostDigits {
     double z = 0, z_x = 0, z_y = 0;
     double area = 0;  // twice the triangle's signed area
   };
-  /// A triangle before it is printed and as it was read (uncut, even for a piece).
+  /// A triangle before it is printed, and as it was read; of a piece, the uncut triangle until undo_rounding.
   struct Surface {
     Triangle p_ndc, p_view;
     Plane plane = {};

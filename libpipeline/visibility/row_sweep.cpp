@@ -169,7 +169,8 @@ RowPolygon<Depth>* RowSweep<Depth>::nearest_at(int column) {
   return nearest;
 }
 
-/// The first column in [column, end], while both reach, where `front` is not surely nearer than `back`.
+/// The column in [column, end] up to which, exclusive, `front` is surely nearer than `back` wherever both
+/// have pixels; perhaps less than it could be.
 template <typename Depth>
 int RowSweep<Depth>::end_of_nearer(const Polygon& front, const Polygon& back, int column, int end) const {
   const int last = std::min({end - 1, front.last_column, back.last_column});

@@ -17,8 +17,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the count so far, at most five times a second; with a known `part` of the work done, from 0 to 1,
-  /// also the percentage and the time left.
+  /// Shows, at most five times a second, the count so far and the rate; or, with a known `part` of the work
+  /// done, from 0 to 1, the percentage, the time left and the rate.
   void show(std::uint64_t count, double part = 0);
 
  private:

@@ -41,8 +41,9 @@ class FragmentReport {
 };
 
 /// For each triangle: is it nearer than all before it at some pixel or sample? With a depth epsilon, the text
-/// of `--seen` needs no other triangle: a fragment is drawn only where it is nearer than the pixel's depth by
-/// more than epsilon; those refused there were not, when it was no smaller: so it is the nearest so far.
+/// of `--seen` needs no other: a drawn fragment is nearer than the pixel's depth by more than epsilon.
+/// Earlier fragments that were refused there were not, when that depth was the same or larger; so the drawn
+/// one is the nearest so far.
 class NearestSoFar {
  public:
   NearestSoFar(PixelRules rules, const Viewport& of_centers, int sample_count) {

@@ -14,7 +14,8 @@ from lib.judging.raster import Rule, TooMuch
 from lib.judging.verdict import BY_THE_RIGHT, cause_of, cause_of_all
 
 SAMPLE_ROWS = 8
-# A mistake is named if it leaves one in NEARLY, or less, of LEAST_NEARLY pixels that all open rules leave.
+# A mistake is named if it leaves at most one in NEARLY of the pixels that the best open rule leaves, and
+# these are at least LEAST_NEARLY.
 NEARLY, LEAST_NEARLY = 8, 8
 LOST = 0.9  # the share of a triangle's pixels that must look as without it, to call it missing
 LEAST_HOLES = 5  # on common edges: fewer may be an accident of rounding

@@ -25,7 +25,8 @@ FINEST = 17  # significant digits, of a double
 
 @dataclasses.dataclass(frozen=True)
 class Digits:
-    """`decimals` is None if not every number has the same; `significant` is the most digits of a number."""
+    """`decimals` is the count of every number, or None if counts differ or are 0; `significant` is the count
+    of the largest number's significant digits or, with None, the most of any number."""
     decimals: int
     significant: int
     largest: float = 1.0
