@@ -39,7 +39,7 @@ TriangleBatch read_back(const TriangleBatch& batch) {
   return result;
 }
 
-constexpr unsigned kMarksOfXAndY = 0b011'011'011;
+constexpr unsigned kDecimalXAndY = 0b011'011'011;
 
 TEST(ExactProjection, MarksWhatAReaderMarks) {
   std::mt19937_64 rng(1);
@@ -68,7 +68,7 @@ TEST(ExactProjection, MarksWhatAReaderMarks) {
     pass_through_text(batch);
     ASSERT_EQ(batch.triangles, expected.triangles);
     for (std::size_t i = 0; i < batch.size(); ++i)
-      ASSERT_EQ(batch.decimal_marks[i], expected.decimal_marks[i] & kMarksOfXAndY) << i;
+      ASSERT_EQ(batch.decimal_marks[i], expected.decimal_marks[i] & kDecimalXAndY) << i;
   }
 }
 

@@ -109,7 +109,7 @@ TEST(ModelTransform, DoesNotTakeForTheIdentityWhatIsNearIt) {
 }
 
 TEST(ModelTransform, AnOverflowIsAnErrorInDoublesToo) {
-  TriangleBatch batch = batch_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  TriangleBatch batch = batch_of({Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});
   CoordinateRounder rounder(Precision::in_doubles, {7}, "scene.txt");
   const VertexTransform transform(scaled(scaled(identity(), {1e300, 1, 1}), {1e300, 1, 1}));
   EXPECT_THROW(transform.apply(batch, rounder), InputError);
