@@ -134,10 +134,8 @@ void check_bmp_size(const std::string& path, int columns, int rows) {
   const std::uint64_t size = kHeaderSize + std::uint64_t{row_size(columns)} * static_cast<unsigned>(rows);
   if (size <= std::numeric_limits<std::uint32_t>::max()) return;
   throw InputError(
-      {path}, expected_but_found(
-                  "an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit)",
-                  std::to_string(columns) + " x " + std::to_string(rows) + " pixels, " +
-                      std::to_string(size) + " bytes"));
+      {path}, "an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit)",
+      std::to_string(columns) + " x " + std::to_string(rows) + " pixels, " + std::to_string(size) + " bytes");
 }
 
 std::unique_ptr<ImageWriter> bmp_writer(int descriptor, const std::string& path, int columns, int rows) {

@@ -59,12 +59,10 @@ std::string format_extension_of(const std::string& path) {
 /// The extension likewise; throws the InputErrors of a name.
 std::string format_of(const std::string& path) {
   std::string extension = format_extension_of(path);
-  if (image_file_of(path).empty())
-    throw InputError({path}, expected_but_found("a file name after the format", "nothing"));
+  if (image_file_of(path).empty()) throw InputError({path}, "a file name after the format", "nothing");
   if (extension == ".bmp" && is_device_without_extension(image_file_of(path))) {
     const std::string shown = path == "bmp:/dev/stdout" ? "bmp:-" : path;
-    throw InputError({shown}, expected_but_found("ppm:- or png:-, as a BMP is written from its end",
-                                                 pipeline::quoted(shown)));
+    throw InputError({shown}, "ppm:- or png:-, as a BMP is written from its end", pipeline::quoted(shown));
   }
   const std::vector<std::string_view> extensions = image_extensions();
   if (std::ranges::find(extensions, extension) == extensions.end())
@@ -118,8 +116,7 @@ void reject_extension(const std::string& path, const std::string& kind,
   std::string expected = kind + " that ends in " + listed(extensions);
   if (!can_write_png() && extension_of(path) == ".png")
     expected += " (this build is without libpng, which .png needs)";
-  throw InputError({path}, expected_but_found(expected, found.empty() ? "a name without extension"
-                                                                      : pipeline::quoted(found)));
+  throw InputError({path}, expected, found.empty() ? "a name without extension" : pipeline::quoted(found));
 }
 
 }  // namespace pipeline

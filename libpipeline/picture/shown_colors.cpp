@@ -1,5 +1,6 @@
 #include "libpipeline/picture/shown_colors.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <numeric>
 

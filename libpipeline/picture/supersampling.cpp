@@ -44,7 +44,7 @@ std::optional<std::span<const Color>> Downsampler::add(std::span<const Color> sa
     return row_;
   }
   const auto all = static_cast<std::uint32_t>(count_ * count_);
-  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): counts are 1 or more, and their squares have 32 bits
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): a count is from 1 to 16
   const auto mean = [&](std::uint32_t sum) { return static_cast<std::uint8_t>((2 * sum + all) / (2 * all)); };
   for (std::size_t column = 0; column < row_.size(); ++column) {
     std::uint32_t red_blue = 0, green = 0;

@@ -71,7 +71,7 @@ void TracedTriangles::add(const TriangleBatch& p_view, const TriangleBatch& p_nd
     const std::optional<Ellipsoid> surface = Ellipsoid::from(sphere.points);
     if (!surface)
       throw InputError({file, sphere.locations[0].line(), sphere.locations[0].column()},
-                       expected_but_found("a sphere with a volume", "four points in a plane"));
+                       "a sphere with a volume", "four points in a plane");
     spheres_.push_back({*surface, sphere.color, sphere.number, sphere.material});
   }
 }

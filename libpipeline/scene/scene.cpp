@@ -14,6 +14,7 @@
 namespace pipeline {
 SceneReader::SceneReader(TextReader& text) : text_(text) {
   text_.expect_word(line_, "the eye (three numbers)");
+  // A word that begins with a letter and is no command of ours: another program's scene.
   if (const auto w = line_.peek(); w.size() > 1 && w >= "A" && w < "{" && !find_scene_command(w))
     line_.fail("the x of the eye", " (a scene begins with numbers: pipeline help scene)");
   camera_.eye = read_camera_vec3("the eye");

@@ -13,6 +13,7 @@ namespace pipeline {
 class InputError : public std::runtime_error {
  public:
   InputError(const SourceLocation& location, const std::string& message);
+  /// The message is expected_but_found(expected, found).
   InputError(const SourceLocation& location, const std::string& expected, const std::string& found);
   [[nodiscard]] const SourceLocation& location() const { return location_; }
 

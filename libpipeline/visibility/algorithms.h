@@ -40,7 +40,7 @@ class ZBufferAlgorithm {
     Drawer(ZBufferAlgorithm& algorithm, const RowRange& rows)
         : algorithm_(algorithm),
           rows_(rows),
-          is_low_(rows.end - rows.first <= kMaxRows),
+          is_low_(rows.end - rows.first <= kMaxLowRows),
           farthest_(algorithm.buffer_.hierarchical_depth(rows)),
           spans_(std::make_unique_for_overwrite<TaggedSpan[]>(
               kWaiting + kTriangles * static_cast<std::size_t>(rows.end - rows.first))),
@@ -62,7 +62,8 @@ class ZBufferAlgorithm {
     static constexpr std::size_t kTriangles = 4;
     // The number of spans fetched before the first of them is drawn.
     static constexpr std::size_t kWaiting = 64;
-    static constexpr int kMaxRows = 128;
+    // The most rows with depth bounds. Only pictures with more than 65536 rows of samples have higher bands.
+    static constexpr int kMaxLowRows = 128;
 
     void make_spans() {
       TaggedSpan* const end = algorithm_.coverage_.spans(triangles_, rows_, end_);

@@ -20,7 +20,7 @@ namespace pipeline {
 
 /// The depth rule: a fragment is drawn if it is not before the front limit, and wins a pixel if its stored
 /// depth is less than the pixel's.
-// docs/stages.md, Z8
+// Z8
 constexpr bool is_drawn(double z, double front) {
   return z >= front;
 }
@@ -93,8 +93,8 @@ struct DepthU24 {
   double depth_per_step;
 };
 
-/// Every depth format, in the order of --help; the first is the default. Functions compiled once per format
-/// are instantiated by PIPELINE_FOR_EACH_DEPTH_FORMAT.
+/// Every depth format, in the order of --help; the first is the default. The macro has the same list, for
+/// functions compiled once per format.
 #define PIPELINE_FOR_EACH_DEPTH_FORMAT(DO) DO(DepthF64) DO(DepthF32) DO(DepthU24)
 using DepthFormats = TypeList<DepthF64, DepthF32, DepthU24>;
 

@@ -61,7 +61,8 @@ class DrawingCounter {
     ++counts_.triangles;
     if (found.visible)
       ++counts_.hidden;  // or seen, which only the complete picture shows
-    else if (!found.before_front && !found.beyond_rear && log_.is_covering(triangle))
+    else if (screen_.drawn_row_count() < screen_.rows && !found.before_front && !found.beyond_rear &&
+             log_.is_covering(triangle))
       ++counts_.outside_rows;
     else
       counts_.unseen.add(unseen_place(triangle.p_ndc, extent, found, screen_), extent);

@@ -118,10 +118,13 @@ class FragmentLog {
   }
   /// True if the triangle covers a pixel of the screen, in the log or not.
   [[nodiscard]] bool is_covering(const ExactTriangle& p_ndc) const {
-    bool found = false;
-    std::visit([&](const auto& rule) { for_each_span(rule.rows(p_ndc), [&](const Span&) { found = true; }); },
-               coverage_);
-    return found;
+    const auto covers = [&](const auto& rule) {
+      const auto rows = rule.rows(p_ndc);
+      for (int row = rows.first_row(); row <= rows.last_row(); ++row)
+        if (rows.span(row)) return true;
+      return false;
+    };
+    return std::visit(covers, coverage_);
   }
 
  private:

@@ -71,10 +71,10 @@ class ActivePolygons {
 };
 
 /// The visibility algorithm `scanline`: keeps the triangles and finds, row by row, the nearest at every
-/// pixel. Needs memory for the triangles that reach the screen (88 bytes each, see
-/// PolygonTable), for the triangles on one row, and for one row of pixels; never for the frame. The rows
-/// equal the z-buffer's to the last bit: both take columns and depths from the same coverage rule, and
-/// compare depths as the same format stores them.
+/// pixel. Needs memory for the triangles that reach the screen (88 bytes each, see PolygonTable), for the
+/// triangles on one row, and for one row of pixels; never for the frame. The rows equal the z-buffer's to the
+/// last bit: both take columns and depths from the same coverage rule, and compare depths as the same format
+/// stores them.
 ///
 /// Source: J. Foley, A. van Dam, S. Feiner, J. Hughes, "Computer Graphics: Principles and Practice", 2nd
 /// edition, section 15.6 (and 3.6 for the edge table); D. Hearn, M. P. Baker, "Computer Graphics", 2nd

@@ -1,7 +1,6 @@
 #include "libpipeline/visibility/zbuffer.h"
 
 #include <cassert>
-#include <functional>
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/stream/memory.h"

@@ -76,7 +76,7 @@ double number_from(const std::string& option, const std::string& word, double le
   const std::string range = "a number from " + shortest_text(least) + " to " + shortest_text(most);
   const ParsedNumber number = parse_number(word);
   if (number.error != NumberError::none || !(number.value >= least && number.value <= most))
-    throw UsageError(option + ": " + expected_but_found(range, pipeline::quoted(word)));
+    throw UsageError(option, range, pipeline::quoted(word));
   return number.value;
 }
 

@@ -56,7 +56,7 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
   const std::string_view begin =
       bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf"), bytes.size()));
   const std::string name = in_lower_case(path);
-  const auto refuse = [&, file = model.name](std::string_view found, std::string_view cure) {
+  const auto refuse = [&, &file = model.name](std::string_view found, std::string_view cure) {
     std::string text = std::string(found) + (cure.empty() ? "" : ": ") + std::string(cure);
     if (cure == kAssimp)
       text += " " + file + " " + file.substr(0, file.rfind('.')) + ".glb converts it (Debian: assimp-utils)";

@@ -359,7 +359,7 @@ std::optional<std::string> CommandLine::parse(int argc, char** argv) {
   }
   for (const CLI::Option* option : std::as_const(*app_).get_options())
     if (!option->empty() && option->get_type_name() == "FILE" && option->results().front().empty())
-      throw UsageError(option->get_name() + "", "a file's name", "nothing");
+      throw UsageError(option->get_name(), "a file's name", "nothing");
   return std::nullopt;
 }
 

@@ -101,8 +101,7 @@ TextReader& Tool::input() {
 }
 
 InputFile Tool::second_input(const std::string& path, const std::string& name) const {
-  if (path == "-" && input_path_ == "-")
-    throw UsageError(name + "", "a file, as INPUT is standard input", "'-'");
+  if (path == "-" && input_path_ == "-") throw UsageError(name, "a file, as INPUT is standard input", "'-'");
   return InputFile(path);
 }
 

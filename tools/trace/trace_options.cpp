@@ -69,13 +69,11 @@ void TraceOptions::complete(const CommandLine& options, bool is_terminal) {
   if (!options.is_given("--samples") && sampling && *sampling != Sampling::basic)
     sample_count = kSamplesOfSampling;
   if (sampling == Sampling::basic && sample_count > 1)
-    throw UsageError("--samples: " + expected_but_found("1 with --sampling basic, which has one ray a pixel",
-                                                        "'" + std::to_string(sample_count) + "'"));
+    throw UsageError("--samples", "1 with --sampling basic, which has one ray a pixel",
+                     "'" + std::to_string(sample_count) + "'");
   if (options.is_given("--threshold") && sampling != Sampling::adaptive)
-    throw UsageError(
-        "--threshold: " +
-        expected_but_found("--sampling adaptive, which alone has one",
-                           sampling ? kSamplings[static_cast<std::size_t>(*sampling)] : "no --sampling"));
+    throw UsageError("--threshold", "--sampling adaptive, which alone has one",
+                     sampling ? kSamplings[static_cast<std::size_t>(*sampling)] : "no --sampling");
   if (!sampling) sampling = Sampling::regular;
 }
 

@@ -22,10 +22,10 @@ Pixel parsed_pixel(const std::string& word, const Viewport& screen) {
   if (parse_count(columns, column) && parse_count(rows, row) &&
       column < static_cast<std::size_t>(screen.columns) && row >= first_row && row <= last_row)
     return {static_cast<int>(column), static_cast<int>(row)};
-  throw UsageError("--probe: " +
-                   expected_but_found("COLUMN,ROW, from 0," + std::to_string(first_row) + " to " +
-                                          std::to_string(screen.columns - 1) + "," + std::to_string(last_row),
-                                      pipeline::quoted(word)));
+  throw UsageError("--probe",
+                   "COLUMN,ROW, from 0," + std::to_string(first_row) + " to " +
+                       std::to_string(screen.columns - 1) + "," + std::to_string(last_row),
+                   pipeline::quoted(word));
 }
 
 }  // namespace

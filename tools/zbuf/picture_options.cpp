@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <string_view>
 #include <thread>
 
 #include "libpipeline/picture/image_file.h"
@@ -31,8 +30,7 @@ PictureOptions::PictureOptions(CommandLine& options, const std::string& tool, bo
                     " [OPTIONS] --size WIDTHxHEIGHT [CONFIG] [INPUT]");
   options.add_operand("CONFIG", config_path,
                       "The screen (config.txt): WIDTH HEIGHT in pixels; optionally three more lines: the "
-                      "left limit of x, the "
-                      "bottom limit of y, the front and rear limits of z");
+                      "left limit of x, the bottom limit of y, the front and rear limits of z");
   options.begin_group("Output");
   options.add_word(
       "--size", "WIDTHxHEIGHT", size,
@@ -94,8 +92,7 @@ void PictureOptions::add_framed(CommandLine& options) {
 void PictureOptions::complete(bool is_terminal, bool writes_seen) {
   const bool image_is_output = image_file_of(image_path) == "-";
   if (image_is_output && z_buffer_path == "-")
-    throw UsageError("--z-buffer: " +
-                     expected_but_found("a file or none, as the image is standard output", "'-'"));
+    throw UsageError("--z-buffer", "a file or none, as the image is standard output", "'-'");
   if (image_path.empty() && !writes_seen) image_path = "out.bmp";
   image_path = named_standard_output(image_path);
   if (z_buffer_path.empty()) {
@@ -105,12 +102,10 @@ void PictureOptions::complete(bool is_terminal, bool writes_seen) {
   }
   if (const auto color = parse_color(background);
       color && !color->is_opaque() && has_image() && !can_hold_alpha(image_path))
-    throw UsageError("--background: " + expected_but_found(expected_opaque_background(),
-                                                           "an alpha of " + std::to_string(color->alpha())));
+    throw UsageError("--background: " + refused_background(*color));
   if (sample_count > 1 && !(depth_array_path.empty() && triangle_array_path.empty()))
-    throw UsageError(
-        (depth_array_path.empty() ? "--triangle-array: " : "--depth-array: ") +
-        expected_but_found("--samples 1 with it", pipeline::quoted(std::to_string(sample_count))));
+    throw UsageError(depth_array_path.empty() ? "--triangle-array" : "--depth-array", "--samples 1 with it",
+                     pipeline::quoted(std::to_string(sample_count)));
 }
 
 int PictureOptions::threads_for(std::size_t samples) const {

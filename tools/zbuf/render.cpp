@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libpipeline/certainty/certain_pixels.h"
+#include "libpipeline/coverage/rules.h"
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
@@ -161,8 +162,7 @@ StageReader opened(Tool& tool, const ZbufOptions& chosen, bool uses_decimals) {
   if (chosen.framed) reader.expect_framed();
   if (!chosen.seen_path.empty()) {
     // The visible triangles leave out others that may be visible within the bounds.
-    if (reader.header().bounds)
-      throw UsageError("--seen: " + expected_but_found("a text without bounds", "'bounds'"));
+    if (reader.header().bounds) throw UsageError("--seen", "a text without bounds", "'bounds'");
     reader.keep_text();
   }
   return reader;
@@ -172,9 +172,9 @@ CertainPixels certain_pixels(const StageReader& reader, const Viewport& screen) 
   const StageHeader& header = reader.header();
   if (!header.bounds || !header.bounds->value.rounded || !header.projected || !header.appearance.columns().w)
     throw InputError(reader.header_end(),
-                     expected_but_found("a text with 'bounds', 'projected' and the column 'w' for --certify "
-                                        "(model --bounds, and stages that keep them)",
-                                        "none"));
+                     "a text with 'bounds', 'projected' and the column 'w' for --certify "
+                     "(model --bounds, and stages that keep them)",
+                     "none");
   return {screen, header.bounds->value, header.projected->value};
 }
 

@@ -57,9 +57,11 @@ Color background_color(const Appearance& appearance, std::optional<Color> chosen
   return rounded_color(color).with_alpha(static_cast<std::uint8_t>(std::floor(alpha + 0.5)));
 }
 
-std::string expected_opaque_background() {
-  return std::string("an opaque background, or -o FILE.png: no other image can be transparent") +
-         (can_write_png() ? "" : " (and this build is without libpng, which .png needs)");
+std::string refused_background(Color background) {
+  return expected_but_found(
+      std::string("an opaque background, or -o FILE.png: no other image can be transparent") +
+          (can_write_png() ? "" : " (and this build is without libpng, which .png needs)"),
+      "an alpha of " + std::to_string(background.alpha()));
 }
 
 std::optional<SurfaceShader> surface_shader(const StageHeader& header, const SourceLocation& header_end,
@@ -71,14 +73,13 @@ std::optional<SurfaceShader> surface_shader(const StageHeader& header, const Sou
   setup.background = background_color(appearance, parse_color(chosen.background));
   if (!setup.background.is_opaque() && !can_hold_alpha(chosen.image_path))
     throw InputError(appearance.background ? appearance.background->location : header_end,
-                     expected_but_found(expected_opaque_background(),
-                                        "an alpha of " + std::to_string(setup.background.alpha())));
+                     refused_background(setup.background));
   if (setup.model == ShadingModel::none) {
     if (!appearance.columns().color && !appearance.is_painted() && !is_wireframe) return std::nullopt;
     return SurfaceShader(screen, std::move(setup));
   }
   if (appearance.lights.empty())
-    throw InputError(header_end, expected_but_found("a light for --shading (a header line light)", "none"));
+    throw InputError(header_end, "a light for --shading (a header line light)", "none");
   const ProjectionTransform projection = clip_from_view(*header.projected);
   setup.view_from_clip.emplace(projection);
   setup.lighting = lighting_of(appearance, projection.is_perspective);

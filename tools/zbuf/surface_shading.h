@@ -11,8 +11,8 @@
 
 namespace pipeline {
 
-/// The words for what is expected instead of a background that is not opaque.
-std::string expected_opaque_background();
+/// The message on a background that is not opaque.
+std::string refused_background(Color background);
 
 /// The color of pixels that show no triangle: black unless one is chosen or the header sets one.
 Color background_color(const Appearance& appearance, std::optional<Color> chosen);

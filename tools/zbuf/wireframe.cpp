@@ -1,6 +1,7 @@
 #include "tools/zbuf/wireframe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "libpipeline/numbers/exact_sum.h"

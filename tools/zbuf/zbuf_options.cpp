@@ -80,32 +80,26 @@ void ZbufOptions::complete(bool is_terminal) {
   if (seen_path == "-" || certainty_path == "-") {
     const std::string taken =
         seen_path == "-" ? ", as --seen is standard output" : ", as --certify is standard output";
-    if (seen_path == certainty_path)
-      throw UsageError("--certify: " + expected_but_found("a file" + taken, "'-'"));
-    if (image_file_of(image_path) == "-")
-      throw UsageError("--image: " + expected_but_found("a file" + taken, "'-'"));
-    if (z_buffer_path == "-")
-      throw UsageError("--z-buffer: " + expected_but_found("a file or none" + taken, "'-'"));
+    if (seen_path == certainty_path) throw UsageError("--certify", "a file" + taken, "'-'");
+    if (image_file_of(image_path) == "-") throw UsageError("--image", "a file" + taken, "'-'");
+    if (z_buffer_path == "-") throw UsageError("--z-buffer", "a file or none" + taken, "'-'");
     if (certainty_path == "-" && z_buffer_path.empty()) z_buffer_path = "none";
   }
   if (certifies && !std::holds_alternative<TypeValue<CenterCoverage>>(rules.coverage))
-    throw UsageError("--certify: " + expected_but_found("--coverage center with it", "'nearest'"));
+    throw UsageError("--certify", "--coverage center with it", "'nearest'");
   if (certifies && sample_count > 1)
-    throw UsageError("--certify: " + expected_but_found("--samples 1 with it",
-                                                        pipeline::quoted(std::to_string(sample_count))));
+    throw UsageError("--certify", "--samples 1 with it", pipeline::quoted(std::to_string(sample_count)));
   if (writes_seen && has_all_edges)
-    throw UsageError("--seen: " + expected_but_found("no --wireframe all, which shows hidden triangles, too",
-                                                     pipeline::quoted(seen_path)));
+    throw UsageError("--seen", "no --wireframe all, which shows hidden triangles, too",
+                     pipeline::quoted(seen_path));
   PictureOptions::complete(is_terminal, writes_seen);
   if (algorithm != Algorithm::scanline) return;
   if (thread_count > 1)
-    throw UsageError("--threads: " +
-                     expected_but_found("1 with --algorithm scanline, which goes through the rows in turn",
-                                        "'" + std::to_string(thread_count) + "'"));
+    throw UsageError("--threads", "1 with --algorithm scanline, which goes through the rows in turn",
+                     "'" + std::to_string(thread_count) + "'");
   if (rules.depth_epsilon > 0)
-    throw UsageError("--depth-epsilon: " +
-                     expected_but_found("0 with --algorithm scanline, which keeps no order of drawing",
-                                        "'" + shortest_text(rules.depth_epsilon) + "'"));
+    throw UsageError("--depth-epsilon", "0 with --algorithm scanline, which keeps no order of drawing",
+                     "'" + shortest_text(rules.depth_epsilon) + "'");
 }
 
 Viewport ZbufOptions::drawn_part(Viewport screen) const {
@@ -115,10 +109,10 @@ Viewport ZbufOptions::drawn_part(Viewport screen) const {
   const bool has_numbers = colon != std::string::npos && parse_count(word.substr(0, colon), first) &&
                            parse_count(word.substr(colon + 1), end);
   if (!has_numbers || first >= end || end > static_cast<std::size_t>(screen.rows))
-    throw UsageError("--rows: " + expected_but_found(
-                                      "A:B, the first row and the one after the last, from 0:1 to " +
-                                          std::to_string(screen.rows - 1) + ":" + std::to_string(screen.rows),
-                                      pipeline::quoted(rows)));
+    throw UsageError("--rows",
+                     "A:B, the first row and the one after the last, from 0:1 to " +
+                         std::to_string(screen.rows - 1) + ":" + std::to_string(screen.rows),
+                     pipeline::quoted(rows));
   screen.drawn = {static_cast<int>(first), static_cast<int>(end)};
   return screen;
 }
@@ -127,9 +121,8 @@ void ZbufOptions::check_limits(const Viewport& screen) const {
   const auto check = [&]<typename Depth>(TypeValue<Depth>) {
     const std::string_view needed = Depth::needed_limits(screen);
     if (needed.empty()) return;
-    throw UsageError("--depth " + std::string(Depth::kName) + ": " +
-                     expected_but_found("limits of Z " + std::string(needed),
-                                        shortest_text(screen.front) + " and " + shortest_text(screen.rear)));
+    throw UsageError("--depth " + std::string(Depth::kName), "limits of Z " + std::string(needed),
+                     shortest_text(screen.front) + " and " + shortest_text(screen.rear));
   };
   std::visit(check, rules.depth);
 }
