@@ -10,11 +10,12 @@ if [ -e "$root" ] || [ -L "$root" ]; then
   exit 1
 fi
 echo "making a Debian in $root (some 15 minutes; log: $root.log)"
-new=$root.$$
+new=$root.$$ job=
 trap 'rm -rf --one-file-system -- "$new"' EXIT
-trap 'exit 1' HUP INT TERM
+trap '[ -z "$job" ] || kill "$job" 2> /dev/null || :; wait; exit 1' HUP INT TERM
 mmdebstrap --variant=minbase --aptopt='APT::Install-Recommends "false"' --include="$packages" "$@" "$suite" "$new" \
-  ${DEBIAN_MIRROR:+"$DEBIAN_MIRROR"} > "$root.log" 2>&1 || {
+  ${DEBIAN_MIRROR:+"$DEBIAN_MIRROR"} > "$root.log" 2>&1 & job=$!
+wait $job || {
   tail -n 5 "$root.log" >&2
   echo "${0##*/}: $root could not be made; see $root.log. DEBIAN_MIRROR=ADDRESS names a mirror of an earlier date that has missing versions." >&2
   exit 1

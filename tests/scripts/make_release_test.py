@@ -15,10 +15,9 @@ import time
 import unittest
 
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
+STUB = '#!/bin/sh\n[ ! -e "$0.hangs" ] || { : > "$0.started"; exec sleep 99; }\n'
 # Stands for the build in the root: writes what the words after -- and --bind ask for.
-BWRAP = """#!/bin/sh
-[ ! -e "$0.fails" ] || { echo no namespaces >&2; exit 1; }
-[ ! -e "$0.hangs" ] || { : > "$0.started"; exec sleep 99; }
+BWRAP = STUB + """[ ! -e "$0.fails" ] || { echo no namespaces >&2; exit 1; }
 [ ! -e "$0.commits" ] || git -c user.name=a -c user.email=a@b.invalid commit -qm 'area: Do more' --allow-empty
 while [ "$1" != --bind ]; do [ "$3" != /page ] || page=$2; shift; done
 mkdir -p "$2/out"
@@ -59,7 +58,7 @@ class MakeRelease(unittest.TestCase):
         for name in ("scripts/playground/package-lock.json", "build/playground/npm/done"):
             self.put(self.tree / name, "{}")
         self.put(self.bin / "bwrap", BWRAP)
-        self.put(self.bin / "mmdebstrap", '#!/bin/sh\nfor new; do :; done\nmkdir -p "$new"\n')
+        self.put(self.bin / "mmdebstrap", STUB + 'for new; do :; done\nmkdir -p "$new"\n')
         self.put(self.bin / "node", "#!/bin/sh\necho v0\n")
         self.put(self.bin / "dpkg-query", "#!/bin/sh\necho $#\n")
         self.git("init", "--quiet")
@@ -200,14 +199,16 @@ class MakeRelease(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(self.tree / "build/package")), ["lock", "root.log"])
 
     def test_stopped_half_way_it_leaves_nothing(self):
-        self.put(self.bin / "bwrap.hangs", "")
-        process = self.start("9.8.7", "new")
-        until = time.monotonic() + 30
-        while not (self.bin / "bwrap.started").exists() and time.monotonic() < until:
-            time.sleep(0.05)
-        process.terminate()  # it alone
-        process.communicate(timeout=60)
-        self.assertEqual((process.returncode, os.listdir(self.out)), (1, []))
+        for name in ("mmdebstrap", "bwrap"):
+            self.put(self.bin / f"{name}.hangs", "")
+            process = self.start("9.8.7", "new")
+            while not (self.bin / f"{name}.started").exists() and process.poll() is None:
+                time.sleep(0.05)
+            process.terminate()  # it alone
+            process.communicate(timeout=60)
+            self.assertEqual((process.returncode, os.listdir(self.out)), (1, []))
+            self.assertFalse([*self.tree.glob("build/package/root.[0-9]*")])
+            (self.bin / f"{name}.hangs").unlink()
 
     def test_an_archive_of_half_the_files_is_an_error(self):
         text = (SOURCE / "scripts/package/build_archives.sh").read_text()
