@@ -939,6 +939,7 @@ class Hostile(HandIn):
         self.assertEqual(
             self.given("picture", png).files[4].remarks,  # by its header: nothing is unpacked
             ["picture: expected 90 x 80 pixels, found 5790 x 5790"])
+        self.assertEqual(self.given("picture", pathlib.Path("out.bmp").read_bytes()[:-9]).files[4].causes, [])
 
     def test_a_file_that_is_too_large_is_not_read_into_numbers(self):
         self.hand_in()

@@ -193,29 +193,28 @@ class Picture(ToolTest):
     def test_of_failures_the_cause_is_told_alone(self):
         pathlib.Path("broken.obj").write_text("v 0 0\n")
         pathlib.Path("large.obj").write_text("#" * 1_000_001)
-        for words, reason in (([
-                "missing.obj"], "picture: mesh2scene: cannot open missing.obj: No such file or directory"), ([
-                    "broken.obj"], "picture: mesh2scene: broken.obj:1:6: expected three coordinates, "), ([
-                        "large.obj", "--max-input",
-                        "1"], "picture: mesh2scene: large.obj: expected at most 1 MB "), ([
-                            "vase.obj", "--fov", "0"], "picture: mesh2scene: --fov: expected "), ([
-                                "vase.obj", "--size", "0x1"], "picture: mesh2scene: --size: expected ")):
+        for words, reason in (("missing.obj", "cannot open missing.obj: No such file or directory"),
+                              ("broken.obj", "broken.obj:1:6: expected three coordinates, "),
+                              ("large.obj --max-input 1", "large.obj: expected at most 1 MB "),
+                              ("vase.obj --fov 0", "--fov: expected "), ("vase.obj --size 0x1",
+                                                                         "--size: expected ")):
             for more in ([], ["--stages", "kept"]):
-                with self.subTest(words + more):
-                    done = picture(*words, *more, "-o", "one.png")
+                with self.subTest(words, more=more):
+                    done = picture(*words.split(), *more, "-o", "one.png")
                     status = 2 if "(try mesh2scene --help)" in done.stderr else 1
                     self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (status, "", 1),
                                      done.stderr)
-                    self.assertTrue(done.stderr.startswith(reason), done.stderr)
+                    self.assertTrue(done.stderr.startswith(f"picture: mesh2scene: {reason}"), done.stderr)
                     self.assertFalse(pathlib.Path("one.png").exists())
                     self.assertFalse(pathlib.Path("kept").exists())
-        for output, status, reason in (("one.gif", 2, "picture: zbuf: "),
-                                       ("nowhere/one.png", 1,
-                                        "picture: zbuf: cannot open nowhere/one.png: No such file")):
-            done = picture("vase.obj", "-o", output)
+        for words, status, reason in (("-o one.gif", 2,
+                                       "zbuf: "), ("--stages=", 2, "expected the name of a folder, found ''"),
+                                      ("-o nowhere/one.png", 1,
+                                       "zbuf: cannot open nowhere/one.png: No such file")):
+            done = picture("vase.obj", *words.split())
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (status, "", 1),
                              done.stderr)
-            self.assertTrue(done.stderr.startswith(reason), done.stderr)
+            self.assertTrue(done.stderr.startswith(f"picture: {reason}"), done.stderr)
 
     def test_a_scene_is_drawn_with_its_own_camera(self):
         """At the size that is asked for, else the config's beside it, else in the camera's shape."""

@@ -182,6 +182,9 @@ class ThroughALink(ToolTest):
         done = self.call("demo", "no-such-sample")
         self.assertEqual((done.returncode, done.stderr),
                          (2, "demo: no sample no-such-sample; there are: samples/worked-example/\n"))
+        (self.elsewhere / "demo").unlink()
+        done = self.call("demo", "no-such-sample", "more")
+        self.assertEqual((done.returncode, done.stdout, done.stderr[:18]), (2, "", "usage: demo [NAME]"))
 
     def test_a_shell_command_finds_the_tools(self):
         sample = self.tree / "samples/worked-example"

@@ -13,9 +13,10 @@ import subprocess
 import sys
 import threading
 import unittest
+from unittest import mock
 
 from devices import null_device
-from toolbox import BIN, SOURCE, ToolTest
+from toolbox import BIN, SOURCE, ToolTest, tools_with
 
 STAGES = SOURCE / "scripts/stages"
 SAMPLE = SOURCE / "samples/worked-example"
@@ -50,14 +51,11 @@ class Stages(ToolTest):
     def left(self, folder="."):
         return sorted(name for name in os.listdir(folder) if folder != "." or name not in self.before)
 
-    def test_an_option_that_is_not_there_is_named(self):
-        done = run_stages("scene.txt", "--size", "640x480", "out")
-        self.assertEqual((done.returncode, done.stderr.decode()),
-                         (2, "stages: unrecognized arguments: --size (try stages --help)\n"))
-
-    def test_too_few_operands_are_named(self):
+    def test_a_wrong_command_line_is_named(self):
         for words, reason in (((), "the following arguments are required: SCENE, CONFIG, DIR"),
                               (("scene.txt",), "the following arguments are required: CONFIG, DIR"),
+                              (("scene.txt", "--size", "640x480", "out"), "unrecognized arguments: --size"),
+                              (("scene.txt", "config.txt", ""), "expected the name of a folder, found ''"),
                               (("scene.txt", "config.txt", "a", "b"), "unrecognized arguments: b")):
             done = run_stages(*words)
             told = f"stages: {reason} (try stages --help)\n"
@@ -102,6 +100,10 @@ class Stages(ToolTest):
                                 "model: <stdin>:1:1: expected the x of the eye, found 'x'")
         self.assertEqual(self.stages("dir", config="none").returncode, 1)
         self.assertEqual(self.left(), ["bad", "old"])
+        shutil.copy(SAMPLE / "scene.txt", "scene")
+        with mock.patch.dict(ENVIRONMENT, BIN=str(tools_with("zbuf", ""))):
+            self.assert_refused(self.stages("scene.out", scene="scene"),
+                                "zbuf: has not written all of scene.out/out.bmp, though it ended well")
 
     def test_an_old_folder_stays_even_if_it_is_empty(self):
         pathlib.Path("bad").write_text("x\n")
@@ -140,14 +142,11 @@ class Stages(ToolTest):
         self.assertEqual((self.left("there"), self.left("dir")), (["new", "two", "two\n"], sorted(FIVE)))
 
     def test_where_there_is_no_room_all_stays(self):
-        def limit():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (80, 80))
-
         os.mkdir("dir")
         pathlib.Path("dir/stage1.txt").write_text("old")
         for folder, kept in (("dir", ["dir"]), ("new", ["dir"])):
-            self.assert_refused(self.stages(folder, preexec_fn=limit),
-                                f"model: cannot write {folder}/stage1.txt: File too large")
+            done = self.stages(folder, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (80, 80)))
+            self.assert_refused(done, f"model: cannot write {folder}/stage1.txt: File too large")
             self.assertEqual((self.left(), self.left("dir"), pathlib.Path("dir/stage1.txt").read_text()),
                              (kept, ["stage1.txt"], "old"))
 

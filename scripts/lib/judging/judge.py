@@ -142,7 +142,10 @@ class HandIn:
         `is_right` is True if all stages before are right."""
         width, height = self.ours.window.width, self.ours.window.height
         depths, colors, failed = self.read("depths", read_depths), self.colors(width, height), {**self.failed}
-        exchanged = colors is None and self.colors(height, width)  # whose rows are our columns
+        is_small = self.size and 3 * math.prod(self.size) < self.ours.limit("picture")
+        is_turned = self.size == (height, width)  # so that its rows may be our columns
+        own = self.colors(*self.size) if is_small or is_turned else None  # of its own size
+        exchanged = own if is_turned else None
         if stage3 is not None and len(stage3) > MOST_PARTS * len(self.ours.world):
             stage3 = None
         readings = pixel_readings(stage3, memory, None if is_right else self.right_after("project")[-1])
@@ -150,7 +153,6 @@ class HandIn:
         verdicts = failed | (judge.verdicts_of_exchanged(depths, [*map(list, zip(*exchanged))])
                              if exchanged else judge.verdicts(depths, colors))
         if self.size and not verdicts["picture"].causes:
-            is_small = 3 * math.prod(self.size) < self.ours.limit("picture")
             verdicts = failed | judge.verdicts(depths, None) if exchanged else verdicts
-            judge.blame_size(verdicts, self.size, depths, is_small and self.colors(*self.size))
+            judge.blame_size(verdicts, self.size, depths, is_small and own)
         return [verdicts["depths"], verdicts["picture"]]

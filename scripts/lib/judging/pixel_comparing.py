@@ -76,7 +76,7 @@ class Context:
 
     def __post_init__(self):
         self.first, self.work = next(iter(self.readings)), [MOST_OPEN_WORK]
-        self.compare = functools.cache(self.compare)
+        self.unlimited = functools.cache(lambda *tried: Attempt(self, *tried).mismatch(math.inf))
         self.limits = float(self.window.front), float(self.window.rear)
 
     def of_one_file(self, kind):
@@ -116,7 +116,8 @@ class Context:
 
     def compare(self, reading, rule, limit=math.inf):
         """The Mismatch of a rule; None if more than `limit` pixels are not explained."""
-        return Attempt(self, reading, rule).mismatch(limit)
+        tried = reading, rule
+        return self.unlimited(*tried) if limit == math.inf else Attempt(self, *tried).mismatch(limit)
 
 
 class Attempt:

@@ -153,10 +153,12 @@ class CommandParser(argparse.ArgumentParser):
             if path and os.path.realpath(path).startswith(inside):
                 self.error(f"{name}: expected a place outside of '{shown(folder)}', found '{shown(path)}'")
 
-    def expect_separate(self, options, *outputs, inputs=()):
+    def expect_separate(self, options, *outputs, inputs=(), folder=None):
         """Ends the program where an output is another output or an input, by path, link or inode, or has no
-        name, or is `-`: commands that take it pass STANDARD_OUTPUT. Outputs are pairs of a name for messages
-        and a path or None, and so are inputs beside the usual operands."""
+        name, as a folder, or is `-`: commands that take it pass STANDARD_OUTPUT. Outputs are pairs of a name
+        for messages and a path or None, and so are inputs beside the usual operands."""
+        if folder == "":
+            self.error("expected the name of a folder, found ''")
         operands = [(name.upper(), getattr(options, name, None)) for name in OPERANDS]
         names = {}
         for is_output, files in ((False, [*operands, *inputs]), (True, outputs)):

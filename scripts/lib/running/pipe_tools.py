@@ -13,7 +13,7 @@ from lib.rim.child import MORE, MOST_SAID, Said, beginning, cpu_seconds, finishe
 from lib.rim.command import CommandFailure, shown
 from lib.rim.input_file import digest
 from lib.rim.output_file import own_descriptor, target_of
-from lib.showing.pictures import is_whole
+from lib.showing.pictures import is_complete
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
@@ -171,16 +171,22 @@ def checked(done, tool, words=()):
     return done
 
 
+def file_of_image(word):
+    """The path in a word for --image, which may begin with a format."""
+    return re.sub("^(bmp|ppm|png):", "", str(word))
+
+
 def expect_files(tool, words, folder=None):
     """Raises an error if a file of the command's own, a Path among the words, is not there after the run in a
     folder, or the picture is not whole, unless it is a device or a pipe."""
     for option, word in zip(["", *words], words):
-        path = os.path.join(folder or "", re.sub("^(bmp|ppm|png):", "", str(word)))
-        name = shown(os.path.basename(path) if isinstance(word, pathlib.Path) else path)
-        if isinstance(word, pathlib.Path) and not word.exists():
+        is_image, is_own = option == "--image", isinstance(word, pathlib.Path)
+        path = os.path.join(folder or "", file_of_image(word) if is_image else str(word))
+        name = shown(os.path.basename(path) if is_own else path)
+        if is_own and not os.path.exists(path):
             raise ToolCrash(f"{tool}: has not written {name}, though it ended well")
-        is_picture = option == "--image" and path != "-" and own_descriptor(target_of(path)) is None
-        if is_picture and os.path.isfile(path) and os.access(path, os.R_OK) and not is_whole(path):
+        is_picture = is_image and path != "-" and own_descriptor(target_of(path)) is None
+        if is_picture and os.path.isfile(path) and os.access(path, os.R_OK) and not is_complete(path):
             raise ToolCrash(f"{tool}: has not written all of {name}, though it ended well")
 
 

@@ -219,7 +219,7 @@ def size_of(picture):
     return struct.unpack_from(*((">II", picture, 16) if picture[:2] == b"\x89P" else ("<ii", picture, 18)))
 
 
-def is_whole(path):
+def is_complete(path):
     """True if a picture file, as zbuf writes it, is as long as its header says; a PNG has its end."""
     with open(path, "rb") as file:
         head = file.read(MAX_PPM_HEADER)
