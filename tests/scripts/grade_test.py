@@ -30,7 +30,8 @@ from grade_parts.summary import findings
 from lib.judging.mistakes import fix, sentences
 from lib.judging.verdict import Cause, FileVerdict, Verdict
 from lib.rim.command import CommandFailure
-from toolbox import BIN, SOURCE, Terminal, ToolTest, end_by_signal, heed_signals, run_script, tools_with
+from toolbox import (BIN, SOURCE, Terminal, ToolTest, end_by_signal, has_bubblewrap, heed_signals, run_script,
+                     tools_with)
 
 SAMPLE = SOURCE / "samples/worked-example"
 FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
@@ -485,7 +486,7 @@ class Results(ClassTest):
         self.grade(folders=("hand-ins",))
         self.assertEqual(self.scores(), {"anna": 6.0})
 
-    @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
+    @unittest.skipUnless(has_bubblewrap(), "no bubblewrap")
     def test_a_program_whose_runs_differ_is_told(self):
         pathlib.Path("tests/assignment.txt").write_text("program view\nrun python3 view.py\n")
         os.mkdir("hand-ins/anna")
@@ -687,7 +688,8 @@ class Hostile(ClassTest):
             contents.read(("in", "stage2.txt"), 10**6)
 
     def test_a_lower_limit_that_only_root_could_raise_stays(self):
-        line = 'ulimit -f 2048; ulimit -v 1500000; exec "$0" "$@"'
+        no_root = "setpriv --inh-caps=-sys_resource --bounding-set=-sys_resource " * (not os.geteuid())
+        line = f'ulimit -f 2048; ulimit -v 1500000; exec {no_root}"$0" "$@"'
         done = subprocess.run(["sh", "-c", line, SOURCE / "scripts/grade", "hand-ins", "tests"],
                               env={**os.environ, "BIN": str(BIN)}, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -17,7 +17,7 @@ from types import SimpleNamespace
 from unittest import mock
 
 from grade_parts import kit_classroom50
-from toolbox import BIN, SOURCE, ToolTest, run_script
+from toolbox import BIN, SOURCE, ToolTest, has_bubblewrap, run_script
 
 FORMS = json.loads((pathlib.Path(__file__).parent / "kit_forms.json").read_text())
 KINDS = ("gradescope", "classroom50", "plain")
@@ -282,7 +282,7 @@ class Judges(KitTest):
             "wrong": {"worked-example": round(5 / 7.5, 4), "nested-transforms": 1.0}})
 
     def expect_programs(self, **programs):
-        if not shutil.which("bwrap"):
+        if not has_bubblewrap():
             self.skipTest("no bubblewrap")
         pathlib.Path("tests/assignment.txt").write_text(
             "program view\nbuild cp view.in view.py && ! grep -q unbuildable view.py\nrun python3 view.py\n")
