@@ -595,7 +595,7 @@ class Refusals(ToolTest):
         pathlib.Path("empty.obj").write_text("")
         pathlib.Path("noise.stl").write_bytes(bytes(range(256)) * 40)
         pathlib.Path("lines.obj").write_text("v 0 0 0\nv 1 0 0\nl 1 2\n")
-        pathlib.Path("point.obj").write_text("v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n")
+        pathlib.Path("point.stl").write_bytes(b" " * 80 + struct.pack("<I12fH", 1, 0, 0, 1, *[3e12] * 9, 0))
         pathlib.Path("picture.png").write_bytes(b"\x89PNG\r\n\x1a\n")
         pathlib.Path("infinite.stl").write_bytes(
             b" " * 80 + struct.pack("<I12fH", 1, 0, 0, 1, 0, 0, 0, math.inf, 0, 0, 0, 1, 0, 0))
@@ -605,7 +605,7 @@ class Refusals(ToolTest):
                                ("noise.stl",
                                 "noise.stl: expected 1397903696 triangles in a binary STL file, found 203"),
                                ("lines.obj", "model with triangles, found none, but points and lines"),
-                               ("point.obj", "point.obj: expected a model with an extent"),
+                               ("point.stl", "point.stl: expected a model with an extent"),
                                ("picture.png", f"picture.png{OTHER}a PNG picture"),
                                ("infinite.stl", "infinite.stl: expected finite coordinates")):
             with self.subTest(name):

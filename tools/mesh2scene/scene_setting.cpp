@@ -19,6 +19,10 @@ constexpr double kShare = 0.9;
 /// view does not change. Nearer to the axis, rounding of the eye would turn the picture.
 constexpr double kSteepestWithWorldUp = 85;
 
+/// Nearer to each other than this share of their distance from the origin, the eye and the point it looks at
+/// are rounded to one point.
+constexpr double kLeastDistance = 1e-12;
+
 /// The distance of a light from afar, in distances of the eye.
 constexpr double kFar = 1000;
 
@@ -130,9 +134,10 @@ SceneSetting framed_setting(const Model& model, const ViewChoice& view) {
   }
   camera.far = (eye_depth - farthest) + kDepthMargin * camera.distance;
   camera.near = std::max((eye_depth - nearest) * kDepthMargin, camera.far / kMostDepth);
-  if (is_closer && std::isfinite(camera.far) && !(camera.far > 0))
-    throw std::runtime_error(model.name + ": expected a point --at that has the model before the eye");
-  if (!(camera.distance > 0) || !std::isfinite(camera.far) || !(camera.near > 0))
+  const bool is_apart = camera.distance > kLeastDistance * largest_in(camera.look);
+  if (view.at && std::isfinite(camera.far) && !(is_apart && camera.far > 0))
+    throw std::runtime_error(model.name + ": expected a point --at near the model, which is before the eye");
+  if (!is_apart || !std::isfinite(camera.far) || !(camera.near > 0))
     model.fail("a model with an extent", "all vertices in one point, or farther apart than numbers go");
   return setting_with(camera, view.aspect, model);
 }
@@ -150,7 +155,7 @@ SceneSetting setting_of_file(const Model& model, double aspect) {
     ++count;
   });
   const double ahead = dot(difference(scaled(total, 1 / count), camera.eye), direction);
-  camera.distance = ahead > camera.near ? ahead : camera.near;
+  camera.distance = std::max({camera.near, kLeastDistance * largest_in(camera.eye), ahead});
   camera.look = sum(camera.eye, scaled(direction, camera.distance));
   // If the file gives no end, the view reaches beyond the model.
   if (!std::isfinite(camera.far)) camera.far = 2 * std::max(camera.near, farthest);
