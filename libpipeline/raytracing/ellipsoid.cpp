@@ -1,8 +1,7 @@
 #include "libpipeline/raytracing/ellipsoid.h"
 
 #include <cmath>
-
-#include "libpipeline/numbers/vec_math.h"
+#include <limits>
 
 namespace pipeline {
 namespace {
@@ -98,35 +97,27 @@ Ellipsoid::UnitRay Ellipsoid::in_unit_space(const Ray& ray) const {
 
 /// The larger root in size is (-f.g -+ root) / g.g without cancellation; the other is (f.f - 1) / (g.g times
 /// the larger).
-Ellipsoid::Meetings Ellipsoid::meetings(const Ray& ray) const {
-  if (is_surely_missed(ray)) return {};
+Ellipsoid::Meetings Ellipsoid::meetings(const Ray& ray, bool begins_on_surface) const {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr Meetings kNone = {kNaN, kNaN};
+  if (!begins_on_surface && is_surely_missed(ray)) return kNone;
   const auto [f, g] = in_unit_space(ray);
-  const DoubleDouble beyond = dot(f, f) + DoubleDouble{-1};
   const DoubleDouble half = -dot(f, g);
-  const DoubleDouble gg = dot(g, g);
-  const DoubleDouble discriminant = half * half - gg * beyond;
-  if (!(discriminant.hi >= 0) || !(gg.hi > 0)) return {};
-  const DoubleDouble root = sqrt(discriminant);
   const bool is_forward = half.hi > 0;
+  if (begins_on_surface && !is_forward) return kNone;
+  const DoubleDouble beyond = dot(f, f) + DoubleDouble{-1};
+  const DoubleDouble gg = dot(g, g);
+  DoubleDouble discriminant = half * half - gg * beyond;
+  // The start may be so far off that the line misses the surface: then it counts as touching.
+  if (begins_on_surface && !(discriminant.hi > 0)) discriminant = {};
+  if (!(discriminant.hi >= 0) || !(gg.hi > 0)) return kNone;
+  const DoubleDouble root = sqrt(discriminant);
   const DoubleDouble sum = is_forward ? half + root : half - root;
   const double larger = (sum / gg).hi;
   const double smaller = sum.hi == 0 ? larger : (beyond / sum).hi;
-  const double near = is_forward ? smaller : larger, far = is_forward ? larger : smaller;
-  if (!std::isfinite(near) || !std::isfinite(far)) return {};
-  return {{{{near, true}, {far, false}}}, 2};
-}
-
-Ellipsoid::Meetings Ellipsoid::meetings_from_surface(const Ray& ray) const {
-  const auto [f, g] = in_unit_space(ray);
-  const DoubleDouble inward = -dot(f, g);
-  if (!(inward.hi > 0)) return {};
-  const DoubleDouble gg = dot(g, g);
-  const DoubleDouble discriminant = inward * inward - gg * (dot(f, f) + DoubleDouble{-1});
-  // The start may be so far off that the line misses the surface: then it counts as touching.
-  const DoubleDouble root = discriminant.hi > 0 ? sqrt(discriminant) : DoubleDouble{};
-  const double t = ((inward + root) / gg).hi;
-  if (!std::isfinite(t)) return {};
-  return {{{{t, false}, {}}}, 1};
+  if (!std::isfinite(larger) || !std::isfinite(smaller)) return kNone;
+  if (begins_on_surface) return {kNaN, larger};
+  return is_forward ? Meetings{smaller, larger} : Meetings{larger, smaller};
 }
 
 Vec3 Ellipsoid::normal(const Vec3& point) const {

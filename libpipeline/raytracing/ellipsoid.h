@@ -24,21 +24,11 @@ class Ellipsoid {
   /// The ellipsoid of these points; none if they lie in a plane, as far as pairs of doubles can tell.
   static std::optional<Ellipsoid> from(const SpherePoints& points);
 
-  struct Meeting {
-    double t;       // of the ray
-    bool is_front;  // the ray comes from outside
-  };
-  /// Up to two meetings, by increasing t, which may be negative.
-  struct Meetings {
-    std::array<Meeting, 2> list;
-    std::size_t count = 0;
-    [[nodiscard]] const Meeting* begin() const { return list.data(); }
-    [[nodiscard]] const Meeting* end() const { return list.data() + count; }
-  };
-  /// The meetings of the line of a ray with the surface.
-  [[nodiscard]] Meetings meetings(const Ray& ray) const;
-  /// For a ray that begins on the surface, up to rounding: its exit on the other side, if it goes inward.
-  [[nodiscard]] Meetings meetings_from_surface(const Ray& ray) const;
+  /// The t of a ray where its line enters the ellipsoid, and where it leaves it; NaN where it does neither.
+  using Meetings = std::array<double, 2>;
+  /// The meetings of a ray's line with the surface. A ray that begins on the surface, up to rounding, has one
+  /// at most: its exit on the other side, if it goes inward.
+  [[nodiscard]] Meetings meetings(const Ray& ray, bool begins_on_surface = false) const;
 
   /// The outward normal, of length 1, at a point of the surface.
   [[nodiscard]] Vec3 normal(const Vec3& point) const;

@@ -54,13 +54,13 @@ void LightTransport::RayCounts::add(const RayCounts& other) {
   largest_cut_weight = std::max(largest_cut_weight, other.largest_cut_weight);
 }
 
-Vec3 LightTransport::radiance(SurfaceId seen, const Ray& ray) {
+Vec3 LightTransport::radiance(const RayCaster::Seen& seen, const Ray& ray) {
   cut_weight_ = 0;
   dark_ = {};
   const Path path = {1, 0, 0, log_ == nullptr ? 0 : log_->size()};
   if (log_ != nullptr)
     log_->push_back({.kind = RayKind::primary, .depth = 0, .weight = 1, .origin = ray.origin});
-  const Vec3 color = color_of(caster_.seen(seen, ray), ray, path);
+  const Vec3 color = color_of(caster_.seen(seen.id, seen.is_from_within, ray), ray, path);
   counts_.largest_cut_weight = std::max(counts_.largest_cut_weight, cut_weight_);
   return color;
 }

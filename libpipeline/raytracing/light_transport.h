@@ -7,6 +7,7 @@
 #include "libpipeline/picture/shading.h"
 #include "libpipeline/picture/shown_colors.h"
 #include "libpipeline/raytracing/bvh.h"
+#include "libpipeline/raytracing/ray_caster.h"
 #include "libpipeline/raytracing/ray_log.h"
 #include "libpipeline/raytracing/surface_caster.h"
 #include "libpipeline/raytracing/traced_triangles.h"
@@ -52,7 +53,7 @@ class LightTransport {
   };
 
   /// The radiance of a primary ray from the surface that it sees, already found.
-  [[nodiscard]] Vec3 radiance(SurfaceId seen, const Ray& ray);
+  [[nodiscard]] Vec3 radiance(const RayCaster::Seen& seen, const Ray& ray);
   [[nodiscard]] const RayCounts& counts() const { return counts_; }
   /// The data that explain why the last radiance may be black.
   [[nodiscard]] const DarkSurface& dark_surface() const { return dark_; }

@@ -79,10 +79,10 @@ bool RayCaster::may_cover(TracedTriangles::Id id, int row, int column) const {
 /// sphere open.
 std::optional<RayCaster::Seen> RayCaster::sphere_at(TracedTriangles::Id id, const Ray& ray) const {
   const double first = first_distance(rays_);
-  for (const auto& [distance, is_front] : triangles_.sphere(id).surface.meetings(ray)) {
+  const auto [entrance, exit] = triangles_.sphere(id).surface.meetings(ray);
+  for (const auto& [distance, is_from_within] : {std::pair(entrance, false), std::pair(exit, true)}) {
     const double depth = depth_.at(distance);
-    if (distance > first && is_between_limits(depth))
-      return Seen{is_front ? id : id | TracedTriangles::kFromWithin, depth};
+    if (distance > first && is_between_limits(depth)) return Seen{id, depth, is_from_within};
   }
   return std::nullopt;
 }

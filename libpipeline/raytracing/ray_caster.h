@@ -31,11 +31,11 @@ std::vector<Bvh::Primitive> boxes_of(const TracedTriangles& triangles, const Pix
 /// text of `project --digits exact`. So both find the same triangle and depth. For one thread.
 class RayCaster {
  public:
-  /// The visible triangle and its depth; or a sphere, with the depth of the ray's hit and the visible side in
-  /// its id (TracedTriangles::kFromWithin).
+  /// The visible triangle and its depth; or a sphere, with the depth of the ray's hit and the visible side.
   struct Seen {
     TracedTriangles::Id id;
     double depth;
+    bool is_from_within = false;
   };
 
   /// Caches the spans of each cached triangle on `row_count` rows.

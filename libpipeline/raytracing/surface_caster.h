@@ -4,11 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "libpipeline/numbers/vec.h"
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/picture/shading.h"
 #include "libpipeline/raytracing/bvh.h"
@@ -17,10 +16,6 @@
 #include "libpipeline/scene/color.h"
 
 namespace pipeline {
-
-/// A surface that rays meet: the id of a triangle in TracedTriangles; other shapes follow the triangles.
-using SurfaceId = std::uint32_t;
-constexpr SurfaceId kNoSurface = std::numeric_limits<SurfaceId>::max();
 
 /// A ray in view space that may start on a surface, at a point off it by at most `error` in each coordinate.
 /// It does not meet this surface at its start, and it meets other surfaces only at points surely beyond its
@@ -45,32 +40,33 @@ struct SurfaceHit {
   std::array<double, 3> weights = {};  // of a triangle's corners, from 0 to 1
 };
 
+/// A meeting of a ray with a surface.
+struct SurfaceMeeting {
+  double t;
+  std::array<double, 3> weights = {};  // of a triangle's corners, each from 0 to 1; their sum is 1
+  bool is_front = true;                // of a sphere: the ray comes from outside
+};
+
 /// The test of any ray against triangles anywhere. The ray's largest coordinate becomes the z axis, and edge
 /// functions are evaluated in x and y; two triangles get the same values at a shared edge, so that no ray
 /// passes between them (S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", 2013).
 class SurfaceTriangleTest {
  public:
-  struct Meeting {
-    double t;
-    std::array<double, 3> weights;  // each from 0 to 1, their sum is 1
-  };
-
   explicit SurfaceTriangleTest(const SurfaceRay& ray);
 
   /// The meeting of the ray with the triangle beyond its start, if any. A ray does not meet a triangle whose
   /// plane, within the errors, may contain its start.
-  [[nodiscard]] std::optional<Meeting> operator()(const Triangle& p_view) const;
+  [[nodiscard]] std::optional<SurfaceMeeting> operator()(const Triangle& p_view) const;
   /// The meeting with a triangle that the ray is known to meet, in spite of errors.
-  [[nodiscard]] Meeting known(const Triangle& p_view) const;
+  [[nodiscard]] SurfaceMeeting known(const Triangle& p_view) const;
 
  private:
   struct Edges {
-    double a, b, c;
-    std::array<double, 3> z;
+    std::array<double, 3> functions, z;
   };
 
   [[nodiscard]] Edges edges(const Triangle& p_view) const;
-  [[nodiscard]] Meeting meeting(const Edges& edges) const;
+  [[nodiscard]] SurfaceMeeting meeting(const Edges& edges) const;
   [[nodiscard]] bool may_start_on(const Triangle& p_view) const;
 
   SurfaceRay ray_;
@@ -91,8 +87,8 @@ class SurfaceCaster {
 
   /// The first hit, of the surface with the lower id if two are equally near; none if the ray meets nothing.
   [[nodiscard]] std::optional<SurfaceHit> nearest(const SurfaceRay& ray);
-  /// The hit of a primary ray on a surface that it is known to see.
-  [[nodiscard]] SurfaceHit seen(SurfaceId id, const Ray& ray);
+  /// The hit of a primary ray on a surface that it is known to see, a sphere perhaps from within.
+  [[nodiscard]] SurfaceHit seen(SurfaceId id, bool is_from_within, const Ray& ray);
 
   /// A surface between a point and a light.
   struct Crossing {
@@ -113,19 +109,21 @@ class SurfaceCaster {
   [[nodiscard]] std::uint64_t number(SurfaceId id) const { return triangles_.number(id); }
 
  private:
-  /// The meetings with a sphere that are surely beyond the ray's start.
-  [[nodiscard]] Ellipsoid::Meetings sphere_meetings(SurfaceId id, const SurfaceRay& ray) const;
-  /// The meeting with a triangle, if any; none with the triangle that the ray starts on.
-  [[nodiscard]] std::optional<SurfaceTriangleTest::Meeting> meeting(SurfaceId id, const SurfaceRay& ray,
-                                                                    const SurfaceTriangleTest& test) const {
-    if (id == ray.start || !triangles_.is_first(id)) return std::nullopt;
-    return test(triangles_.p_view(id));
+  /// Calls `visit` with the meetings surely beyond the ray's start, at most two.
+  template <typename Visit>
+  void for_each_meeting(SurfaceId id, const SurfaceRay& ray, const SurfaceTriangleTest& test,
+                        const Visit& visit) const;
+  [[nodiscard]] Vec3 unit_normal(SurfaceId id, const Ray& ray, double t) const {
+    if (!triangles_.is_sphere(id)) return unit_vector(face_normal(triangles_.p_view(id)));
+    return triangles_.sphere(id).surface.normal(point_at(ray, t));
   }
-  [[nodiscard]] SurfaceHit sphere_hit(SurfaceId id, const Ray& ray, const Ellipsoid::Meeting& meeting);
+  [[nodiscard]] SurfaceHit hit(SurfaceId id, const Ray& ray, const SurfaceMeeting& meeting);
   static Vec3 point_at(const Ray& ray, double t) { return sum(ray.origin, scaled(ray.direction, t)); }
-
-  [[nodiscard]] SurfaceHit triangle_hit(SurfaceId id, const Ray& ray,
-                                        const SurfaceTriangleTest::Meeting& meeting);
+  /// A bound on the error, in each coordinate, of a ray's point at t on a sphere: the errors of t, of the
+  /// product and of the sum.
+  static double error_of_point(const Ray& ray, double t) {
+    return 0x1p-50 * (largest_in(ray.origin) + std::fabs(t) * largest_in(ray.direction));
+  }
   /// Sorts crossings, and merges equal ones: the same point, side and material.
   static void settle(std::vector<Crossing>& crossings);
 
@@ -134,6 +132,23 @@ class SurfaceCaster {
   TriangleColors colors_;
 };
 
+/// A ray that starts on a surface never meets it at its start, however near a sphere's other meeting is.
+template <typename Visit>
+void SurfaceCaster::for_each_meeting(SurfaceId id, const SurfaceRay& ray, const SurfaceTriangleTest& test,
+                                     const Visit& visit) const {
+  if (!triangles_.is_sphere(id)) {
+    if (id == ray.start || !triangles_.is_first(id)) return;
+    if (const auto found = test(triangles_.p_view(id))) visit(*found);
+    return;
+  }
+  const auto [entrance, exit] = triangles_.sphere(id).surface.meetings(ray.ray, id == ray.start);
+  if (std::isnan(exit)) return;
+  for (const auto& [t, is_front] : {std::pair(entrance, true), std::pair(exit, false)}) {
+    const double error = ray.start == kNoSurface ? 0 : 2 * ray.error + error_of_point(ray.ray, t);
+    if (t * largest_in(ray.ray.direction) > error) visit(SurfaceMeeting{t, {}, is_front});
+  }
+}
+
 template <typename Stops>
 bool SurfaceCaster::cross(const SurfaceRay& ray, std::vector<Crossing>& crossings, Stops&& stops) {
   crossings.clear();
@@ -141,23 +156,19 @@ bool SurfaceCaster::cross(const SurfaceRay& ray, std::vector<Crossing>& crossing
   double limit = 1;
   bool is_stopped = false;
   bvh_.for_each_candidate(ray.ray, 0, limit, [&](SurfaceId id) {
-    const auto add = [&](double t, std::optional<bool> is_front, const auto& unit_normal) {
-      if (is_stopped || !(t < 1)) return;
-      is_stopped = stops(triangles_.material(id));
+    if (is_stopped) return;
+    for_each_meeting(id, ray, test, [&](const SurfaceMeeting& meeting) {
+      if (is_stopped || !(meeting.t < 1)) return;
+      const std::uint32_t material = triangles_.material(id);
+      is_stopped = stops(material);
       if (is_stopped) {
         limit = -1;  // this ends the search
         return;
       }
-      const double cosine = dot(unit_vector(ray.ray.direction), unit_normal());
-      crossings.push_back({t, id, triangles_.material(id), is_front.value_or(cosine < 0), std::fabs(cosine)});
-    };
-    if (is_stopped) return;
-    if (triangles_.is_sphere(id)) {
-      for (const auto& [t, is_front] : sphere_meetings(id, ray))
-        add(t, is_front, [&, at = t] { return triangles_.sphere(id).surface.normal(point_at(ray.ray, at)); });
-    } else if (const auto found = meeting(id, ray, test)) {
-      add(found->t, {}, [&] { return unit_vector(face_normal(triangles_.p_view(id))); });
-    }
+      const double cosine = dot(unit_vector(ray.ray.direction), unit_normal(id, ray.ray, meeting.t));
+      const bool is_front = triangles_.is_sphere(id) ? meeting.is_front : cosine < 0;
+      crossings.push_back({meeting.t, id, material, is_front, std::fabs(cosine)});
+    });
   });
   if (is_stopped) return false;
   settle(crossings);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "libpipeline/scene/color.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
@@ -72,7 +73,8 @@ void TracedTriangles::add(const TriangleBatch& p_view, const TriangleBatch& p_nd
     if (!surface)
       throw InputError({file, sphere.locations[0].line(), sphere.locations[0].column()},
                        "a sphere with a volume", "four points in a plane");
-    spheres_.push_back({*surface, sphere.color, sphere.number, sphere.material});
+    const Vec3 color = sphere.color.value_or(to_vec3(TriangleColors().of(sphere.number)));
+    spheres_.push_back({*surface, color, sphere.number, sphere.material});
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,10 +41,14 @@ class ExactProjection {
   TriangleBatch p_ndc_;
 };
 
+/// A surface that rays meet: its id in TracedTriangles.
+using SurfaceId = std::uint32_t;
+constexpr SurfaceId kNoSurface = ~SurfaceId{0};
+
 /// A sphere of a text in view space.
 struct TracedSphere {
   Ellipsoid surface;
-  std::optional<Vec3> color;  // none if the text has no colors
+  Vec3 color;
   std::uint64_t number;
   std::uint32_t material;
 };
@@ -57,7 +60,7 @@ struct TracedSphere {
 /// each. The spheres of the text follow: their ids begin after the last triangle's.
 class TracedTriangles {
  public:
-  using Id = std::uint32_t;
+  using Id = SurfaceId;
 
   /// Makes `add` include triangles that `project` drops.
   void keep_dropped() { keeps_dropped_ = true; }
@@ -82,11 +85,9 @@ class TracedTriangles {
     if (is_sphere(id)) return sphere(id).material;
     return attributes_.materials.empty() ? 0 : attributes_.materials[id];
   }
-  /// A bit in the id of a sphere that a primary ray sees: set if it is seen from within.
-  static constexpr Id kFromWithin = Id{1} << 31;
   [[nodiscard]] const std::vector<TracedSphere>& spheres() const { return spheres_; }
   [[nodiscard]] bool is_sphere(Id id) const { return id >= size(); }
-  [[nodiscard]] const TracedSphere& sphere(Id id) const { return spheres_[(id & ~kFromWithin) - size()]; }
+  [[nodiscard]] const TracedSphere& sphere(Id id) const { return spheres_[id - size()]; }
   /// The count of triangles and spheres.
   [[nodiscard]] std::size_t surface_count() const { return size() + spheres_.size(); }
   /// The corners' colors and normals; null where the text has none.

@@ -273,6 +273,12 @@ class Limits(ToolTest):
         for row, other in zip(whole, opened):
             self.assertEqual([round(-z, 6) for z in row], other)
 
+    def test_of_sides_at_one_depth_that_of_the_earlier_sphere_is_seen(self):
+        camera = "0 0 0\n0 0 -1\n0 1 0\northo -2 2 -2 2 0.5 9\n"
+        text = scene("sphere\n0 0 -2 1\n", "sphere\n0 0 -4 1\n", camera=camera)
+        image = traced(text, config="3 3\n-1\n-1\n-0.5 1\n")[1]
+        self.assertEqual(image[-15:-12], bytes((41, 35, 190)))  # the middle of 3 x 3 pixels
+
     def test_the_eye_may_be_within(self):
         camera = "0 0 0\n0 0 -1\n0 1 0\n60 1 1 100\n"
         z = depths(traced(scene("sphere\n0 0 0 10\n", camera=camera))[0])

@@ -39,7 +39,7 @@ void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh,
   LightTransport light(scene.triangles, bvh, setup);
   light.log_to(log);
   if (const auto seen = primary.cast(pixel.row, pixel.column))
-    static_cast<void>(light.radiance(seen->id, ray));
+    static_cast<void>(light.radiance(*seen, ray));
   else
     log.push_back({.kind = RayKind::primary,
                    .depth = 0,

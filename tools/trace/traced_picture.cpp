@@ -36,7 +36,7 @@ class SampleColors {
   /// The color of a sample that shows `seen`. Rays' colors are clamped and rounded as in `zbuf`.
   Color color(int row, int column, const RayCaster::Seen& seen) {
     if (light_) {
-      const Color color = rounded_color(light_->radiance(seen.id, rays_.ray(row, column)));
+      const Color color = rounded_color(light_->radiance(seen, rays_.ray(row, column)));
       const bool is_lit = setup_.light->model != ShadingModel::none;
       if (shown_.add(color, setup_.background, is_lit))
         shown_.add(light_->dark_surface(), 1, setup_.light->lighting, is_lit);
