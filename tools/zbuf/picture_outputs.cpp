@@ -26,16 +26,9 @@ PictureOutputs::PictureOutputs(Tool& tool, const PictureOptions& chosen, Statist
   statistics_.open();
 }
 
-TextWriter* PictureOutputs::open_fragments(const std::string& path) {
-  if (path.empty()) return nullptr;
-  return &fragments_.emplace(fragments_file_.emplace(path).descriptor(), path);
-}
-
 void PictureOutputs::close_reports() {
-  if (fragments_) {
-    fragments_->flush();
-    fragments_file_->close();
-  }
+  for (TextWriter* text : texts_) text->flush();
+  for (OutputFile& file : files_) file.close();
   statistics_.finish();
 }
 
@@ -55,9 +48,10 @@ void PictureOutputs::open(const Viewport& screen, int sample_count, Color backgr
   open_pixels(chosen_.triangle_array_path, triangles_, array_writer<std::int64_t>);
 }
 
-TextWriter* PictureOutputs::open_text(const std::string& path) {
+TextWriter* PictureOutputs::open_text(const std::string& path, bool may_be_stdout) {
   if (path.empty()) return nullptr;
-  return texts_.emplace_back(path == "-" ? &tool_.output() : &text_files_.emplace_back(opened(path), path));
+  const bool is_stdout = may_be_stdout && path == "-";
+  return texts_.emplace_back(is_stdout ? &tool_.output() : &text_files_.emplace_back(opened(path), path));
 }
 
 void PictureOutputs::write_colors(std::span<const Color> colors) {
@@ -90,7 +84,6 @@ void PictureOutputs::finish(std::uint64_t covered_count) {
   tool_.close_output();
   for (OutputFile& file : files_) file.commit();
   if (chosen_.summarizes) Tool::report(summary(chosen_.image_path, screen_, covered_count));
-  if (fragments_file_) fragments_file_->commit();
   statistics_.commit();
   tool_.timing().lap(&Timing::write_seconds);
 }

@@ -29,15 +29,13 @@ class PictureOutputs {
   /// Opens the statistics.
   PictureOutputs(Tool& tool, const PictureOptions& chosen, Statistics& statistics);
 
-  /// Opens the file of the fragments; null if `path` is empty.
-  TextWriter* open_fragments(const std::string& path);
-  /// Writes and closes the fragments and the statistics.
+  /// Opens a text that only one tool writes; null if `path` is empty. The path - can be that of a file.
+  TextWriter* open_text(const std::string& path, bool may_be_stdout = true);
+  /// Writes and closes the texts opened before the other outputs, and the statistics.
   void close_reports();
-  /// Opens all other outputs. The image takes the colors of `sample_count` x `sample_count` samples per
-  /// pixel. A background that is not opaque needs an image that can_hold_alpha.
+  /// Opens the image, the depths and the visible triangles. The image takes the colors of `sample_count` x
+  /// `sample_count` samples per pixel. A background that is not opaque needs an image that can_hold_alpha.
   void open(const Viewport& screen, int sample_count, Color background);
-  /// Opens a text that only one tool writes; null if `path` is empty.
-  TextWriter* open_text(const std::string& path);
 
   [[nodiscard]] bool wants_colors() const { return image_ != nullptr; }
   [[nodiscard]] bool wants_triangles() const { return triangles_ != nullptr; }
@@ -56,10 +54,8 @@ class PictureOutputs {
   Tool& tool_;
   const PictureOptions& chosen_;
   Statistics& statistics_;
-  std::optional<OutputFile> fragments_file_;
-  std::optional<TextWriter> fragments_;
   Viewport screen_;
-  std::deque<OutputFile> files_;  // the other files
+  std::deque<OutputFile> files_;
   std::unique_ptr<ImageWriter> image_;
   std::optional<Downsampler> means_;
   std::deque<TextWriter> text_files_;

@@ -210,7 +210,7 @@ void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Stati
   if (chosen.has_image())
     shader = surface_shader(reader.header(), reader.header_end(), of_samples, chosen, chosen.wireframe);
   tool.timing().lap(&Timing::read_seconds);
-  Reports reports(chosen, screen, statistics.is_wanted(), outputs.open_fragments(chosen.fragments_path));
+  Reports reports(chosen, screen, statistics.is_wanted(), outputs.open_text(chosen.fragments_path, false));
   if (!chosen.certainty_path.empty()) reports.certainty = certain_pixels(reader, screen);
   TriangleStore store(kept(chosen, reader.header().appearance, screen), shader);
   const bool is_one_by_one = chosen.algorithm == Algorithm::scanline;
