@@ -40,15 +40,25 @@ SamplePlaces::Place SamplePlaces::of(int row, int column, int sample) const {
           cell.column * kJitterPlaces + static_cast<int>(bits / kJitterPlaces % kJitterPlaces)};
 }
 
-SampleOrder::SampleOrder(int count) {
-  samples_.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(count));
-  std::iota(samples_.begin(), samples_.end(), 0);
+std::vector<int> sample_order(int count) {
+  std::vector<int> samples(static_cast<std::size_t>(count) * static_cast<std::size_t>(count));
+  std::iota(samples.begin(), samples.end(), 0);
   const auto is_at_end = [&](int place) { return place == 0 || place == count - 1; };
-  const auto others = std::stable_partition(samples_.begin(), samples_.end(), [&](int sample) {
+  std::stable_partition(samples.begin(), samples.end(), [&](int sample) {
     return sample == count / 2 * count + count / 2 ||
            (is_at_end(sample / count) && is_at_end(sample % count));
   });
-  first_count_ = static_cast<std::size_t>(others - samples_.begin());
+  return samples;
+}
+
+int largest_difference(std::span<const Color> colors) {
+  int largest = 0;
+  for (const int shift : {0, 8, 16, 24}) {
+    const auto channel = [&](Color color) { return static_cast<int>(color.rgb() >> shift & 0xff); };
+    const auto [least, greatest] = std::ranges::minmax_element(colors, {}, channel);
+    largest = std::max(largest, channel(*greatest) - channel(*least));
+  }
+  return largest;
 }
 
 }  // namespace pipeline

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "libpipeline/scene/color.h"
@@ -50,41 +49,14 @@ class SamplePlaces {
   int places_;  // along each side of a cell
 };
 
-/// The numbers of a pixel's samples in the order of adaptive sampling: the corner cells and the middle cell
-/// come first.
-class SampleOrder {
- public:
-  explicit SampleOrder(int count);
+/// The count of the samples that adaptive sampling takes first, if there are more.
+constexpr std::size_t kFirstSamples = 5;
 
-  [[nodiscard]] const std::vector<int>& samples() const { return samples_; }
-  /// The count of samples that come first.
-  [[nodiscard]] std::size_t first_count() const { return first_count_; }
+/// The numbers of a pixel's `count` x `count` samples; those in the corner cells and the middle cell come
+/// first.
+std::vector<int> sample_order(int count);
 
- private:
-  std::vector<int> samples_;
-  std::size_t first_count_;
-};
-
-/// The spread of colors.
-class ColorRange {
- public:
-  void add(Color color) {
-    const std::array<int, 4> channels = {color.red(), color.green(), color.blue(), color.alpha()};
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      least_[i] = std::min(least_[i], channels[i]);
-      greatest_[i] = std::max(greatest_[i], channels[i]);
-    }
-  }
-  /// The largest difference between two colors in a channel or in alpha; needs at least one color.
-  [[nodiscard]] int range() const {
-    int range = 0;
-    for (std::size_t i = 0; i < least_.size(); ++i) range = std::max(range, greatest_[i] - least_[i]);
-    return range;
-  }
-
- private:
-  std::array<int, 4> least_ = {255, 255, 255, 255};
-  std::array<int, 4> greatest_{};
-};
+/// The largest difference between two colors in a channel or in alpha; needs at least one color.
+int largest_difference(std::span<const Color> colors);
 
 }  // namespace pipeline

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "libpipeline/picture/supersampling.h"
@@ -85,20 +86,18 @@ TEST(SamplePlaces, NeighborsAreNotAlike) {
 }
 
 TEST(SampleOrder, CornersAndMiddleComeFirst) {
-  const SampleOrder order(5);
-  EXPECT_EQ(order.first_count(), 5u);
-  EXPECT_EQ(std::vector<int>(order.samples().begin(), order.samples().begin() + 5),
+  const std::vector<int> samples = sample_order(5);
+  EXPECT_EQ(std::vector<int>(samples.begin(), samples.begin() + kFirstSamples),
             (std::vector<int>{0, 4, 12, 20, 24}));
 }
 
 TEST(SampleOrder, HasEverySampleOnce) {
   for (int count = 1; count <= kMaxSamples; ++count) {
-    const SampleOrder order(count);
-    const std::set<int> numbers(order.samples().begin(), order.samples().end());
-    EXPECT_EQ(order.samples().size(), static_cast<std::size_t>(count * count));
-    EXPECT_EQ(numbers.size(), order.samples().size());
+    const std::vector<int> samples = sample_order(count);
+    const std::set<int> numbers(samples.begin(), samples.end());
+    EXPECT_EQ(samples.size(), static_cast<std::size_t>(count * count));
+    EXPECT_EQ(numbers.size(), samples.size());
     EXPECT_EQ(*numbers.rbegin(), count * count - 1);
-    EXPECT_EQ(order.first_count(), std::min(order.samples().size(), count == 2 ? 4u : std::size_t{5}));
   }
 }
 
@@ -109,21 +108,12 @@ TEST(ColorMean, IsRoundedHalvesUp) {
   EXPECT_EQ(colors.mean(), Color(1, 2, 255));
 }
 
-TEST(ColorRange, IsThatOfTheChannelThatDiffersMost) {
-  ColorRange colors;
-  colors.add({10, 20, 30});
-  EXPECT_EQ(colors.range(), 0);
-  colors.add({12, 90, 0});
-  EXPECT_EQ(colors.range(), 70);
-  colors.add({11, 0, 255});
-  EXPECT_EQ(colors.range(), 255);
-}
-
-TEST(ColorRange, CountsAlpha) {
-  ColorRange colors;
-  colors.add({10, 20, 30});
-  colors.add(Color(10, 20, 30).with_alpha(55));
-  EXPECT_EQ(colors.range(), 200);
+TEST(LargestDifference, IsThatOfTheChannelThatDiffersMostOrOfAlpha) {
+  const std::vector<Color> colors = {{10, 20, 30}, {12, 90, 0}, {11, 0, 255}};
+  EXPECT_EQ(largest_difference(std::span(colors).first(1)), 0);
+  EXPECT_EQ(largest_difference(std::span(colors).first(2)), 70);
+  EXPECT_EQ(largest_difference(colors), 255);
+  EXPECT_EQ(largest_difference(std::vector{Color(10, 20, 30), Color(10, 20, 30).with_alpha(55)}), 200);
 }
 
 /// The means of both, of samples that have the background's color or are opaque.

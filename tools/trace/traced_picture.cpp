@@ -94,11 +94,14 @@ class PixelTracer {
         chosen_(setup.chosen),
         background_(setup.background),
         places_(setup.places()),
-        order_(chosen_.sample_count),
+        order_(sample_order(chosen_.sample_count)),
+        first_samples_(order_),
         is_random_(is_random(*chosen_.sampling)),
         colors_(scene, bvh, PixelRays(scene.projection, places_.screen()), setup),
         centers_(triangles_, bvh, scene.projection, setup.screen),
         samples_(triangles_, bvh, scene.projection, places_.screen(), is_random_ ? 1 : chosen_.sample_count) {
+    if (chosen_.sampling == Sampling::adaptive)
+      first_samples_ = first_samples_.first(std::min(kFirstSamples, order_.size()));
   }
 
   void trace(int row, int column, std::size_t pixel, TracedPicture& picture) {
@@ -127,28 +130,20 @@ class PixelTracer {
 
  private:
   Color mean_of(int row, int column) {
-    std::span<const int> samples = order_.samples();
+    sample_colors_.clear();
+    cast(row, column, first_samples_);
+    if (first_samples_.size() < order_.size() && largest_difference(sample_colors_) >= chosen_.threshold)
+      cast(row, column, std::span(order_).subspan(first_samples_.size()));
     ColorMean mean;
-    if (chosen_.sampling == Sampling::adaptive) {
-      const std::size_t first_count = order_.first_count();
-      ColorRange range;
-      for_each_color(row, column, samples.first(first_count), [&](Color color) {
-        mean.add(color);
-        range.add(color);
-      });
-      if (range.range() < chosen_.threshold) return mean.mean();
-      samples = samples.subspan(first_count);
-    }
-    for_each_color(row, column, samples, [&](Color color) { mean.add(color); });
+    for (const Color color : sample_colors_) mean.add(color);
     return mean.mean();
   }
-  template <typename Visitor>
-  void for_each_color(int row, int column, std::span<const int> samples, Visitor&& visit) {
+  void cast(int row, int column, std::span<const int> samples) {
     ray_count_ += samples.size();
     for (const int sample : samples) {
       const auto place = places_.of(row, column, sample);
       const auto seen = samples_.cast(place.row, place.column);
-      visit(seen ? colors_.color(place.row, place.column, *seen) : background_);
+      sample_colors_.push_back(seen ? colors_.color(place.row, place.column, *seen) : background_);
     }
   }
 
@@ -156,10 +151,12 @@ class PixelTracer {
   const TraceOptions& chosen_;
   Color background_;
   SamplePlaces places_;
-  SampleOrder order_;
+  const std::vector<int> order_;
+  std::span<const int> first_samples_;  // all, unless the others depend on them
   bool is_random_;
   SampleColors colors_;
   RayCaster centers_, samples_;
+  std::vector<Color> sample_colors_;  // of a pixel
   std::uint64_t ray_count_ = 0;
   std::uint64_t covered_count_ = 0;
 };
