@@ -56,7 +56,7 @@ std::optional<std::string> unseen_triangles_note(const TracedScene& scene) {
 
 /// The reason why a scene with spheres shows nothing: the notes on spheres and, if there are any, triangles.
 std::string unmet_note(const TracedScene& scene, std::uint64_t object_count) {
-  const std::string note = unseen_spheres_note(scene.spheres.spheres());
+  const std::string note = unseen_spheres_note(scene.spheres);
   const std::string triangles = unseen_triangles_note(scene).value_or("");
   const std::size_t reason = triangles.find("empty: ");
   const bool has_triangles = object_count > scene.triangles.spheres().size();
@@ -84,7 +84,7 @@ class Rendering {
   void read() {
     const bool sends_rays = chosen_.has_image() && needs_light_transport(light_);
     casts_any_rays_ = sends_rays || !probed_.empty();
-    scene_.read(tool_, casts_any_rays_);
+    scene_.read(tool_, screen_, casts_any_rays_);
     // zbuf's shader does not take spheres.
     has_spheres_ = !scene_.triangles.spheres().empty();
     traces_light_ = sends_rays || (chosen_.has_image() && has_spheres_);

@@ -26,48 +26,42 @@ double z_at(double depth, const ProjectionTransform& projection) {
   return part > 0 ? -2 * near * (far / part) : -std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-
-SphereReport::SphereReport(const ProjectionTransform& projection, const Viewport& screen)
-    : is_perspective_(projection.is_perspective) {
-  spheres_.front = z_at(screen.front, projection);
-  spheres_.rear = z_at(screen.rear, projection);
-  spheres_.front_is_near = screen.front == -1;
-  spheres_.rear_is_far = screen.rear == 1;
-  const double x_scale = projection.x_scale.nearest_double(), y_scale = projection.y_scale.nearest_double();
-  const double x_offset = projection.x_offset.nearest_double(),
-               y_offset = projection.y_offset.nearest_double();
+UnseenPlace place_of(const SpherePoints& points, const BoundingBox& extent, const UnseenSpheres& spheres,
+                     const ProjectionTransform& projection, const Viewport& screen) {
+  if (projection.is_perspective && extent.low.z >= 0) return UnseenPlace::behind;
+  if (extent.low.z > spheres.front) return UnseenPlace::near;
+  if (extent.high.z <= spheres.rear) return UnseenPlace::far;
   // x in NDC is (x x_scale + z x_offset) / -z, or x x_scale + x_offset; `sign` is 1 if the inside is above
   // the limit.
-  const auto plane = [&](const Vec3& axis, double offset, double limit, double sign, UnseenPlace outside) {
-    if (is_perspective_) return Plane{scaled(sum(axis, {0, 0, offset + limit}), sign), 0, outside};
-    return Plane{scaled(axis, sign), sign * (offset - limit), outside};
+  const auto is_outside = [&](const Vec3& axis, double offset, double limit, double sign) {
+    const Vec3 along = projection.is_perspective ? sum(axis, {0, 0, offset + limit}) : axis;
+    const double constant = projection.is_perspective ? 0 : sign * (offset - limit);
+    return dot(points[0], scaled(along, sign)) + constant + reach(points, along) < 0;
   };
-  planes_ = {plane({x_scale, 0, 0}, x_offset, screen.left, 1, UnseenPlace::left),
-             plane({x_scale, 0, 0}, x_offset, -screen.left, -1, UnseenPlace::right),
-             plane({0, y_scale, 0}, y_offset, screen.bottom, 1, UnseenPlace::below),
-             plane({0, y_scale, 0}, y_offset, -screen.bottom, -1, UnseenPlace::above)};
+  const Vec3 x = {projection.x_scale.nearest_double(), 0, 0}, y = {0, projection.y_scale.nearest_double(), 0};
+  const double x_offset = projection.x_offset.nearest_double(),
+               y_offset = projection.y_offset.nearest_double();
+  if (is_outside(x, x_offset, screen.left, 1)) return UnseenPlace::left;
+  if (is_outside(x, x_offset, -screen.left, -1)) return UnseenPlace::right;
+  if (is_outside(y, y_offset, screen.bottom, 1)) return UnseenPlace::below;
+  return is_outside(y, y_offset, -screen.bottom, -1) ? UnseenPlace::above : UnseenPlace::elsewhere;
 }
 
-void SphereReport::add(const TriangleBatch& p_view) {
+}  // namespace
+
+void add_places(const TriangleBatch& p_view, const ProjectionTransform& projection, const Viewport& screen,
+                UnseenSpheres& spheres) {
+  spheres.front = z_at(screen.front, projection);
+  spheres.rear = z_at(screen.rear, projection);
+  spheres.front_is_near = screen.front == -1;
+  spheres.rear_is_far = screen.rear == 1;
   for (const Sphere& sphere : p_view.spheres) {
-    const SpherePoints& points = sphere.points;
-    const double half = reach(points, {0, 0, 1});
-    const double low = points[0].z - half, high = points[0].z + half;
+    const double half = reach(sphere.points, {0, 0, 1});
     BoundingBox extent;
-    extent.low.z = low;
-    extent.high.z = high;
-    spheres_.places.add(place_of(points, low, high), extent);
+    extent.low.z = sphere.points[0].z - half;
+    extent.high.z = sphere.points[0].z + half;
+    spheres.places.add(place_of(sphere.points, extent, spheres, projection, screen), extent);
   }
-}
-
-UnseenPlace SphereReport::place_of(const SpherePoints& points, double low, double high) const {
-  if (is_perspective_ && low >= 0) return UnseenPlace::behind;
-  if (low > spheres_.front) return UnseenPlace::near;
-  if (high <= spheres_.rear) return UnseenPlace::far;
-  for (const Plane& plane : planes_)
-    if (dot(points[0], plane.factors) + plane.offset + reach(points, plane.factors) < 0) return plane.outside;
-  return UnseenPlace::elsewhere;
 }
 
 }  // namespace pipeline

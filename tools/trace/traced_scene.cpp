@@ -35,16 +35,15 @@ TracedScene::TracedScene(Tool& tool, const TraceOptions& chosen, const Viewport&
       header(projected_header(reader.header(), given, projection)),
       exact(projection, tool.input().file(), header.projected.has_value()),
       view(exact.stage(), given, ViewVolume(projection), counts),
-      drawing({.coverage = TypeValue<CenterCoverage>(), .depth = {}}, screen, chosen.sample_count, false),
-      spheres(projection, screen) {}
+      drawing({.coverage = TypeValue<CenterCoverage>(), .depth = {}}, screen, chosen.sample_count, false) {}
 
-void TracedScene::read(Tool& tool, bool keeps_dropped) {
+void TracedScene::read(Tool& tool, const Viewport& screen, bool keeps_dropped) {
   if (keeps_dropped) triangles.keep_dropped();
   const bool is_painted = header.appearance.is_painted();
   for (TriangleBatch p_view; reader.read(p_view);) {
     if (is_painted) add_material_colors(header.appearance, p_view);
     tool.timing().triangle_count += p_view.object_count();
-    spheres.add(p_view);
+    add_places(p_view, projection, screen, spheres);
     const TriangleBatch& p_ndc = exact.project(p_view);
     view.add(p_view, p_ndc);
     drawing.add(p_ndc);

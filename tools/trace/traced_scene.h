@@ -21,7 +21,7 @@ struct TracedScene {
   TracedScene& operator=(const TracedScene&) = delete;
 
   /// Reads the body to its end. With `keeps_dropped`, keeps the triangles that `project` drops, too.
-  void read(Tool& tool, bool keeps_dropped);
+  void read(Tool& tool, const Viewport& screen, bool keeps_dropped);
 
   StageReader reader;
   Located<Projection> given;  // by the header or the options
@@ -31,7 +31,7 @@ struct TracedScene {
   TracedTriangles triangles;
   ViewReport view;
   DrawingReport drawing;
-  SphereReport spheres;
+  UnseenSpheres spheres;
 };
 
 }  // namespace pipeline
