@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/raytracing/refraction.h"
 
 namespace pipeline {
@@ -47,38 +46,43 @@ Turning turning(const SurfaceHit& hit, const Vec3& direction, double index) {
 }  // namespace
 
 void LightTransport::RayCounts::add(const RayCounts& other) {
-  shadow += other.shadow;
-  mirrored += other.mirrored;
-  refracted += other.refracted;
+  for (std::size_t kind = 0; kind < cast.size(); ++kind) cast[kind] += other.cast[kind];
   cut += other.cut;
   largest_cut_weight = std::max(largest_cut_weight, other.largest_cut_weight);
 }
 
-Vec3 LightTransport::radiance(const RayCaster::Seen& seen, const Ray& ray) {
+Vec3 LightTransport::radiance(const std::optional<RayCaster::Seen>& seen, const Ray& ray) {
   cut_weight_ = 0;
   dark_ = {};
-  const Path path = {1, 0, 0, log_ == nullptr ? 0 : log_->size()};
-  if (log_ != nullptr)
-    log_->push_back({.kind = RayKind::primary, .depth = 0, .weight = 1, .origin = ray.origin});
-  const Vec3 color = color_of(caster_.seen(seen.id, seen.is_from_within, ray), ray, path);
+  Path path = {1, 0, 0, 0};
+  log(RayKind::primary, path, ray.origin);
+  const SurfaceHit hit = seen ? caster_.seen(seen->id, seen->is_from_within, ray) : SurfaceHit();
+  const Vec3 color = color_of(hit, ray, path);
   counts_.largest_cut_weight = std::max(counts_.largest_cut_weight, cut_weight_);
   return color;
 }
 
-/// The color at a hit, attenuated on the way there.
+/// The color at a hit, attenuated on the way there; without one, the background.
 Vec3 LightTransport::color_of(const SurfaceHit& hit, const Ray& ray, Path path) {
-  Vec3 left = {1, 1, 1};
-  if (!hit.is_front && setup_.recurses)
-    left = passed(material(hit), length(difference(hit.point, ray.origin)));
-  path.weight *= largest(left);
-  const Vec3 color = product(left, surface_color(hit, ray, path));
-  if (log_ != nullptr) {
-    LoggedRay& entry = (*log_)[path.log_entry];
+  const bool is_met = hit.id != kNoSurface;
+  Vec3 color = setup_.background;
+  if (is_met) {
+    Vec3 left = {1, 1, 1};
+    if (!hit.is_front && setup_.recurses)
+      left = passed(material(hit), length(difference(hit.point, ray.origin)));
+    path.weight *= largest(left);
+    color = product(left, surface_color(hit, ray, path));
+  }
+  if (log_ == nullptr) return color;
+  LoggedRay& entry = (*log_)[path.log_entry];
+  entry.brought = color;
+  if (is_met) {
     entry.object = caster_.number(hit.id);
     entry.point = hit.point;
     entry.is_front = hit.is_front;
     entry.is_sphere = !caster_.corners(hit.id);
-    entry.brought = color;
+  } else {
+    entry.direction = unit_vector(ray.direction);
   }
   return color;
 }
@@ -107,28 +111,18 @@ Vec3 LightTransport::surface_color(const SurfaceHit& hit, const Ray& ray, const 
 
 /// The radiance of a ray that starts on a surface, times `share`.
 Vec3 LightTransport::follow(RayKind kind, const SurfaceRay& ray, const Path& path, double share) {
-  const Path next = {path.weight * share, path.depth + 1, path.length, log_ == nullptr ? 0 : log_->size()};
+  Path next = {path.weight * share, path.depth + 1, path.length, 0};
   const bool is_cut = next.weight < setup_.min_contribution || next.depth > setup_.max_depth;
-  if (log_ != nullptr)
-    log_->push_back({.kind = kind,
-                     .depth = next.depth,
-                     .weight = next.weight,
-                     .origin = ray.ray.origin,
-                     .is_cut = is_cut});
+  log(kind, next, ray.ray.origin);
   if (is_cut) {
+    if (log_ != nullptr) log_->back().is_cut = true;
     ++counts_.cut;
     dark_.has_cut_rays = true;
     cut_weight_ += next.weight;
     return {};
   }
-  ++(kind == RayKind::mirrored ? counts_.mirrored : counts_.refracted);
-  const auto hit = caster_.nearest(ray);
-  if (!hit && log_ != nullptr) {
-    LoggedRay& entry = (*log_)[next.log_entry];
-    entry.direction = unit_vector(ray.ray.direction);
-    entry.brought = setup_.background;
-  }
-  return scaled(hit ? color_of(*hit, ray.ray, next) : setup_.background, share);
+  ++counts_.cast[static_cast<std::size_t>(kind)];
+  return scaled(color_of(caster_.nearest(ray), ray.ray, next), share);
 }
 
 /// The color as SurfaceShader lights it, but with the light that arrives. For secondary rays, the eye lies
@@ -167,14 +161,12 @@ Vec3 LightTransport::part_of_light(const SurfaceHit& hit, std::size_t light, con
   dark_.light_in_front = std::max(dark_.light_in_front, largest(from.intensity));
   dark_.light_arriving = std::max(dark_.light_arriving, largest(product(part, from.intensity)));
   if (!setup_.has_shadows) return part;
-  ++counts_.shadow;
-  if (log_ != nullptr)
-    log_->push_back({.kind = RayKind::shadow,
-                     .depth = path.depth + 1,
-                     .weight = path.weight,
-                     .origin = hit.point,
-                     .light = light,
-                     .brought = part});
+  ++counts_.cast[static_cast<std::size_t>(RayKind::shadow)];
+  if (log_ == nullptr) return part;
+  Path to_light = {path.weight, path.depth + 1, 0, 0};
+  log(RayKind::shadow, to_light, hit.point);
+  log_->back().light = light;
+  log_->back().brought = part;
   return part;
 }
 

@@ -1,18 +1,38 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "libpipeline/picture/shading.h"
 #include "libpipeline/picture/shown_colors.h"
-#include "libpipeline/raytracing/bvh.h"
 #include "libpipeline/raytracing/ray_caster.h"
-#include "libpipeline/raytracing/ray_log.h"
 #include "libpipeline/raytracing/surface_caster.h"
-#include "libpipeline/raytracing/traced_triangles.h"
 
 namespace pipeline {
+
+enum class RayKind { primary, shadow, mirrored, refracted };
+constexpr std::array kRayKindNames = {"primary", "shadow", "mirrored", "refracted"};  // by RayKind
+
+/// A ray that takes part in the color of a pixel.
+struct LoggedRay {
+  RayKind kind;
+  int depth;                                 // 0 for a primary ray, else 1 more than the parent ray
+  double weight;                             // the largest part of the pixel's color that it can bring
+  Vec3 origin;                               // in view space
+  bool is_cut = false;                       // not cast
+  std::optional<std::uint64_t> object = {};  // the number of the object that it meets, if any
+  std::optional<std::size_t> light = {};     // the number of a shadow ray's light
+  Vec3 point = {};                           // where it meets the object
+  Vec3 direction = {};                       // of length 1, if it meets no object
+  bool is_front = true;
+  bool is_sphere = false;
+  Vec3 brought = {};  // a color; for a shadow ray, the part of the light that arrives
+};
+
+/// The rays that make the color of a pixel, each after its parent.
+using RayLog = std::vector<LoggedRay>;
 
 /// The rules by which light travels in a scene, and by which rays end.
 struct LightTransportSetup {
@@ -41,19 +61,16 @@ class LightTransport {
   LightTransport(const TracedTriangles& triangles, const Bvh& bvh, const LightTransportSetup& setup)
       : setup_(setup), caster_(triangles, bvh) {}
 
-  /// The count of rays other than primary ones.
   struct RayCounts {
-    std::uint64_t shadow = 0;
-    std::uint64_t mirrored = 0;
-    std::uint64_t refracted = 0;
+    std::array<std::uint64_t, kRayKindNames.size()> cast = {};  // by RayKind, but for primary rays
     std::uint64_t cut = 0;          // not cast: they would have brought too little or were too deep
     double largest_cut_weight = 0;  // the largest sum of cut weights for one primary ray
 
     void add(const RayCounts& other);
   };
 
-  /// The radiance of a primary ray from the surface that it sees, already found.
-  [[nodiscard]] Vec3 radiance(const RayCaster::Seen& seen, const Ray& ray);
+  /// The radiance of a primary ray from what it sees, already found.
+  [[nodiscard]] Vec3 radiance(const std::optional<RayCaster::Seen>& seen, const Ray& ray);
   [[nodiscard]] const RayCounts& counts() const { return counts_; }
   /// The data that explain why the last radiance may be black.
   [[nodiscard]] const DarkSurface& dark_surface() const { return dark_; }
@@ -69,6 +86,12 @@ class LightTransport {
     std::size_t log_entry;
   };
 
+  /// Adds a ray to the log, if there is one.
+  void log(RayKind kind, Path& path, const Vec3& origin) {
+    if (log_ == nullptr) return;
+    path.log_entry = log_->size();
+    log_->push_back({kind, path.depth, path.weight, origin});
+  }
   [[nodiscard]] Vec3 color_of(const SurfaceHit& hit, const Ray& ray, Path path);
   [[nodiscard]] Vec3 surface_color(const SurfaceHit& hit, const Ray& ray, const Path& path);
   [[nodiscard]] Vec3 local_color(const SurfaceHit& hit, const Ray& ray, const Path& path);

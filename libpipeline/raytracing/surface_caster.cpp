@@ -84,7 +84,7 @@ double error_of_mean(const Triangle& p_view) {
   return 0x1p-49 * largest;
 }
 
-std::optional<SurfaceHit> SurfaceCaster::nearest(const SurfaceRay& ray) {
+SurfaceHit SurfaceCaster::nearest(const SurfaceRay& ray) {
   const SurfaceTriangleTest test(ray);
   SurfaceId nearest = kNoSurface;
   SurfaceMeeting with_nearest = {};
@@ -97,7 +97,7 @@ std::optional<SurfaceHit> SurfaceCaster::nearest(const SurfaceRay& ray) {
       limit = meeting.t;
     });
   });
-  return nearest == kNoSurface ? std::nullopt : std::optional(hit(nearest, ray.ray, with_nearest));
+  return nearest == kNoSurface ? SurfaceHit() : hit(nearest, ray.ray, with_nearest);
 }
 
 SurfaceHit SurfaceCaster::seen(SurfaceId id, bool is_from_within, const Ray& ray) {

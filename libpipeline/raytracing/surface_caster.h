@@ -28,13 +28,13 @@ struct SurfaceRay {
 
 /// The point where a ray meets a surface, in view space.
 struct SurfaceHit {
-  SurfaceId id = kNoSurface;
-  double t = 0;      // the ray's parameter
-  Vec3 point;        // on the surface, within `error`
-  double error = 0;  // a bound on the point's distance from the surface in each coordinate
-  Vec3 face_normal;  // of length 1, on the front, from which a triangle is counterclockwise
-  Vec3 normal;       // for lighting, of any length and on either side
-  Vec3 color;        // the surface's own, channels from 0 to 255
+  SurfaceId id = kNoSurface;  // for none; the other members then mean nothing
+  double t = 0;               // the ray's parameter
+  Vec3 point;                 // on the surface, within `error`
+  double error = 0;           // a bound on the point's distance from the surface in each coordinate
+  Vec3 face_normal;           // of length 1, on the front, from which a triangle is counterclockwise
+  Vec3 normal;                // for lighting, of any length and on either side
+  Vec3 color;                 // the surface's own, channels from 0 to 255
   std::uint32_t material = 0;
   bool is_front = true;                // true if the ray comes from the front; a body's inside is the back
   std::array<double, 3> weights = {};  // of a triangle's corners, from 0 to 1
@@ -85,8 +85,9 @@ class SurfaceCaster {
   /// Needs a hierarchy for any ray (boxes_of), and triangles that include those that `project` drops.
   SurfaceCaster(const TracedTriangles& triangles, const Bvh& bvh) : triangles_(triangles), bvh_(bvh) {}
 
-  /// The first hit, of the surface with the lower id if two are equally near; none if the ray meets nothing.
-  [[nodiscard]] std::optional<SurfaceHit> nearest(const SurfaceRay& ray);
+  /// The first hit, of the surface with the lower id if two are equally near; of kNoSurface if the ray meets
+  /// nothing.
+  [[nodiscard]] SurfaceHit nearest(const SurfaceRay& ray);
   /// The hit of a primary ray on a surface that it is known to see, a sphere perhaps from within.
   [[nodiscard]] SurfaceHit seen(SurfaceId id, bool is_from_within, const Ray& ray);
 

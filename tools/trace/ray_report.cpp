@@ -1,15 +1,9 @@
 #include "tools/trace/ray_report.h"
 
-#include <array>
-
-#include "libpipeline/numbers/vec_math.h"
-#include "libpipeline/raytracing/ray_caster.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {
-
-constexpr std::array kNames = {"primary", "shadow", "mirrored", "refracted"};  // by RayKind
 
 std::string to_text(const Vec3& v) {
   return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
@@ -24,7 +18,7 @@ std::string target_of(const LoggedRay& ray) {
 
 std::string to_text(const LoggedRay& ray) {
   const std::string text = std::string(2 * static_cast<std::size_t>(ray.depth), ' ') +
-                           kNames[static_cast<std::size_t>(ray.kind)] + " weight " +
+                           kRayKindNames[static_cast<std::size_t>(ray.kind)] + " weight " +
                            shortest_text(ray.weight) + " from " + to_text(ray.origin);
   return text + (ray.is_cut ? " cut" : " to " + target_of(ray) + " brings " + to_text(ray.brought));
 }
@@ -38,15 +32,7 @@ void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh,
   RayCaster primary(scene.triangles, bvh, scene.projection, screen);
   LightTransport light(scene.triangles, bvh, setup);
   light.log_to(log);
-  if (const auto seen = primary.cast(pixel.row, pixel.column))
-    static_cast<void>(light.radiance(*seen, ray));
-  else
-    log.push_back({.kind = RayKind::primary,
-                   .depth = 0,
-                   .weight = 1,
-                   .origin = ray.origin,
-                   .direction = unit_vector(ray.direction),
-                   .brought = setup.background});
+  static_cast<void>(light.radiance(primary.cast(pixel.row, pixel.column), ray));
   for (const LoggedRay& logged : log)
     lines.push_back(std::to_string(pixel.column) + "," + std::to_string(pixel.row) + ": " + to_text(logged));
 }

@@ -139,12 +139,9 @@ class Rendering {
   void add_statistics(const TraceWork& work) {
     statistics_.add("triangles", tool_.timing().triangle_count);
     scene_.view.add_to(statistics_);
-    statistics_.add("primary_rays", work.primary_rays);
-    if (!traces_light_) return;
-    statistics_.add("shadow_rays", work.rays.shadow);
-    statistics_.add("mirrored_rays", work.rays.mirrored);
-    statistics_.add("refracted_rays", work.rays.refracted);
-    statistics_.add("cut_rays", work.rays.cut);
+    for (std::size_t kind = 0; kind < (traces_light_ ? work.rays.cast.size() : 1); ++kind)
+      statistics_.add(std::string(kRayKindNames[kind]) + "_rays", work.rays.cast[kind]);
+    if (traces_light_) statistics_.add("cut_rays", work.rays.cut);
   }
 
   [[nodiscard]] std::optional<std::string> invisible_note(const ShownColors& shown) const {

@@ -124,8 +124,8 @@ class PixelTracer {
   void add_up(TracedPicture& picture) const {
     picture.covered_count += covered_count_;
     picture.shown.add(colors_.shown());
-    if (!colors_.light()) return;
-    picture.work.rays.add(colors_.light()->counts());
+    picture.work.rays.cast[static_cast<std::size_t>(RayKind::primary)] += ray_count_;
+    if (colors_.light()) picture.work.rays.add(colors_.light()->counts());
   }
 
  private:
@@ -165,16 +165,13 @@ class PixelTracer {
 
 std::string to_text(const TraceWork& work) {
   const double seconds = std::max(work.cast_seconds, 1e-9);
-  const auto speed = [&](std::uint64_t count, const char* kind) {
-    return millions(count) + kind + " rays at " + rounded(static_cast<double>(count) / 1e6 / seconds) +
-           " million a second";
-  };
   char build[48];
-  std::snprintf(build, sizeof build, "build %.3f s, ", work.build_seconds);
-  std::string all = build + speed(work.primary_rays, "primary");
-  if (work.rays.shadow > 0) all += ", " + speed(work.rays.shadow, "shadow");
-  if (work.rays.mirrored > 0) all += ", " + speed(work.rays.mirrored, "mirrored");
-  if (work.rays.refracted > 0) all += ", " + speed(work.rays.refracted, "refracted");
+  std::snprintf(build, sizeof build, "build %.3f s", work.build_seconds);
+  std::string all = build;
+  for (std::size_t kind = 0; kind < kRayKindNames.size(); ++kind)
+    if (const std::uint64_t count = work.rays.cast[kind]; count > 0)
+      all += ", " + millions(count) + kRayKindNames[kind] + " rays at " +
+             rounded(static_cast<double>(count) / 1e6 / seconds) + " million a second";
   if (work.rays.cut > 0)
     all += ", " + millions(work.rays.cut) + "rays cut, at most " + rounded(work.rays.largest_cut_weight) +
            " of a pixel's color";
@@ -208,7 +205,6 @@ TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Pic
     if (worker == 0) progress.show(ray_count, static_cast<double>(row_count) / setup.screen.rows);
   });
   pool.finish();
-  picture.work.primary_rays = ray_count;
   for (const auto& tracer : tracers)
     if (tracer) tracer->add_up(picture);
   return picture;

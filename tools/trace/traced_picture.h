@@ -31,12 +31,11 @@ struct PictureSetup {
   const LightTransportSetup* light = nullptr;  // if set, rays bring the colors, not the shader
 };
 
-/// The times of a run of `trace` by part, and the counts of rays.
+/// The times of a run of `trace` by part, and the counts of rays, also of primary ones.
 struct TraceWork {
   double build_seconds = 0;
   double cast_seconds = 0;
-  std::uint64_t primary_rays = 0;
-  LightTransport::RayCounts rays;  // the other rays
+  LightTransport::RayCounts rays;
 };
 
 /// The line of `--timing`.
