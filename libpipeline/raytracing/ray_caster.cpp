@@ -26,16 +26,16 @@ std::vector<Bvh::Primitive> boxes_of(const TracedTriangles& triangles, const Pix
     return largest(&Vec3::x) + largest(&Vec3::y) + distance +
            rays.reach() * (rays.is_perspective() ? distance : 1);
   };
-  const auto box_of = [&](TracedTriangles::Id id) {
+  const auto box_of = [&](SurfaceId id) {
     return id < triangles.size() ? BoundingBox(triangles.p_view(id)) : triangles.sphere(id).surface.box();
   };
-  const auto count = static_cast<TracedTriangles::Id>(triangles.surface_count());
+  const auto count = static_cast<SurfaceId>(triangles.surface_count());
   double most_of_all = 0;
   if (of == RaysOfBoxes::any)
-    for (TracedTriangles::Id id = 0; id < count; ++id) most_of_all = std::max(most_of_all, most(box_of(id)));
+    for (SurfaceId id = 0; id < count; ++id) most_of_all = std::max(most_of_all, most(box_of(id)));
   std::vector<Bvh::Primitive> primitives;
   primitives.reserve(count);
-  for (TracedTriangles::Id id = 0; id < count; ++id) {
+  for (SurfaceId id = 0; id < count; ++id) {
     const BoundingBox box = box_of(id);
     constexpr double kPadding = 0x1p-46;
     primitives.push_back({FloatBox(box, kPadding * (of == RaysOfBoxes::any ? most_of_all : most(box))), id});
@@ -48,7 +48,7 @@ std::optional<RayCaster::Seen> RayCaster::cast(int row, int column) {
   const double largest_depth = triangles_.largest_depth();
   double limit = depth_.distance_up_to(screen_.rear, largest_depth);
   std::optional<Seen> nearest;
-  bvh_.for_each_candidate(ray, first_distance(rays_), limit, [&](TracedTriangles::Id id) {
+  bvh_.for_each_candidate(ray, first_distance(rays_), limit, [&](SurfaceId id) {
     const auto next = triangles_.is_sphere(id) ? sphere_at(id, ray) : triangle_at(id, row, column);
     const auto order = [](const Seen& seen) { return std::pair(seen.depth, seen.id); };
     if (!next || (nearest && order(*nearest) < order(*next))) return;
@@ -59,7 +59,7 @@ std::optional<RayCaster::Seen> RayCaster::cast(int row, int column) {
 }
 
 /// The triangle, if its fragment here exists and is within the depth limits.
-std::optional<RayCaster::Seen> RayCaster::triangle_at(TracedTriangles::Id id, int row, int column) {
+std::optional<RayCaster::Seen> RayCaster::triangle_at(SurfaceId id, int row, int column) {
   if (!may_cover(id, row, column)) return std::nullopt;
   const std::optional<Span>& span = span_of(id, row);
   if (!span || column < span->first_column || column > span->last_column) return std::nullopt;
@@ -68,7 +68,7 @@ std::optional<RayCaster::Seen> RayCaster::triangle_at(TracedTriangles::Id id, in
 }
 
 /// True if the pixel's center lies in the box around the triangle, or within a pixel of it: a quick test.
-bool RayCaster::may_cover(TracedTriangles::Id id, int row, int column) const {
+bool RayCaster::may_cover(SurfaceId id, int row, int column) const {
   const auto& [low, high] = BoundingBox(triangles_.p_ndc().triangles[id]);
   const double x = pixels_.x_of(column), y = pixels_.y_of(row);
   return x >= low.x - pixels_.dx && x <= high.x + pixels_.dx && y >= low.y - pixels_.dy &&
@@ -77,7 +77,7 @@ bool RayCaster::may_cover(TracedTriangles::Id id, int row, int column) const {
 
 /// The sphere's nearer side if it is within the depth limits, else the farther one: the front limit may cut a
 /// sphere open.
-std::optional<RayCaster::Seen> RayCaster::sphere_at(TracedTriangles::Id id, const Ray& ray) const {
+std::optional<RayCaster::Seen> RayCaster::sphere_at(SurfaceId id, const Ray& ray) const {
   const double first = first_distance(rays_);
   const auto [entrance, exit] = triangles_.sphere(id).surface.meetings(ray);
   for (const auto& [distance, is_from_within] : {std::pair(entrance, false), std::pair(exit, true)}) {
@@ -88,19 +88,17 @@ std::optional<RayCaster::Seen> RayCaster::sphere_at(TracedTriangles::Id id, cons
 }
 
 /// The triangle's pixels in a row.
-const std::optional<Span>& RayCaster::span_of(TracedTriangles::Id id, int row) {
-  const std::size_t slot = id % kCached;
-  CachedRows& cached = cache_[slot];
-  CachedSpan* const spans = &spans_[slot * static_cast<std::size_t>(row_count_)];
+const std::optional<Span>& RayCaster::span_of(SurfaceId id, int row) {
+  CachedRows& cached = cache_[id % kCached];
   if (cached.id != id) {
     const TriangleBatch& p_ndc = triangles_.p_ndc();
     cached.id = id;
-    for (int i = 0; i < row_count_; ++i) spans[i].row = -1;
+    cached.spans.assign(row_count_, {});
     cached.rows.emplace(
         grid_, ExactTriangle{p_ndc.triangles[id], p_ndc.low_parts.empty() ? nullptr : &p_ndc.low_parts[id],
                              p_ndc.decimal_marks[id]});
   }
-  CachedSpan& found = spans[row % row_count_];
+  CachedSpan& found = cached.spans[static_cast<std::size_t>(row) % row_count_];
   if (found.row != row) {
     const bool is_in_rows = row >= cached.rows->first_row() && row <= cached.rows->last_row();
     found.row = row;

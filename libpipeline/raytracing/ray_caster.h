@@ -33,7 +33,7 @@ class RayCaster {
  public:
   /// The visible triangle and its depth; or a sphere, with the depth of the ray's hit and the visible side.
   struct Seen {
-    TracedTriangles::Id id;
+    SurfaceId id;
     double depth;
     bool is_from_within = false;
   };
@@ -48,9 +48,8 @@ class RayCaster {
         depth_(projection),
         pixels_(screen),
         grid_(screen),
-        row_count_(row_count),
-        cache_(kCached),
-        spans_(kCached * static_cast<std::size_t>(row_count)) {}
+        row_count_(static_cast<std::size_t>(row_count)),
+        cache_(kCached) {}
 
   /// The triangle seen at a pixel between the depth limits, if any. Among equal depths, the earlier triangle
   /// is seen.
@@ -59,19 +58,20 @@ class RayCaster {
  private:
   // Neighboring pixels show the same few triangles.
   static constexpr std::size_t kCached = 1024;
-  struct CachedRows {
-    std::optional<TracedTriangles::Id> id;
-    std::optional<CenterRows> rows;
-  };
   struct CachedSpan {
     int row = -1;
     std::optional<Span> span;
   };
+  struct CachedRows {
+    SurfaceId id = kNoSurface;
+    std::optional<CenterRows> rows;
+    std::vector<CachedSpan> spans;
+  };
 
-  [[nodiscard]] const std::optional<Span>& span_of(TracedTriangles::Id id, int row);
-  [[nodiscard]] bool may_cover(TracedTriangles::Id id, int row, int column) const;
-  [[nodiscard]] std::optional<Seen> triangle_at(TracedTriangles::Id id, int row, int column);
-  [[nodiscard]] std::optional<Seen> sphere_at(TracedTriangles::Id id, const Ray& ray) const;
+  [[nodiscard]] const std::optional<Span>& span_of(SurfaceId id, int row);
+  [[nodiscard]] bool may_cover(SurfaceId id, int row, int column) const;
+  [[nodiscard]] std::optional<Seen> triangle_at(SurfaceId id, int row, int column);
+  [[nodiscard]] std::optional<Seen> sphere_at(SurfaceId id, const Ray& ray) const;
   [[nodiscard]] bool is_between_limits(double depth) const {
     return depth >= screen_.front && depth < screen_.rear;
   }
@@ -83,9 +83,8 @@ class RayCaster {
   NdcDepth depth_;
   PixelGrid pixels_;
   ExactGrid grid_;
-  int row_count_;
+  std::size_t row_count_;
   std::vector<CachedRows> cache_;
-  std::vector<CachedSpan> spans_;  // row_count_ for each cached triangle
 };
 
 }  // namespace pipeline

@@ -47,10 +47,13 @@ void pass_through_text(TriangleBatch& batch) {
   }
 }
 
-void TracedTriangles::add(const TriangleBatch& p_view, const TriangleBatch& p_ndc, const std::string& file) {
+const TriangleBatch& TracedTriangles::add(const TriangleBatch& p_view) {
+  stage_.project(p_view, projected_);
+  pass_through_text(projected_);
   std::size_t image = 0;
   const auto is_image_of = [&](const VertexLocations& triangle) {
-    return image < p_ndc.size() && std::ranges::find(triangle, p_ndc.locations[image][0]) != triangle.end();
+    return image < projected_.size() &&
+           std::ranges::find(triangle, projected_.locations[image][0]) != triangle.end();
   };
   AttributeSet columns = p_view.attributes.names();
   columns.w = columns.any();
@@ -58,7 +61,7 @@ void TracedTriangles::add(const TriangleBatch& p_view, const TriangleBatch& p_nd
     bool is_first = true;
     for (; is_image_of(p_view.locations[i]); is_first = false) {
       add_entry(p_view, i, is_first);
-      add_image(p_ndc, image++);
+      add_image(image++);
     }
     if (!is_first || !keeps_dropped_) continue;
     add_entry(p_view, i, true);
@@ -71,11 +74,12 @@ void TracedTriangles::add(const TriangleBatch& p_view, const TriangleBatch& p_nd
   for (const Sphere& sphere : p_view.spheres) {
     const std::optional<Ellipsoid> surface = Ellipsoid::from(sphere.points);
     if (!surface)
-      throw InputError({file, sphere.locations[0].line(), sphere.locations[0].column()},
+      throw InputError({file_, sphere.locations[0].line(), sphere.locations[0].column()},
                        "a sphere with a volume", "four points in a plane");
     const Vec3 color = sphere.color.value_or(to_vec3(TriangleColors().of(sphere.number)));
     spheres_.push_back({*surface, color, sphere.number, sphere.material});
   }
+  return projected_;
 }
 
 void TracedTriangles::add_entry(const TriangleBatch& p_view, std::size_t index, bool is_first) {
@@ -85,20 +89,20 @@ void TracedTriangles::add_entry(const TriangleBatch& p_view, std::size_t index, 
   attributes_.add(p_view.attributes, index);
 }
 
-void TracedTriangles::add_image(const TriangleBatch& p_ndc, std::size_t index) {
-  const std::size_t id = p_ndc_.size();
-  // An array may be shorter if earlier triangles did not need it.
-  const Triangle& triangle = p_ndc.triangles[index];
+void TracedTriangles::add_image(std::size_t index) {
+  const Triangle& triangle = projected_.triangles[index];
   for (const Vec3& p : triangle) largest_depth_ = std::max(largest_depth_, std::fabs(p.z));
-  const auto set = [&](auto& array, const auto& value) {
-    array.resize(id + 1);
-    array[id] = value;
-  };
   p_ndc_.triangles.push_back(triangle);
-  set(p_ndc_.decimal_marks, p_ndc.decimal_marks[index]);
-  if (!p_ndc.low_parts.empty()) set(p_ndc_.low_parts, p_ndc.low_parts[index]);
-  if (!p_ndc.unclipped.empty()) set(p_ndc_.unclipped, p_ndc.unclipped[index]);
-  p_ndc_.attributes.add(p_ndc.attributes, index);
+  // An array may be shorter if earlier triangles did not need it.
+  const auto add = [&](auto& array, const auto& from) {
+    if (from.empty()) return;
+    array.resize(p_ndc_.size());
+    array.back() = from[index];
+  };
+  add(p_ndc_.decimal_marks, projected_.decimal_marks);
+  add(p_ndc_.low_parts, projected_.low_parts);
+  add(p_ndc_.unclipped, projected_.unclipped);
+  p_ndc_.attributes.add(projected_.attributes, index);
 }
 
 }  // namespace pipeline

@@ -40,9 +40,8 @@ struct Pixel {
 
 std::vector<Pixel> traced(const TriangleBatch& p_view, const ProjectionTransform& projection,
                           const Viewport& screen) {
-  ExactProjection exact(projection, "", false);
-  TracedTriangles triangles;
-  triangles.add(p_view, exact.project(p_view), "");
+  TracedTriangles triangles(projection, "", false);
+  triangles.add(p_view);
   ThreadPool pool(1);
   const Bvh bvh(boxes_of(triangles, PixelRays(projection, screen)), pool);
   triangles.keep_images_alone();

@@ -20,16 +20,13 @@ struct Scene {
       const std::size_t line = 4 * batch.size() + 1;
       batch.add(triangle, batch.size(), {line, line + 1, line + 2});
     }
-    const Located<Projection> given = {Frustum{-1, 1, -1, 1, 1, 20}, {}};
-    const ProjectionTransform projection = clip_from_view(given);
-    ExactProjection exact(projection, "", false);
     triangles.keep_dropped();
-    triangles.add(batch, exact.project(batch), "");
+    triangles.add(batch);
     ThreadPool pool(1);
-    const Viewport screen = {8, 8};
-    bvh = Bvh(boxes_of(triangles, PixelRays(projection, screen), RaysOfBoxes::any), pool);
+    bvh = Bvh(boxes_of(triangles, PixelRays(projection, {8, 8}), RaysOfBoxes::any), pool);
   }
-  TracedTriangles triangles;
+  ProjectionTransform projection = clip_from_view({Frustum{-1, 1, -1, 1, 1, 20}, {}});
+  TracedTriangles triangles{projection, "", false};
   Bvh bvh;
 };
 

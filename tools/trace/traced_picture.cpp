@@ -56,17 +56,15 @@ class SampleColors {
   [[nodiscard]] const std::optional<LightTransport>& light() const { return light_; }
 
  private:
-  using Id = TracedTriangles::Id;
-
   // Neighboring samples show the same few triangles.
   static constexpr std::size_t kCached = 256;
   struct CachedSurface {
-    std::optional<Id> id;
+    std::optional<SurfaceId> id;
     Color own_color;  // for triangles without a shader
     SurfaceShader::Surface surface;
   };
 
-  const CachedSurface& surface(Id id) {
+  const CachedSurface& surface(SurfaceId id) {
     CachedSurface& cached = cache_[id % kCached];
     if (cached.id == id) return cached;
     cached.id = id;

@@ -33,8 +33,8 @@ TracedScene::TracedScene(Tool& tool, const TraceOptions& chosen, const Viewport&
       given(chosen.projection.projection(reader, tool)),
       projection(clip_from_view(given)),
       header(projected_header(reader.header(), given, projection)),
-      exact(projection, tool.input().file(), header.projected.has_value()),
-      view(exact.stage(), given, ViewVolume(projection), counts),
+      triangles(projection, tool.input().file(), header.projected.has_value()),
+      view(triangles.stage(), given, ViewVolume(projection), counts),
       drawing({.coverage = TypeValue<CenterCoverage>(), .depth = {}}, screen, chosen.sample_count, false) {}
 
 void TracedScene::read(Tool& tool, const Viewport& screen, bool keeps_dropped) {
@@ -44,10 +44,9 @@ void TracedScene::read(Tool& tool, const Viewport& screen, bool keeps_dropped) {
     if (is_painted) add_material_colors(header.appearance, p_view);
     tool.timing().triangle_count += p_view.object_count();
     add_places(p_view, projection, screen, spheres);
-    const TriangleBatch& p_ndc = exact.project(p_view);
+    const TriangleBatch& p_ndc = triangles.add(p_view);
     view.add(p_view, p_ndc);
     drawing.add(p_ndc);
-    triangles.add(p_view, p_ndc, tool.input().file());
     expect_room(triangles);
   }
 }

@@ -27,7 +27,6 @@ struct TracedScene {
   Located<Projection> given;  // by the header or the options
   ProjectionTransform projection;
   StageHeader header;  // as `project` writes it
-  ExactProjection exact;
   TracedTriangles triangles;
   ViewReport view;
   DrawingReport drawing;

@@ -41,7 +41,7 @@ TriangleBatch read_back(const TriangleBatch& batch) {
 
 constexpr unsigned kDecimalXAndY = 0b011'011'011;
 
-TEST(ExactProjection, MarksWhatAReaderMarks) {
+TEST(PassThroughText, MarksWhatAReaderMarks) {
   std::mt19937_64 rng(1);
   const auto number = [&]() -> double {
     switch (rng() % 5) {
@@ -72,7 +72,7 @@ TEST(ExactProjection, MarksWhatAReaderMarks) {
   }
 }
 
-TEST(ExactProjection, LeavesNoSignOfZero) {
+TEST(PassThroughText, LeavesNoSignOfZero) {
   TriangleBatch batch;
   batch.add({Vec3{-0.0, -0.0, -0.0}}, 0, {});
   pass_through_text(batch);
