@@ -25,12 +25,12 @@ std::string to_text(const LoggedRay& ray) {
 
 }  // namespace
 
-void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
-                   const LightTransportSetup& setup, std::vector<std::string>& lines) {
+void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh,
+                   std::vector<std::string>& lines) {
   RayLog log;
-  const Ray ray = PixelRays(scene.projection, screen).ray(pixel.row, pixel.column);
-  RayCaster primary(scene.triangles, bvh, scene.projection, screen);
-  LightTransport light(scene.triangles, bvh, setup);
+  const Ray ray = PixelRays(scene.projection, scene.screen).ray(pixel.row, pixel.column);
+  RayCaster primary(scene.triangles, bvh, scene.projection, scene.screen);
+  LightTransport light(scene.triangles, bvh, scene.light);
   light.log_to(log);
   static_cast<void>(light.radiance(primary.cast(pixel.row, pixel.column), ray));
   for (const LoggedRay& logged : log)

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/raytracing/light_transport.h"
 #include "libpipeline/visibility/fragment_log.h"
 #include "tools/trace/traced_scene.h"
 
@@ -11,7 +10,7 @@ namespace pipeline {
 
 /// Adds a line, without a line feed, for each ray that makes the color of a pixel; docs/ray-tracing.md has
 /// the format.
-void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh, const Viewport& screen,
-                   const LightTransportSetup& setup, std::vector<std::string>& lines);
+void add_ray_lines(const Pixel& pixel, const TracedScene& scene, const Bvh& bvh,
+                   std::vector<std::string>& lines);
 
 }  // namespace pipeline
