@@ -241,6 +241,12 @@ class Samples(ToolTest):
                 done = run("trace", "--size", "40x40", "--threads", "3", *options, stdin=view % color)
                 self.assertEqual((done.stderr.decode(), done.returncode), (why, 0))
 
+    def test_light_that_model_has_noted_is_not_noted_again(self):
+        view = "perspective 60 1 1 9\nlight 0 0 0 %d 9 9\n-1 -1 -2\n1 -1 -2\n0 1 -2\n"
+        for red, is_noted in ((255, False), (9, True)):
+            done = run("trace", "--size", "9x9", "-o", "out.ppm", stdin=view % red)
+            self.assertEqual(b"too bright" in done.stderr, is_noted)
+
     def test_a_background_that_lets_through_is_mixed_as_zbuf_mixes_it(self):
         ndc = run("project", "--digits", "exact", stdin=self.view).stdout
         for background in ("11223380", "ff000000"):

@@ -84,7 +84,8 @@ std::optional<std::string> note_on(const TracedScene& scene, const ShownColors& 
   if (has_spheres && shown.count() == 0) return unmet_note(scene, object_count);
   std::optional<std::string> note;
   if (!has_spheres) note = unseen_triangles_note(scene);
-  if (!note) note = odd_colors_note(shown, {scene.background});
+  const bool is_known = bright_light_note(scene.header.appearance).has_value();  // model has noted it
+  if (!note) note = odd_colors_note(shown, {scene.background, false, is_known});
   return note ? note : squeezed_note(scene.given.value, scene.screen);
 }
 
