@@ -27,6 +27,17 @@ class CommandFailure(Exception):
     is_misuse = False  # of the command line, which is always status 2
 
 
+@contextlib.contextmanager
+def errors(action, name, kind=CommandFailure):
+    """Turns an error of the system into a failure that says what could not be done to a file."""
+    try:
+        yield
+    except BrokenPipeError:  # a pipe's reader may leave
+        raise
+    except OSError as error:
+        raise kind(f"cannot {action} {shown(name)}: {error.strerror}") from None
+
+
 class Ended(BaseException):
     """A signal asks the command to stop."""
     def __init__(self, signal_number):
@@ -73,12 +84,8 @@ def run_command(main, name, failure_status=1):
 class Stdout(io.FileIO):
     """Descriptor 1; its errors name stdout."""
     def write(self, data):
-        try:
+        with errors("write", "<stdout>"):
             return super().write(data)
-        except BrokenPipeError:  # a pipe's reader may leave
-            raise
-        except OSError as error:
-            raise CommandFailure(f"cannot write <stdout>: {error.strerror}") from None
 
 
 def prepare():

@@ -6,7 +6,7 @@ import re
 import secrets
 import stat
 
-from lib.rim.command import CommandFailure, leftovers, shown, unbroken
+from lib.rim.command import CommandFailure, errors, leftovers, shown, unbroken
 
 MAX_LINKS = 40  # the kernel's limit
 OWN_FILE = re.compile(r"/dev/(?:(stdout)|(stderr)|fd/(\d+))|/proc/self/fd/(\d+)")
@@ -66,11 +66,12 @@ class OutputFile:
     def __init__(self, path):
         self.path = os.fspath(path)
         self.temporary = None  # the path it is written to; None if directly
-        self.descriptor = None
-        with self.errors("open"):
+        self.descriptor = status = None
+        with errors("open", self.path, OutputError):
             self.target = target_of(self.path)
             own = own_descriptor(self.target)
-            status = self.status()
+            with contextlib.suppress(FileNotFoundError):
+                status = os.stat(self.target)
             if own is not None:
                 self.descriptor = os.dup(own)
             elif status and not stat.S_ISREG(status.st_mode):
@@ -81,12 +82,6 @@ class OutputFile:
                 raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
             else:
                 self.open_beside(status)
-
-    def status(self):
-        try:
-            return os.stat(self.target)
-        except FileNotFoundError:
-            return None
 
     def open_beside(self, status):
         mode = stat.S_IMODE(status.st_mode) & 0o777 if status else 0o666
@@ -99,16 +94,6 @@ class OutputFile:
         if status:  # the umask does not apply to an existing file
             with contextlib.suppress(OSError):
                 os.fchmod(self.descriptor, mode)
-
-    @contextlib.contextmanager
-    def errors(self, action):
-        """Failures name the path as given."""
-        try:
-            yield
-        except BrokenPipeError:  # a pipe's reader may leave
-            raise
-        except OSError as error:
-            raise OutputError(f"cannot {action} {shown(self.path)}: {error.strerror}") from None
 
     def __enter__(self):
         return self
@@ -123,7 +108,7 @@ class OutputFile:
 
     def write(self, data):
         rest = memoryview(data)
-        with self.errors("write"):
+        with errors("write", self.path, OutputError):
             while rest:
                 rest = rest[os.write(self.descriptor, rest):]
 
@@ -133,7 +118,7 @@ class OutputFile:
             self.write(block)
 
     def close(self):
-        with self.errors("write"):
+        with errors("write", self.path, OutputError):
             descriptor, self.descriptor = self.descriptor, None
             if descriptor is not None:
                 os.close(descriptor)
@@ -141,7 +126,7 @@ class OutputFile:
     def commit(self):
         self.close()
         if self.temporary:
-            with self.errors("replace"):
+            with errors("replace", self.path, OutputError):
                 os.replace(self.temporary, self.target)
             self.temporary = None
 
@@ -209,7 +194,5 @@ def output_files(folder, names):
 
 
 def make_folders(path):
-    try:
+    with errors("make the folder", path, OutputError):
         os.makedirs(path, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"cannot make the folder {shown(path)}: {error.strerror}") from None

@@ -5,7 +5,7 @@ import os
 import pathlib
 import stat
 
-from lib.rim.command import CommandFailure, shown, unbroken
+from lib.rim.command import CommandFailure, errors, shown, unbroken
 from lib.rim.output_file import OutputError, make_folders, write_file
 
 OURS = ".pipeline-"  # how a mark begins, and what a killed tool may leave
@@ -77,10 +77,8 @@ class WorkFolder:
     def move(self, names, other):
         """Moves files to another folder, in place of those there."""
         for name in names:
-            try:
+            with errors("replace", other / name, OutputError):
                 os.replace(self / name, other / name)
-            except OSError as error:
-                raise OutputError(f"cannot replace {shown(other / name)}: {error.strerror}") from None
 
     def remove_files(self, is_own):
         """Removes files by their paths in the folder, and folders that this leaves empty."""
