@@ -22,11 +22,6 @@ def expect_parallel():
         raise CommandFailure("parallel is missing (Debian package parallel)")
 
 
-def columns(jobs, files_of, first):
-    """The columns from `first` on that hold the files of jobs."""
-    return range(first, first + max(len(files_of(job)) for job in jobs))
-
-
 def run_parallel(folder, jobs, name, common=(), options=()):
     """Runs the jobs in the folder; returns their stdout from a form feed on. `common` are files that all
     jobs read, `name` is the command's. Another machine works in a folder of its own, which is removed
@@ -35,18 +30,13 @@ def run_parallel(folder, jobs, name, common=(), options=()):
     if os.access("/dev/shm", os.W_OK):  # what jobs print is kept in memory: the disk may be full
         words += ["--tmpdir", "/dev/shm"]
     if any(word.startswith(("--sshlogin", "-S")) for word in options):
-        takes = columns(jobs, lambda job: job.takes, 2)
-        gives = columns(jobs, lambda job: job.gives, takes.stop)
+        takes, gives = max(len(job.takes) for job in jobs), max(len(job.gives) for job in jobs)
+        columns = [f"{{{i}}}" for i in range(2, 2 + takes + gives)]  # with the files of a job
+        files = {"--basefile": common, "--transferfile": columns[:takes], "--return": columns[takes:]}
         words += ["--workdir", f"pipeline-{name}-{os.getpid()}", "--cleanup", "--colsep", "\t"]
-        for file in common:
-            words += ["--basefile", file]
-        for column in takes:
-            words += ["--transferfile", f"{{{column}}}"]
-        for column in gives:
-            words += ["--return", f"{{{column}}}"]
+        words += [word for option, names in files.items() for file in names for word in (option, file)]
         lines = [
-            "\t".join([job.line, *job.takes, *[""] * (len(takes) - len(job.takes)), *job.gives])
-            for job in jobs]
+            "\t".join([job.line, *job.takes, *[""] * (takes - len(job.takes)), *job.gives]) for job in jobs]
         words += [*options, "eval", "{1}"]
     else:
         lines = [job.line for job in jobs]
