@@ -47,14 +47,10 @@ class Ended(BaseException):
 
 def shown(name):
     """A file's name, or a part of a file, fit for one line: unprintable characters are escaped."""
-    characters = []
-    for c in os.fspath(name):
-        if c.isprintable():
-            characters.append(c)
-        else:  # a byte that is not UTF-8 has been read as one of 128 surrogates
-            characters.append(f"\\x{ord(c) - 0xdc00:02x}" if "\udc80" <= c <= "\udcff" else c.
-                              encode("unicode_escape").decode())
-    return "".join(characters)
+    def escaped(c):  # a byte that is not UTF-8 has been read as one of 128 surrogates
+        return f"\\x{ord(c) - 0xdc00:02x}" if "\udc80" <= c <= "\udcff" else ascii(c)[1:-1]
+
+    return "".join(c if c.isprintable() else escaped(c) for c in os.fspath(name))
 
 
 def run_command(main, name, failure_status=1):
@@ -157,10 +153,8 @@ def status_of(main, name, failure_status):
 
 
 def told(name, message, status):
-    try:
+    with contextlib.suppress(OSError):
         print(f"{name}: {message}", file=sys.stderr, flush=True)
-    except OSError:
-        pass
     return status
 
 

@@ -40,15 +40,11 @@ def read_input(path, only_regular=False):
         if path == "-" and not only_regular:
             return read_all(0, path)
         # Opening a pipe waits for its writer, unless O_NONBLOCK is set.
-        descriptor = os.open(
-            path, os.O_RDONLY | os.O_CLOEXEC | os.O_NOCTTY | (os.O_NONBLOCK if only_regular else 0))
-        try:
-            mode = os.fstat(descriptor).st_mode
-            if only_regular and not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        flags = os.O_NOCTTY | (os.O_NONBLOCK if only_regular else 0)
+        with open(path, "rb", opener=lambda name, mode: os.open(name, mode | flags)) as file:
+            if only_regular and not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
                 raise InputError(path, "Not a regular file")
-            return read_all(descriptor, path)
-        finally:
-            os.close(descriptor)
+            return read_all(file.fileno(), path)
 
 
 def read_all(descriptor, path):
@@ -71,11 +67,10 @@ def digest(path):
 
 def is_same_stream(a, b):
     """True if two paths name the same pipe, which can be read only once."""
-    try:
+    with contextlib.suppress(OSError):
         a, b = (os.fstat(0) if path == "-" else os.stat(path) for path in (a, b))
-    except OSError:
-        return False
-    return os.path.samestat(a, b) and (stat.S_ISFIFO(a.st_mode) or stat.S_ISSOCK(a.st_mode))
+        return os.path.samestat(a, b) and (stat.S_ISFIFO(a.st_mode) or stat.S_ISSOCK(a.st_mode))
+    return False
 
 
 @contextlib.contextmanager

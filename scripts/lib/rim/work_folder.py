@@ -88,12 +88,9 @@ class WorkFolder:
                 path for path in paths if path != str(self.mark) and is_own(os.path.relpath(path, self.path))]
             for path in own:
                 os.unlink(path)
-            while own and folder != str(self.path):
-                try:
-                    os.rmdir(folder)
-                except OSError:
-                    break
-                folder = os.path.dirname(folder)
+            if own and folder != str(self.path):
+                with contextlib.suppress(OSError):
+                    os.removedirs(folder)  # not self.path, which holds the mark
 
     def remove_others(self, is_own):
         """Removes links (not their targets), pipes and devices where files or folders will be."""
