@@ -3,7 +3,6 @@ digits, and pixels that are still uncertain by exact_pixels."""
 import argparse
 import array
 import dataclasses
-import os
 import pathlib
 import re
 import sys
@@ -11,7 +10,7 @@ import tempfile
 import textwrap
 
 from lib.rim.command import CommandFailure, shown
-from lib.rim.input_file import read_input
+from lib.rim.input_file import read_input, states
 from lib.rim.output_file import expect_writable, own_descriptor, target_of, write_file
 from lib.running.owners import owners_in
 from lib.running.pipe_tools import ToolFailure
@@ -78,7 +77,8 @@ class CertainPicture:
     def __init__(self, options, tools, commands, draw):
         self.options, self.tools, self.commands, self.draw = options, tools, commands, draw
         self.kind = next(filter(None, FORMAT.match(options.output).groups()))
-        self.state = state_of(options)
+        self.files = [*[options.model] * (options.data is None), *filter(None, [options.config])]
+        self.states = states(*self.files)
 
     def with_options(self, **changed):
         return argparse.Namespace(**{**vars(self.options), **changed})
@@ -109,7 +109,7 @@ class CertainPicture:
         return run
 
     def expect_unchanged(self):
-        if state_of(self.options) != self.state:
+        if states(*self.files) != self.states:
             raise CommandFailure(f"{shown(self.options.model)} or its config has changed while it was drawn: "
                                  "draw it again")
 
@@ -152,13 +152,6 @@ def draw_for_certain(options, *tools_and_calls):
     write_file("/dev/stdout" if is_stream else options.image, run.picture)
     print(told(run.certainty, size_of(run.picture)[0], tried), file=sys.stderr if is_stream else sys.stdout)
     return run.notes
-
-
-def state_of(options):
-    """The state of the model's file and of the config's, which changes if another program writes to one."""
-    paths = [options.model] * (options.data is None) + [options.config] * (options.config is not None)
-    return [
-        (status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns) for status in map(os.stat, paths)]
 
 
 def told(certainty, width, tried):
