@@ -1,5 +1,4 @@
 """The data of the inspector's page: a scene sent through the real pipe, and the output of every stage."""
-import base64
 import io
 import itertools
 import math
@@ -44,12 +43,6 @@ def notes_told(stderr):
 def statistics(path):
     """The lines of --stats, as pairs of a key and a word."""
     return [line.split() for line in path.read_text().splitlines()]
-
-
-def belts_of(spheres):
-    """The number of belts into which each sphere is cut, for project and zbuf: a sphere becomes
-    4 N (N - 1) triangles."""
-    return max(BELTS[0], min(BELTS[1], math.isqrt(MAX_FACETS // (4 * spheres))))
 
 
 class Inspection:
@@ -104,7 +97,8 @@ class Inspection:
                 self.first_run("model", self.scene_data, "--bare")
             except ToolFailure as failure:
                 raise ToolFailure(str(failure).split(": trace draws it")[0] + ": --trace draws it") from None
-        belts = belts_of(spheres)
+        # N belts of a sphere become 4 N (N - 1) triangles.
+        belts = max(BELTS[0], min(BELTS[1], math.isqrt(MAX_FACETS // (4 * spheres))))
         self.notes.append(
             f"project and zbuf have {4 * belts * (belts - 1)} triangles for each sphere, and count these")
         return self.tools.through(["model", "--framed", "--digits", "exact", "--facets", belts],
@@ -148,7 +142,7 @@ class Inspection:
             "tool": "zbuf", "title": "pixels", "seconds": time_told("zbuf", timed), "triangles": len(
                 self.lines["project"].names), "bytes": len(text), "statistics": statistics(folder / "zbuf"),
             "text": text})
-        self.pixels = base64.b64encode(b"".join(pixels)).decode()
+        self.pixels = packed("B", b"".join(pixels))
         self.fragments = self.fragments_of(log)
         self.progress.reach(SHARES["zbuf"])
 
@@ -163,10 +157,8 @@ class Inspection:
 
     def limits(self):
         """The words of the config's limits in x and y."""
-        words = [
-            word for line in text_of(self.config_data, self.config).split("\n")
-            for word in line.split("#")[0].split()]
-        return words[2:4] or ["-1", "-1"]
+        lines = text_of(self.config_data, self.config).split("\n")
+        return " ".join(line.split("#")[0] for line in lines).split()[2:4] or ["-1", "-1"]
 
     def as_json(self):
         return {

@@ -1,7 +1,5 @@
 """A student's files laid over ours: the judge's verdict, their points, and which vertices and pixels
 differ."""
-import base64
-
 from inspect_parts.packing import packed
 from lib.judging.hand_in import find_files
 from lib.judging.judge import judge
@@ -53,14 +51,12 @@ class Theirs:
         """The pixels of their picture, in base64."""
         size, ground = (self.ours.window.width, self.ours.window.height), self.ours.background
         colors = self.read("picture", lambda data, name: read_colors(data, name, size, ground))
-        return None if colors is None else base64.b64encode(b"".join(
-            b"".join(row) for row in colors)).decode()
+        return colors and packed("B", b"".join(map(b"".join, colors)))
 
     def words_of(self, file):
         """A file's verdict; if the file is right after a wrong one, with the file it was judged by."""
-        before = [
-            other.file for other in self.verdict.files[:self.verdict.files.index(file)]
-            if other.verdict in FAILED]
+        earlier = self.verdict.files[:self.verdict.files.index(file)]
+        before = [other.file for other in earlier if other.verdict in FAILED]
         return file.verdict + (f", given their {before[-1]}" if file.is_good and before else "")
 
     def as_json(self):
@@ -69,7 +65,7 @@ class Theirs:
             "differing": file.differing, "largest": file.largest, "remarks": "; ".join(
                 remarks_of(file)), "matrices": file.matrices.lines() if file.matrices else []}
                  for file in self.verdict.files]
+        stages = {tool: self.stage(tool) for tool in KINDS}
         return {
-            "folder": shown(self.folder), "sentence": sentence(self.verdict), "files": files, "stages": {
-                tool: self.stage(tool)
-                for tool in KINDS}, "picture": self.picture()}
+            "folder": shown(self.folder), "sentence": sentence(self.verdict), "files": files,
+            "stages": stages, "picture": self.picture()}
