@@ -53,16 +53,12 @@ def least_wrong(rows, limits):
         limits, percent_wrong=min(within)) if within and limits.percent_wrong is None else limits
 
 
-def simplest_first(rows):
-    """The rows by their number of options to type; equal ones keep their order."""
-    return sorted(rows, key=lambda row: len(row.setting.words()))
-
-
 def cheapest(rows, verdict):
     """The Choice among `rows`. `verdict(a, b)` compares the CPU times of the settings a and b. A setting
     gives way only to one that is cheaper beyond the noise. If another may still be cheaper, so that another
-    run could name it, the simplest row is chosen, and `untold` has the others."""
-    rows = simplest_first(rows)
+    run could name it, the simplest row, with the fewest options to type, is chosen, and `untold` has the
+    others."""
+    rows = sorted(rows, key=lambda row: len(row.setting.words()))  # equal ones keep their order
     best, untold = rows[0], []
     for row in rows[1:]:
         told = verdict(row.setting, best.setting)
@@ -73,9 +69,8 @@ def cheapest(rows, verdict):
     untold = [row for row in untold if row is not best and verdict(best.setting, row.setting) != CHEAPER]
     if untold:
         return Choice(rows[0], untold=tuple(row for row in rows[1:] if row in untold or row is best))
-    return Choice(
-        best, ties=tuple(
-            row for row in rows if row is not best and verdict(row.setting, best.setting) == TIE))
+    others = (row for row in rows if row is not best)
+    return Choice(best, ties=tuple(row for row in others if verdict(row.setting, best.setting) == TIE))
 
 
 def steady(rows, verdict, limits, wrong_if_moved):
@@ -89,8 +84,3 @@ def steady(rows, verdict, limits, wrong_if_moved):
         lucky.append((choice.row, wrong))
         rows.remove(choice.row)
     return None
-
-
-def nearest(rows, limits):
-    """The row that misses the limits least."""
-    return min(rows, key=limits.over)

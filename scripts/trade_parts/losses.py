@@ -1,11 +1,13 @@
 """The losses of each setting against the picture that exact arithmetic shows."""
 import dataclasses
 import filecmp
+import functools
 import itertools
 import math
 import operator
 import sys
 
+from lib.maths.vectors import cross, moved
 from lib.rim.command import CommandFailure
 from lib.running.owners import NOBODY
 from lib.running.pipe import DEFAULT, exact
@@ -50,10 +52,6 @@ class Layers:
         return scale * step / remaining / (remaining + step)
 
 
-def is_of_header(line):
-    return line[:1].isalpha()
-
-
 class Truth:
     """The exact picture, and the losses of settings against it."""
     def __init__(self, pipe, rule, window, is_smooth):
@@ -68,37 +66,33 @@ class Truth:
             raise CommandFailure(
                 "the picture of the exact run is empty: there is nothing to compare. Run the pipe to see why")
         with open(path, "rb") as text:
-            self.is_lit = any(line.startswith(b"light ") for line in itertools.takewhile(is_of_header, text))
-        with open(path, "rb") as text:
-            self.layers = Layers(pipe.camera()[3], window,
-                                 (line for _, corners in triangle_lines(text) for line in corners))
+            header = itertools.takewhile(lambda line: line[:1].isalpha(), text)
+            self.is_lit = any(line.startswith(b"light ") for line in header)
+            text.seek(0)
+            vertices = (line for _, corners in triangle_lines(text) for line in corners)
+            self.layers = Layers(pipe.camera()[3], window, vertices)
         self.smooth = {"samples": SAMPLES_OF_TRUTH} if is_smooth else {}
-        self.colors = {}  # by is_traced
-        self.felt = {}  # by setting
-        self.moved = None  # pipes with the eye moved a little, and the triangles that they show exactly
 
-    def moved_pictures(self):
-        if self.moved is None:
-            eye, look, up = (tuple(map(float, line[-3:])) for line in self.pipe.camera()[:3])
-            ahead = [q - p for p, q in zip(eye, look)]
-            aside = [ahead[i - 2] * up[i - 1] - ahead[i - 1] * up[i - 2] for i in range(3)]
-            length, width = math.hypot(*ahead), math.hypot(*aside)
-            steps = [[x * part for x in ahead]
-                     for part in MOVES_AHEAD] + [[x / width * length * part for x in aside]
-                                                 for part in MOVES_ASIDE]
-            self.moved = []
-            for i, step in enumerate(steps):
-                moved = [p + d for p, d in zip(eye, step)]
-                pipe = self.pipe.with_eye(moved, self.pipe.folder / f"eye {i}")
-                self.moved.append((pipe, pipe.owners(self.setting)))
-                pipe.forget_texts(self.setting.of_texts)
-        return self.moved
+    @functools.cached_property
+    def moved_pipes(self):
+        """Pipes with the eye moved a little, and the triangles that they show exactly."""
+        eye, look, up = (tuple(map(float, line[-3:])) for line in self.pipe.camera()[:3])
+        ahead = [q - p for p, q in zip(eye, look)]
+        aside, found = cross(ahead, up), []
+        length, width = math.hypot(*ahead), math.hypot(*aside)
+        aside = [x / width * length for x in aside]
+        steps = [(part, ahead) for part in MOVES_AHEAD] + [(part, aside) for part in MOVES_ASIDE]
+        for i, step in enumerate(steps):
+            pipe = self.pipe.with_eye(moved(eye, step), self.pipe.folder / f"eye {i}")
+            found.append((pipe, pipe.owners(self.setting)))
+            pipe.forget_texts(self.setting.of_texts)
+        return found
 
     def wrong_if_moved(self, setting):
         """The most wrong pixels in a picture with the eye moved a little: with few digits all pixels may be
         right by luck."""
         most = 0
-        for pipe, owners in self.moved_pictures():
+        for pipe, owners in self.moved_pipes:
             most = max(most, sum(map(operator.ne, pipe.owners(setting), owners)))
             pipe.forget_texts(setting.of_texts)
         return most
@@ -116,23 +110,21 @@ class Truth:
             return None
         return int(dict(line.split()[:2] for line in path.read_text().splitlines())["uncertain"])
 
-    def levels(self, setting):
-        if setting.is_traced not in self.colors:
-            self.colors[setting.is_traced] = self.pipe.colors(
-                dataclasses.replace(self.setting, sampling="regular" if setting.is_traced else "none",
-                                    **self.smooth))
-        true = self.colors[setting.is_traced]
-        return sum(map(abs, map(operator.sub, self.pipe.colors(setting), true))) / (3 * self.covered)
+    @functools.cache
+    def colors(self, is_traced):
+        sampling = "regular" if is_traced else "none"
+        return self.pipe.colors(dataclasses.replace(self.setting, sampling=sampling, **self.smooth))
 
+    def levels(self, setting):
+        errors = map(operator.sub, self.pipe.colors(setting), self.colors(setting.is_traced))
+        return sum(map(abs, errors)) / (3 * self.covered)
+
+    @functools.cache
     def feels(self, setting):
         """True if the setting changes something; of two levers, if each does."""
-        if setting not in self.felt:
-            base = dataclasses.replace(self.base, digits=setting.digits)
-            single = [
-                dataclasses.replace(base, clip=setting.clip),
-                dataclasses.replace(base, cull=setting.cull)]
-            self.felt[setting] = all(map(self.feels, single)) if base not in single else self.changes(setting)
-        return self.felt[setting]
+        base = dataclasses.replace(self.base, digits=setting.digits)
+        single = [dataclasses.replace(base, **{name: getattr(setting, name)}) for name in ("clip", "cull")]
+        return all(map(self.feels, single)) if base not in single else self.changes(setting)
 
     def changes(self, setting):
         """True if clipping, culling, epsilon or shading changes the text or the picture, or if --certify is

@@ -23,14 +23,10 @@ def size(count):
     return f"{count} B"
 
 
-def percent(value):
-    return f"{number(value)} %"
-
-
 def pixels(row):
     if row.loss.wrong is None:
         return "-"
-    return f"{row.loss.wrong} ({percent(row.percent_wrong)})" if row.loss.wrong else "0"
+    return f"{row.loss.wrong} ({number(row.percent_wrong)} %)" if row.loss.wrong else "0"
 
 
 def pixels_of_uncertain(row):

@@ -89,16 +89,13 @@ class Counts(Times):
 
 def counted(pipe, turns, progress):
     """The Counts of instructions or, without valgrind, of the three texts' bytes."""
+    turns, counts = [turn for turn in turns if not turn[1].is_traced], {}
     if shutil.which("valgrind") is None:
-        return Counts(
-            {
-                name: pipe.text(setting)[1] if name != EMPTY else 0
-                for name, setting, _ in turns if name == EMPTY or not setting.is_traced}, "bytes")
-    counts = {}
+        sizes = {name: pipe.text(setting)[1] if name != EMPTY else 0 for name, setting, _ in turns}
+        return Counts(sizes, "bytes")
     for name, setting, scene in turns:
-        if not setting.is_traced:
-            progress(f"the instructions of {setting}")
-            counts[name] = pipe.instructions(setting, scene)
+        progress(f"the instructions of {setting}")
+        counts[name] = pipe.instructions(setting, scene)
     return Counts(counts, "instructions")
 
 

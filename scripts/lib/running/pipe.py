@@ -144,9 +144,8 @@ class Pipe:
 
     def camera(self):
         """The words of the scene's camera, line by line."""
-        return [
-            line.split() for line in self.tools.output("model", "--digits", "exact", self.scene).decode(
-                errors="replace").split("\n", 4)[:4]]
+        world = self.tools.output("model", "--digits", "exact", self.scene).decode(errors="replace")
+        return [line.split() for line in world.split("\n", 4)[:4]]
 
     def empty_scene(self):
         """The path of the scene without its triangles. The cost of its run is part of every run."""
