@@ -50,17 +50,17 @@ def is_whole(path):
         (b"IEND", b"")] and data == PNG_SIGNATURE + b"".join(itertools.starmap(png_chunk, chunks))
 
 
-def words_of(vector):
-    return " ".join(map(number, vector))
+def words_of(camera):
+    """The options of view."""
+    vectors = {"--eye": camera.eye, "--look": camera.look, "--up": camera.up}
+    return " ".join(" ".join([option, *map(number, vector)]) for option, vector in vectors.items())
 
 
 def encode(folder, film, fps, frame_count):
     """Encodes the frames in a folder as a film. The pixel format needs even sizes, so odd frames are padded
     by a column or a row. Later numbers are left out: those pictures are the user's."""
-    words = [
-        "ffmpeg", "-loglevel", "error", "-y", "-framerate",
-        number(fps), "-i", "%05d.png", "-frames:v",
-        str(frame_count)]
+    words = ["ffmpeg", "-loglevel", "error", "-y", "-framerate", number(fps), "-i", "%05d.png"]
+    words += ["-frames:v", str(frame_count)]
     if not film.lower().endswith(".gif"):
         words += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"]
     done = run([*words, film], cwd=folder, stdin=subprocess.DEVNULL)
@@ -90,15 +90,12 @@ class Frames:
         if len(cameras) > MOST_FRAMES:
             raise CommandFailure(f"expected at most {MOST_FRAMES} frames, found {len(cameras)}")
         self.tools, self.scene, self.drawing, self.drawing_words = tools, scene, drawing, drawing_words
-        self.frames = {
-            f"{i:05d}.png":
-            (f"--eye {words_of(c.eye)} --look {words_of(c.look)} --up {words_of(c.up)}", " ".join(
-                scene.projection_words(c)))
-            for i, c in enumerate(cameras)}
+        words = ((words_of(camera), " ".join(scene.projection_words(camera))) for camera in cameras)
+        self.frames = {f"{i:05d}.png": pair for i, pair in enumerate(words)}
         self.lines = {name: " ".join([name, *words]).strip() for name, words in self.frames.items()}
         stages = ["view", *re.findall(r"stage (\w+)", drawing)]
         words = tools.fingerprint(stages, drawing, *drawing_words).encode()
-        self.source = hashlib.sha256(scene.world + b"\0" + scene.config + b"\0" + words).hexdigest()
+        self.source = hashlib.sha256(b"\0".join([scene.world, scene.config, words])).hexdigest()
 
     def list_of(self, lines):
         return "".join(line + "\n" for line in [self.source, *lines]).encode()
@@ -123,11 +120,10 @@ class Frames:
         right, stale = self.stock(folder)
         folder.remove_others(stale.__contains__)
         folder.remove_files(stale.__contains__)
-        settings = f"bin={shlex.quote(str(self.tools.folder))}\n" + STAGES_IN_SHELL
-        draw = settings + DRAW.replace("DRAWING", self.drawing)
-        for name, data in zip(
-                TEXTS,
-            (self.scene.world, self.scene.config, draw.encode(), self.list_of(self.lines.values()))):
+        draw = f"bin={shlex.quote(str(self.tools.folder))}\n" + STAGES_IN_SHELL
+        draw += DRAW.replace("DRAWING", self.drawing)
+        texts = self.scene.world, self.scene.config, draw.encode(), self.list_of(self.lines.values())
+        for name, data in zip(TEXTS, texts):
             folder.write(name, data)
         missing = [name for name in self.frames if name not in right | others]
         if not missing:

@@ -35,13 +35,8 @@ class Scene:
         if self.perspective is None:
             raise CommandFailure("a fovY changes a perspective, and the scene has none")
         _, aspect, near, far, *rule = self.perspective
-        return [
-            "--perspective",
-            number(camera.fov_y), aspect, near, far, *(["--aspect", rule[0]] if rule else [])]
-
-    def middle(self):
-        return tuple(
-            (float(self.stats[axis + "_min"]) + float(self.stats[axis + "_max"])) / 2 for axis in "xyz")
+        words = ["--perspective", number(camera.fov_y), aspect, near, far]
+        return [*words, *(["--aspect", *rule] if rule else [])]
 
 
 def number(x):
@@ -70,7 +65,8 @@ def turn(scene, seconds, fps):
     """A camera for each frame of one turn of the scene's camera about the up direction through the scene's
     middle. The first frame is not repeated at the end, so that the film can be played in a loop."""
     count = max(2, round(seconds * fps))
-    middle, axis = scene.middle(), normalized(scene.camera.up)
+    ends = [(float(scene.stats[axis + "_min"]), float(scene.stats[axis + "_max"])) for axis in "xyz"]
+    middle, axis = [sum(pair) / 2 for pair in ends], normalized(scene.camera.up)
     turns = (cosine_and_sine(frame, count) for frame in range(count))
     points = (scene.camera.eye, scene.camera.look)
     return [Camera(*(turned(p, middle, axis, *at) for p in points), axis) for at in turns]
