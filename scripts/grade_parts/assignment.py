@@ -1,5 +1,6 @@
 """An assignment: its tests, each with a scene, a config, a weight and the right output; and the settings of
 assignment.txt for points, hints, and the program that is handed in."""
+import contextlib
 import dataclasses
 import math
 import os
@@ -11,7 +12,7 @@ from lib.judging.hand_in import KINDS, STAGE_OF
 from lib.judging.program import STAGES, input_of, without_comments
 from lib.judging.reference import JudgeError, Reference, kinds_of
 from lib.rim.command import CommandFailure, shown
-from lib.rim.input_file import InputError, read_input
+from lib.rim.input_file import InputError, input_errors, read_input
 from lib.running.pipe_tools import ToolFailure, ToolOutOfMemory, Tools
 
 SETTINGS = "assignment.txt"
@@ -80,11 +81,9 @@ class Test:
 
 def read_tests(folder):
     """The Tests in the folders of a folder, sorted by name, and the Settings."""
-    try:
+    with input_errors(folder):
         names = sorted(
             entry.name for entry in os.scandir(folder) if entry.is_dir() and not entry.name.startswith("."))
-    except OSError as error:
-        raise InputError(folder, error.strerror) from None
     if not names:
         raise CommandFailure(f"{shown(folder)}: expected a folder for each test, found none")
     odd = next((name for name in names if shown(name) != name), None)
@@ -179,13 +178,10 @@ def amount(text, most=MOST_POINTS):
 
 def holds_tests(folder):
     """True if this folder holds folders and each has a scene, which hand-ins lack."""
-    try:
-        have_scenes = [
-            os.path.isfile(os.path.join(entry.path, "scene.txt")) for entry in os.scandir(folder)
-            if entry.is_dir()]
-    except OSError:
-        return False  # what is wrong with it shows when it is read
-    return bool(have_scenes) and all(have_scenes)
+    with contextlib.suppress(OSError):  # what is wrong with it shows when it is read
+        folders = [entry.path for entry in os.scandir(folder) if entry.is_dir()]
+        return bool(folders) and all(os.path.isfile(os.path.join(path, "scene.txt")) for path in folders)
+    return False
 
 
 def read_test(folder, name, settings):

@@ -1,5 +1,7 @@
 """The contents of a hand-in: a folder or an archive, whose files are listed and read in memory. Nothing is
 unpacked to the disk, no link is followed, and no more is read than a limit allows."""
+import contextlib
+import functools
 import gzip
 import io
 import os
@@ -19,6 +21,7 @@ UNREAD = (".rar", ".7z", ".tar.xz", ".txz", ".tar.bz2", ".tbz2", ".tar.zst")  # 
 OTHERS = {  # how they begin
     b"Rar!": "RAR", b"7z\xbc\xaf": "7-Zip", b"\xfd7zX": "xz", b"BZh": "bzip2",
     b"\x28\xb5\x2f\xfd": "Zstandard"}
+IRREGULAR = ("devices and pipes", "links")  # by whether an entry is a link
 FLAGS = os.O_RDONLY | os.O_CLOEXEC | os.O_NOCTTY | os.O_NONBLOCK | os.O_NOFOLLOW
 
 
@@ -27,10 +30,8 @@ class ContentsError(Exception):
 
 
 def without_suffix(name):
-    return next(
-        (name[:-len(suffix)]
-         for suffix in (*SUFFIXES, *UNREAD) if name.lower().endswith(suffix) and len(name) > len(suffix)),
-        name)
+    suffix = next(filter(name.lower().endswith, (*SUFFIXES, *UNREAD)), "")
+    return name[:len(name) - len(suffix)] or name
 
 
 class Contents:
@@ -53,7 +54,7 @@ class Contents:
         archives = [path for path in sorted(self.files) if path[-1].lower().endswith(SUFFIXES)]
         for path in archives[:MOST_ARCHIVES]:
             try:
-                data = self.read(path, MOST_BYTES)
+                data = self.data(path, MOST_BYTES)
                 if len(data) > MOST_BYTES:
                     raise ContentsError(f"it is larger than {MOST_BYTES >> 20} MiB")
                 archive = archive_of(io.BytesIO(data))
@@ -73,10 +74,11 @@ class Contents:
     def data(self, path, limit):
         """At most limit + 1 bytes of a file."""
         archive, parts = (self, path) if path in self.files else self.inner[path]
-        return archive.read(parts, limit)
+        with archive.files[parts]() as file:
+            return file.read(limit + 1)
 
-    def add(self, parts, handle, is_regular, kind=""):
-        """Notes an entry, unless it is hidden or __MACOSX."""
+    def add(self, parts, opened, is_regular, kind=""):
+        """Notes an entry, which `opened` opens, unless it is hidden or __MACOSX."""
         if any(part.startswith(".") and part != ".." or part == "__MACOSX" for part in parts):
             return
         why = "their paths lead out" if ".." in parts or not parts else "" if is_regular else kind
@@ -84,7 +86,7 @@ class Contents:
         if why:
             self.skipped[why] = self.skipped.get(why, 0) + 1
         else:
-            self.files[parts] = handle
+            self.files[parts] = opened
             check_count(len(self.files))
 
 
@@ -117,8 +119,9 @@ class FolderContents(Contents):
                 if entry.is_dir(follow_symlinks=False):
                     folders.append(here)
                 else:
-                    self.add(here, here, entry.is_file(follow_symlinks=False),
-                             "links" if entry.is_symlink() else "devices and pipes")
+                    opened = functools.partial(self.opened, here)
+                    self.add(here, opened, entry.is_file(follow_symlinks=False),
+                             IRREGULAR[entry.is_symlink()])
         for here in folders:
             if len(here) > MOST_DEPTH:
                 self.add((*here, ""), None, False, "deeper folders")
@@ -133,51 +136,38 @@ class FolderContents(Contents):
             finally:
                 os.close(inner)
 
-    def read(self, parts, limit):
-        """At most limit + 1 bytes of a file."""
-        descriptor = os.dup(self.root)
-        try:
-            for i, name in enumerate(parts):
-                inner = os.open(name, FLAGS | (os.O_DIRECTORY if i < len(parts) - 1 else 0),
-                                dir_fd=descriptor)
-                os.close(descriptor)
-                descriptor = inner
+    def opened(self, parts):
+        """A regular file, opened by way of its folders, none of them by a link."""
+        descriptor = self.root
+        with contextlib.ExitStack() as stack:
+            for i, name in enumerate(parts, 1):
+                flags = FLAGS | (os.O_DIRECTORY if i < len(parts) else 0)
+                descriptor = os.open(name, flags, dir_fd=descriptor)
+                stack.callback(os.close, descriptor)
             if not stat.S_ISREG(os.fstat(descriptor).st_mode):
                 raise ContentsError("not a regular file")
-            with os.fdopen(os.dup(descriptor), "rb") as file:
-                return file.read(limit + 1)
-        finally:
-            os.close(descriptor)
+            return os.fdopen(os.dup(descriptor), "rb")
 
 
-class ZipContents(Contents):
-    def __init__(self, file):
-        super().__init__()
-        self.archive = zipfile.ZipFile(file)
-        check_count(len(self.archive.infolist()))
-        for info in self.archive.infolist():
-            if not info.filename.endswith("/"):
-                kind = stat.S_IFMT(info.external_attr >> 16)
-                self.add(parts_of(info.filename), info, kind in (0, stat.S_IFREG),
-                         "links" if kind == stat.S_IFLNK else "devices and pipes")
-
-    def read(self, parts, limit):
-        with self.archive.open(self.files[parts]) as file:
-            return file.read(limit + 1)
+def zip_contents(file):
+    found, archive = Contents(), zipfile.ZipFile(file)
+    check_count(len(archive.infolist()))
+    for info in archive.infolist():
+        if not info.filename.endswith("/"):
+            kind, opened = stat.S_IFMT(info.external_attr >> 16), functools.partial(archive.open, info)
+            is_regular = kind in (0, stat.S_IFREG)
+            found.add(parts_of(info.filename), opened, is_regular, IRREGULAR[kind == stat.S_IFLNK])
+    return found
 
 
-class TarContents(Contents):
-    def __init__(self, file):
-        super().__init__()
-        self.archive = tarfile.open(fileobj=file, mode="r:")
-        for count, member in enumerate(self.archive, 1):
-            check_count(count)
-            if not member.isdir():
-                self.add(parts_of(member.name), member, member.isreg(),
-                         "links" if member.issym() or member.islnk() else "devices and pipes")
-
-    def read(self, parts, limit):
-        return self.archive.extractfile(self.files[parts]).read(limit + 1)
+def tar_contents(file):
+    found, archive = Contents(), tarfile.open(fileobj=file, mode="r:")
+    for count, member in enumerate(archive, 1):
+        check_count(count)
+        if not member.isdir():
+            opened, is_link = functools.partial(archive.extractfile, member), member.issym() or member.islnk()
+            found.add(parts_of(member.name), opened, member.isreg(), IRREGULAR[is_link])
+    return found
 
 
 def unpacked(file):
@@ -198,8 +188,8 @@ def archive_of(file):
     if kind:
         raise ContentsError(f"a {kind} archive is not read: expected a folder, .zip, .tar or .tar.gz")
     if begin.startswith(b"PK"):
-        return ZipContents(file)
-    return TarContents(unpacked(file) if begin.startswith(b"\x1f\x8b") else file)
+        return zip_contents(file)
+    return tar_contents(unpacked(file) if begin.startswith(b"\x1f\x8b") else file)
 
 
 def contents_of(path):

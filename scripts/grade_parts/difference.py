@@ -1,5 +1,6 @@
 """The pictures of a page: the right one, the hand-in's, and their differences."""
 import base64
+import contextlib
 
 from lib.judging.verdict import UNREADABLE
 from lib.showing.pictures import PictureError, picture_of, png
@@ -47,10 +48,8 @@ def pictures(test, files, verdict):
     picture = [file for file in verdict.of("zbuf")
                if file.file == files["picture"].name] if "picture" in files else []
     if picture and picture[0].verdict != UNREADABLE and files["picture"].data:
-        try:
+        with contextlib.suppress(PictureError):
             theirs = picture_of(files["picture"].data, "", test.reference.background)[2]
-        except PictureError:
-            pass
     shape = test.picture or theirs
     if not shape:
         return []

@@ -3,6 +3,7 @@ breaks its process harms itself alone, and keeps the tests judged before."""
 import contextlib
 import dataclasses
 import fcntl
+import functools
 import hashlib
 import multiprocessing
 import multiprocessing.connection
@@ -51,7 +52,7 @@ class Graded:
     tests: list = dataclasses.field(default_factory=list)  # of GradedTest
     max_score: float = 0.0
     remarks: list = dataclasses.field(default_factory=list)
-    failure: str = ""  # why it could not be judged
+    failure: str = ""  # why it could not be judged, also the first of the remarks
     wrong: dict = dataclasses.field(default_factory=dict)  # {(test, file): hash} of what is not right
 
     @property
@@ -95,26 +96,26 @@ def processor_seconds(seconds):
 
 def grade(path, tests, level, limits, keep):
     """The Graded of the hand-in at a path; `keep` gets each GradedTest as soon as it is there."""
+    late = f"that takes longer than {limits.seconds:g} s of the processor"
     try:
         with processor_seconds(limits.seconds):
             contents = contents_of(path)
     except ContentsError as error:
         return failed(tests, f"It could not be read: {error}.")
     except TooLong:
-        return failed(tests, f"It could not be read: {too_long(limits)}.")
+        return failed(tests, f"It could not be read: {late}.")
     graded, accused = Graded(max_score=sum(test.max_score for test in tests), remarks=contents.remarks), {}
-    of_program = verdicts(contents, tests, limits) if limits.program else None
+    of_files = (functools.partial(judge_files, contents, test, len(tests) == 1) for test in tests)
+    judges = verdicts(contents, tests, limits) if limits.program else of_files
     for test in tests:
         try:
             with processor_seconds(limits.seconds):
-                files, verdict, remark = next(of_program)() if of_program else (judge_files(
-                    contents, test,
-                    len(tests) == 1))
+                files, verdict, remark = next(judges)()
                 made = graded_test(test, files, verdict, level, graded.wrong)
                 if any(file.stage == "zbuf" and file.causes for file in verdict.files):
                     accused[len(graded.tests)] = test, files
         except (TooLong, StopIteration):  # the latter after a program that took too long to unpack
-            made, remark = not_judged(test, level), f"{test.name}: it could not be judged: {too_long(limits)}"
+            made, remark = not_judged(test, level), f"{test.name}: it could not be judged: {late}"
         graded.remarks += [remark] * bool(remark)
         graded.tests.append(made)
         keep(made)
@@ -177,10 +178,6 @@ def not_judged(test, level):
     return graded_test(test, {}, verdict, level, {})
 
 
-def too_long(limits):
-    return f"that takes longer than {limits.seconds:g} s of the processor"
-
-
 def judge_files(contents, test, is_only_test):
     """The Files of a test, the Verdict on them, and the places searched if there are none."""
     files = files_for(contents, test, is_only_test)
@@ -190,7 +187,7 @@ def judge_files(contents, test, is_only_test):
 
 
 def failed(tests, reason):
-    return Graded(max_score=sum(test.max_score for test in tests), failure=reason)
+    return Graded(max_score=sum(test.max_score for test in tests), failure=reason, remarks=[reason])
 
 
 def end_with_writers_of(reader, writer):

@@ -7,7 +7,7 @@ import re
 from grade_parts.contents import SUFFIXES, UNREAD, ContentsError, without_suffix
 from lib.judging.hand_in import KINDS, File, fitting_names, plain
 from lib.rim.command import shown
-from lib.rim.input_file import InputError
+from lib.rim.input_file import InputError, input_errors
 
 LONGEST_LABEL = 60
 # The ways to name a folder after a test: by its name, by its name in upper or lower case, or by its number
@@ -20,33 +20,27 @@ NAMINGS = (lambda name, test: name == test, lambda name, test: plain(name) == pl
 @dataclasses.dataclass
 class HandIn:
     path: str
-    name: str  # as shown; the number if hand-ins have no names
     number: int
+    name: str  # as shown; the number if hand-ins have no names
     folder: str  # of its results
 
 
 def find_hand_ins(folder, is_anonymous):
     """The HandIns of a folder, sorted by name, and the names of other files. Anonymous hand-ins are numbered
     in an order that hides the order of their names, the same in every run."""
-    try:
+    with input_errors(folder):
         entries = [(entry.name, entry.is_dir(follow_symlinks=False)) for entry in os.scandir(folder)
                    if not entry.name.startswith(".")]
-    except OSError as error:
-        raise InputError(folder, error.strerror) from None
     names = [name for name, is_folder in entries if is_folder or name.lower().endswith((*SUFFIXES, *UNREAD))]
     others = sorted(shown(name) for name, _ in entries if name not in set(names))
     names.sort(key=(lambda name: hashlib.sha256(os.fsencode(name)).digest()) if is_anonymous else os.fsencode)
-    width = len(str(len(names)))
-    return [
-        made(folder, name, number, f"{number:0{width}}", is_anonymous)
-        for number, name in enumerate(names, 1)], others
-
-
-def made(folder, name, number, digits, is_anonymous):
-    label = shown(without_suffix(name))
-    safe = re.sub(r"[^A-Za-z0-9._-]+", "_", label)[:LONGEST_LABEL]
-    return HandIn(os.path.join(folder, name), f"hand-in {digits}" if is_anonymous else label, number,
-                  digits if is_anonymous else f"{digits}-{safe}")
+    width, found = len(str(len(names))), []
+    for number, name in enumerate(names, 1):
+        digits, label = f"{number:0{width}}", shown(without_suffix(name))
+        safe = re.sub(r"[^A-Za-z0-9._-]+", "_", label)[:LONGEST_LABEL]
+        names_in_results = (f"hand-in {digits}", digits) if is_anonymous else (label, f"{digits}-{safe}")
+        found.append(HandIn(os.path.join(folder, name), number, *names_in_results))
+    return found, others
 
 
 def number_of(name, pattern):
@@ -61,10 +55,9 @@ def folder_of(paths, test_name, is_only_test):
     folders = {}
     for *folder, name in paths:
         folders.setdefault(tuple(folder), []).append(name)
-    names = [*filter(None, (folder and folder[-1] for folder in folders))]
-    fitting = ({name for name in names if is_named(name, test_name)} for is_named in NAMINGS)
-    wanted = next(filter(None, fitting), ())
-    named = [folder for folder in folders if folder and folder[-1] in wanted]
+    by_naming = ([folder for folder in folders if folder and is_named(folder[-1], test_name)]
+                 for is_named in NAMINGS)
+    named = next(filter(None, by_naming), [])
     fitting = [folder for folder, names in folders.items()
                if any(fitting_names(names).values())] if is_only_test and not named else named
     return min(fitting, key=lambda folder: (len(folder), folder), default=None)
@@ -106,9 +99,8 @@ def file_of(contents, paths, fitting, kind, limit):
     if not fitting:
         return File(KINDS[kind][0])
     name, *others = fitting
-    file = File(
-        shown(paths[name][-1])[:LONGEST_LABEL], others=tuple(
-            shown(other)[:LONGEST_LABEL] for other in others[:5]))
+    label, *others = (shown(word)[:LONGEST_LABEL] for word in (paths[name][-1], *others[:5]))
+    file = File(label, others=tuple(others))
     try:
         return dataclasses.replace(file, data=contents.data(paths[name], limit))
     except MemoryError:

@@ -18,10 +18,8 @@ def shown_of(verdict, level):
     """The Verdict as far as the level shows it; at `none`, only files that are missing or cannot be read."""
     if gives(level, "cause"):
         return verdict
-    if level == "none":
-        return Verdict([
-            without_cause(file) for file in verdict.files if file.verdict in (MISSING, UNREADABLE)])
-    return Verdict([without_cause(file) for file in verdict.files])
+    files = [file for file in verdict.files if level != "none" or file.verdict in (MISSING, UNREADABLE)]
+    return Verdict([*map(without_cause, files)])
 
 
 def without_cause(file):
@@ -37,7 +35,8 @@ def in_words(verdict, level):
         words = sentence(shown_of(verdict, level))
         if len(verdict.files) < 3:  # of a program for one stage
             words = words.replace("all three files are", "what the program writes is")
-        return upper_first(words) + "."
+        is_name = "." in words.split(" ")[0]  # of a file, which stays as it is
+        return (words if is_name else words[:1].upper() + words[1:]) + "."
     good = sum(file.is_good for file in verdict.files)
     others = [f"{file.file} is {file.verdict}." for file in shown_of(verdict, level).files]
     return " ".join([f"{good} of {len(verdict.files)} files are right.", *others])
@@ -58,8 +57,3 @@ def by_hand(file):
     place = re.search(r"triangle \d+(?=: )|row \d+, column \d+", file.first)
     return (f"No known mistake explains {file.file}: calculate {place[0] if place else 'its first triangle'} "
             "by hand, print what your program has after each step, and find the first step that differs.")
-
-
-def upper_first(text):
-    """A sentence's first letter as a capital, unless it begins with a file's name."""
-    return text if "." in text.split(" ")[0] else text[:1].upper() + text[1:]

@@ -91,14 +91,14 @@ def runs_anywhere(data):
     return all(struct.unpack_from("<I", data, start + i * size)[0] != PT_INTERP for i in range(count))
 
 
-def judged(hand_in, most_seconds=120, most_mebibytes=2048):
+def judged(hand_in):
     """In a kit: the Graded of a hand-in, the tests, and the level of the hints."""
     os.environ["BIN"] = str(SOURCE / "build/release/bin")  # whatever else is set
     tests, settings = read_tests(SOURCE / "assignment")
     hidden = str(SOURCE),
     needs_user = bool(settings.program) and expect_protection(hidden)
-    one = HandIn(hand_in, "hand-in", 1, "")
-    limits = Limits(most_seconds, most_mebibytes, 1, hidden, settings.program, needs_user)
+    one = HandIn(hand_in, 1, "hand-in", "")
+    limits = Limits(120, 2048, 1, hidden, settings.program, needs_user)
     [(_, graded)] = grade_all([one], tests, settings.hints, limits)
     return graded, tests, settings.hints
 

@@ -62,7 +62,7 @@ def result(graded, tests, environment, now):
 def body(graded, made):
     """release-body.md: what the student reads. Nothing in it is Markdown but the headings."""
     lines = [f"# {made['score']} of {made['max-score']} points", ""]
-    for remark in ([graded.failure] if graded.failure else []) + graded.remarks:
+    for remark in graded.remarks:
         lines += ["    " + line for line in remark.splitlines()] + [""]
     for row in made["tests"]:
         lines += [f"## {row['test-name']}: {row['score']} of {row['max-score']}", ""]

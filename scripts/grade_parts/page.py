@@ -35,18 +35,15 @@ figure, table { break-inside: avoid } }
 HEADER = ("stage", "file", "verdict", "differ", "first difference", "remarks")
 
 
-def points(score):
-    return f"{score:.4g}"
+def heading(kind, name, scored):
+    points = f"{scored.score:.4g} of {scored.max_score:.4g} points"
+    return f"<{kind}>{html.escape(name)} <span>{points}</span></{kind}>"
 
 
 def page(name, graded, level):
     """The HTML of a hand-in's page. `graded` is a grade_parts.graders.Graded."""
-    lines = [
-        f"<h1>{html.escape(name)} <span>{points(graded.score)} of {points(graded.max_score)} "
-        f"points</span></h1>"]
-    lines += [
-        f"<p>{html.escape(remark)}</p>".replace("\n", "<br>")
-        for remark in ([graded.failure] if graded.failure else []) + graded.remarks]
+    lines = [heading("h1", name, graded)]
+    lines += [f"<p>{html.escape(remark)}</p>".replace("\n", "<br>") for remark in graded.remarks]
     for test in graded.tests:
         lines += section(test, level)
     title = html.escape(name)
@@ -55,8 +52,7 @@ def page(name, graded, level):
 
 
 def section(test, level):
-    yield (f"<h2>{html.escape(test.name)} <span>{points(test.score)} of {points(test.max_score)} "
-           f"points</span></h2>")
+    yield heading("h2", test.name, test)
     if test.by_teacher:
         yield f'<p class="teacher">{html.escape(test.by_teacher)}</p>'
     yield f"<p>{html.escape(test.words)}</p>"
@@ -74,9 +70,8 @@ def section(test, level):
     yield "</table>"
     for file in verdict.files:
         if file.matrices:
-            yield (
-                f"<p>The matrix of {file.stage}, from the points of {html.escape(file.file)}, and the right "
-                f"one:</p>")
+            points = f"the points of {html.escape(file.file)}"
+            yield f"<p>The matrix of {file.stage}, from {points}, and the right one:</p>"
             yield matrices(file.matrices)
     for caption, uri, share in test.pictures:
         yield (f'<figure style="width: {30 * share:.4g}%"><img src="{uri}" alt="{caption}">'

@@ -66,12 +66,14 @@ def users_of_others():
                     yield from map(int, line.split()[1:])
 
 
+def run_as(user, words):
+    return subprocess.run(words, capture_output=True, user=user, group=user, extra_groups=[], cwd="/")
+
+
 def succeeds(user, *words):
-    try:
-        return not subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, user=user,
-                                  group=user, extra_groups=[], cwd="/").returncode
-    except OSError:
-        return False
+    with contextlib.suppress(OSError):
+        return not run_as(user, words).returncode
+    return False
 
 
 def right_ones():
@@ -99,11 +101,8 @@ def places_for_all():
     """Folders that a user without a name may write."""
     with open("/proc/self/mounts") as file:
         tops = {top for _, top, kind, *_ in map(str.split, file) if kind in LOCAL and os.path.isdir(top)}
-    user = take_user()
-    return subprocess.run(
-        ["find", "/", *tops, "-xdev", "-maxdepth",
-         str(DEPTH), "-type", "d", "-writable", "-print0"], capture_output=True, user=user, group=user,
-        extra_groups=[], cwd="/").stdout.split(b"\0")[:-1]
+    words = ["find", "/", *tops, "-xdev", "-maxdepth", str(DEPTH), "-type", "d", "-writable", "-print0"]
+    return run_as(take_user(), words).stdout.split(b"\0")[:-1]
 
 
 def remove_what_is_left(users, since):
@@ -204,14 +203,11 @@ class Built:
         self.words = self.command()
         if user is not None:
             expect_runnable(user, self.words[0])
-        self.box = self.boxed(self.words, [self.folder])
-
-    def boxed(self, command, read):
-        return protection(command, read, self.hidden, self.user)
+        self.box = protection(self.words, [self.folder], hidden, user)
 
     def build(self):
         words = ["sh", "-c", self.program.build]
-        box = self.boxed(words, ())
+        box = protection(words, (), self.hidden, self.user)
         if self.user is not None:
             give(self.folder, self.user)
         try:

@@ -33,14 +33,9 @@ def csv_of(graded, tests):
         scores = [number(test.score) for test in result.tests] or [0.0] * len(tests)
         words = [cell(sentence(test.verdict)) for test in result.tests] or [""] * len(tests)
         changed = [f"{shown(test.name)}: {test.by_teacher}" for test in result.tests if test.by_teacher]
-        remarks = "; ".join(([result.failure] if result.failure else []) + result.remarks + changed +
-                            equal.get(hand_in.number, []))
-        writer.writerow([
-            hand_in.number,
-            cell(hand_in.name),
-            number(result.score),
-            number(result.max_score), *scores,
-            cell(remarks), *words])
+        remarks = cell("; ".join(result.remarks + changed + equal.get(hand_in.number, [])))
+        of_all = map(number, (result.score, result.max_score))
+        writer.writerow([hand_in.number, cell(hand_in.name), *of_all, *scores, remarks, *words])
     return out.getvalue().encode()
 
 
@@ -59,12 +54,11 @@ def words_of(test):
 
 def gradescope(result, tests):
     """The bytes of results.json (Gradescope, Autograder specifications: output format)."""
-    done = [{
-        "name": shown(test.name), "score": number(test.score), "max_score": number(test.max_score),
-        "output": words_of(test)} for test in result.tests]
-    missing = [] if done else [{
-        "name": shown(test.name), "score": 0.0, "max_score": number(test.max_score), "output": result.failure}
-                               for test in tests]
-    output = "\n".join(([result.failure] if result.failure else []) + result.remarks)
-    text = {"score": number(result.score), "output": output, "output_format": "text", "tests": done + missing}
+    done = [(test, test.score, words_of(test)) for test in result.tests]
+    rows = [{
+        "name": shown(test.name), "score": number(score), "max_score": number(test.max_score),
+        "output": words} for test, score, words in done or [(test, 0.0, result.failure) for test in tests]]
+    text = {
+        "score": number(result.score), "output": "\n".join(result.remarks), "output_format": "text",
+        "tests": rows}
     return (json.dumps(text, indent=2, ensure_ascii=True) + "\n").encode()

@@ -8,15 +8,14 @@ from lib.showing.table import table
 
 def equal_files(graded):
     """{number of a hand-in: remarks} where wrong files of two hand-ins are equal; right ones often are."""
-    owners, remarks = collections.defaultdict(list), {}
+    owners, remarks = collections.defaultdict(list), collections.defaultdict(list)
     for hand_in, result in graded:
         for place, digest in result.wrong.items():
             owners[place, digest].append(hand_in)
     for ((test, file), _), same in owners.items():
         for hand_in in same if len(same) > 1 else ():
             others = ", ".join(other.name for other in same if other is not hand_in)
-            remarks.setdefault(hand_in.number,
-                               []).append(f"{shown(test)}: the wrong {file} is equal to that of {others}")
+            remarks[hand_in.number].append(f"{shown(test)}: the wrong {file} is equal to that of {others}")
     return remarks
 
 
@@ -43,12 +42,9 @@ def findings(graded):
 def summary(graded):
     """The lines of a table for [(HandIn, Graded)], the most frequent first, and a line about all."""
     counts = collections.Counter(finding for _, result in graded for finding in set(findings(result)))
-    order = {stage: i for i, stage in enumerate(("model", "view", "project", "zbuf", ""))}
-    rows = [[
-        str(count), stage, shown(words)
-    ] for (stage,
-           words), count in sorted(counts.items(), key=lambda pair: (-pair[1], order[pair[0][0]], pair[0][1]))
-            ]
+    stages = ("model", "view", "project", "zbuf", "")
+    found = sorted((-count, stages.index(stage), words) for (stage, words), count in counts.items())
+    rows = [[str(-count), stages[stage], shown(words)] for count, stage, words in found]
     full = sum(not result.failure and all(file.is_good for test in result.tests
                                           for file in test.verdict.files) for _, result in graded)
     return [

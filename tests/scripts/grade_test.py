@@ -679,13 +679,13 @@ class Hostile(ClassTest):
         contents = contents_of("hand-ins/a")
         os.rename("hand-ins/a/in/stage1.txt", "stage1.txt")
         os.symlink("../../../stage1.txt", "hand-ins/a/in/stage1.txt")
-        self.assertTrue(contents.read(("in", "stage2.txt"), 10**6))
+        self.assertTrue(contents.data(("in", "stage2.txt"), 10**6))
         with self.assertRaises(OSError):
-            contents.read(("in", "stage1.txt"), 10**6)
+            contents.data(("in", "stage1.txt"), 10**6)
         os.rename("hand-ins/a/in", "in")
         os.symlink("../../in", "hand-ins/a/in")
         with self.assertRaises(OSError):
-            contents.read(("in", "stage2.txt"), 10**6)
+            contents.data(("in", "stage2.txt"), 10**6)
 
     def test_a_lower_limit_that_only_root_could_raise_stays(self):
         no_root = "setpriv --inh-caps=-sys_resource --bounding-set=-sys_resource " * (not os.geteuid())
