@@ -23,15 +23,14 @@ FORMAT = re.compile(r"(bmp|ppm|png):|.*\.(bmp|ppm|png)\Z", re.DOTALL)
 
 def refuse(parser, options):
     """Ends the program if there are options that --certain excludes."""
-    samples = options.samples not in (None, "1")
-    for is_given, option, reason in ((options.trace, "--trace", "zbuf tells which pixels are certain"),
-                                     (samples, f"--samples {options.samples}",
-                                      "a mean of samples is no triangle's color"),
-                                     (options.stages
-                                      is not None, "--stages", "the stages may run more than once"),
-                                     (not FORMAT.match(options.output), f"-o {shown(options.output)}",
-                                      "it takes a .png, .bmp or .ppm file")):
-        if is_given:
+    samples = options.samples not in (None, "1") and f"--samples {options.samples}"
+    output = not FORMAT.match(options.output) and f"-o {shown(options.output)}"
+    excluded = [(options.trace and "--trace", "zbuf tells which pixels are certain"),
+                (samples, "a mean of samples is no triangle's color"),
+                (options.stages is not None and "--stages", "the stages may run more than once"),
+                (output, "it takes a .png, .bmp or .ppm file")]
+    for option, reason in excluded:
+        if option:
             parser.error(f"{option} does not go with --certain: {reason}")
 
 
@@ -115,10 +114,8 @@ class CertainPicture:
 
     def scene(self):
         """The bytes that model reads."""
-        if self.options.data is not None and self.options.is_scene:
-            return self.options.data
         if self.options.is_scene:
-            return read_input(self.options.model)
+            return read_input(self.options.model) if self.options.data is None else self.options.data
         first, *_ = self.commands(self.options)
         return self.tools.output(*first, stdin=self.options.data or b"")
 

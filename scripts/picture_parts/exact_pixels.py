@@ -62,9 +62,9 @@ class ExactPixels:
         *_, (kind, *words) = camera(scene)
         self.projection = Projection(kind, words, number=exactly)
         matrix, self.scales, self.x_per_y = unscaled(self.projection)
-        self.from_world = product(matrix, to_view_space(scene))
         self.edges = {}  # by a triangle's matrix and points
-        self.matrices = {}  # by the line of the last transform: to clip space, unscaled, and in doubles
+        # By the line of the last transform: to clip space, unscaled, and in doubles.
+        self.matrices = {None: self.with_doubles(product(matrix, to_view_space(scene)))}
         self.steps = 0
 
     def candidates(self, pixels):
@@ -95,11 +95,9 @@ class ExactPixels:
     def matrices_of(self, triangle):
         """The matrix of the triangle's transforms, exact and in doubles; earlier triangles' are reused."""
         missing, in_force = [], triangle.in_force
-        while line_of(in_force) not in self.matrices and in_force:
+        while line_of(in_force) not in self.matrices:
             missing.append(in_force)
             in_force = in_force[1]
-        if in_force is None and None not in self.matrices:
-            self.matrices[None] = self.with_doubles(self.from_world)
         for transform in reversed(missing):
             self.count(STEPS_OF_A_MATRIX)
             matrix = product(self.matrices[line_of(transform[1])][0], transform[0].matrix(exactly))
@@ -217,11 +215,9 @@ class Outline:
 
     def range_of(self, pixels, axis):
         """The range of the sorted columns (axis 0) or rows (1) that the triangle may reach, as indices."""
-        if not self.has_numbers:
-            return 0, len(pixels)
-        if all(p[2] + e[2] <= 0 for p, e in self.corners):
+        if self.has_numbers and all(p[2] + e[2] <= 0 for p, e in self.corners):
             return 0, 0
-        if any(p[2] - e[2] <= 0 for p, e in self.corners):
+        if not self.has_numbers or any(p[2] - e[2] <= 0 for p, e in self.corners):
             return 0, len(pixels)
         at = (self.grid.column_at, self.grid.row_at)[axis]
         places = [
