@@ -133,17 +133,14 @@ class Done:
         self.reasons = [line for line in lines if not NO_REASON.search(line)]
 
 
-def name_of_signal(number):
-    return next((each.name for each in signal.Signals if each == number), f"signal {number}")
-
-
 def expect_success(*pipe):
     """Raises the error of the first tool that was killed, else of the first that failed: the others only lost
     their input or their reader."""
     failed = [tool for tool in pipe if tool.status]
     for tool in sorted(failed, key=lambda tool: (tool.status == -signal.SIGPIPE, tool.status > 0)):
         if tool.status < 0:
-            raise ToolCrash(f"{tool.name}: ended by {name_of_signal(-tool.status)}")
+            names = {each: each.name for each in signal.Signals}
+            raise ToolCrash(f"{tool.name}: ended by {names.get(-tool.status, f'signal {-tool.status}')}")
         if not tool.reasons:
             raise ToolCrash(f"{tool.name}: exit status {tool.status}")
         is_out = tool.reasons[-1] == f"{tool.name}: not enough memory"
@@ -247,19 +244,15 @@ class Tools:
                 framing = FRAMING.get(tool, []) if len(calls) > 1 or is_kept else []
                 is_last = len(runs) == len(calls) - 1
                 said = stack.enter_context(Said())
-                if runs:
-                    stack.callback(source.close)  # also if the next tool cannot be started
-                process = subprocess.Popen(self.command(tool, [*framing, *words]), cwd=cwd, stdin=source,
-                                           stdout=stdout if is_last else subprocess.PIPE, stderr=said.file)
-                if runs:
-                    source.close()
+                output = stdout if is_last else subprocess.PIPE
+                with source if runs else contextlib.nullcontext():  # closed also if the tool does not start
+                    process = subprocess.Popen(self.command(tool, [*framing, *words]), cwd=cwd, stdin=source,
+                                               stdout=output, stderr=said.file)
                 source = None if is_last else tee(process.stdout)
-                runs.append((process, said))
-            seconds = [cpu_seconds(finished(process)) for process, _ in runs]
-        done = [
-            Done(tool, process.returncode,
-                 of_bare_text(said.text) if is_kept else said.text)
-            for (process, said), (tool, *_) in zip(runs, calls)]
+                runs.append((tool, process, said))
+            seconds = [cpu_seconds(finished(process)) for _, process, _ in runs]
+        told = of_bare_text if is_kept else bytes
+        done = [Done(tool, process.returncode, told(said.text)) for tool, process, said in runs]
         expect_success(*done)
         for each, each.seconds, (tool, *words) in zip(done, seconds, calls):
             expect_files(tool, words, cwd)
