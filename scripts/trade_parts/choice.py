@@ -29,9 +29,8 @@ class Limits:
     def over(self, row):
         """The factor by which a row exceeds the limits; at most 1 meets them. An added pixel keeps it finite
         for a limit of 0."""
-        pixel = 100 / row.covered
-        over_wrong = 0 if self.percent_wrong is None else (row.percent_wrong + pixel) / (self.percent_wrong +
-                                                                                         pixel)
+        most, pixel = self.percent_wrong, 100 / row.covered
+        over_wrong = 0 if most is None else (row.percent_wrong + pixel) / (most + pixel)
         return max(over_wrong, 0 if self.ratio is None else row.ratio / self.ratio)
 
     def are_met_by(self, row):

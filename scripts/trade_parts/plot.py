@@ -76,8 +76,7 @@ def bar(axis, y, begin, end, kind):
 
 def row_of(row, y, axes, start_up, is_chosen):
     cpu, wrong, last = axes
-    yield text(CPU_LEFT - 12, y + 4, str(row.setting),
-               f'text-anchor="end"{" class=" + chr(34) + "chosen" + chr(34) if is_chosen else ""}')
+    yield text(CPU_LEFT - 12, y + 4, str(row.setting), 'text-anchor="end"' + ' class="chosen"' * is_chosen)
     yield bar(cpu, y, 0, start_up, "start") + bar(cpu, y, start_up, row.seconds.median, "bar")
     yield line("axis", (cpu.x(row.seconds.first), y), (cpu.x(row.seconds.third), y))
     percent = None if row.loss.wrong is None else row.percent_wrong
