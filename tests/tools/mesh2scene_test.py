@@ -815,21 +815,15 @@ class OtherFiles(ToolTest):
         pathlib.Path("big.obj").write_text("mtllib big.mtl\n" + BOX + "#" * 600_000)
         pathlib.Path("big.mtl").write_text("#" * 600_000)
         limit = "expected at most 1 MB in all files of a model (--max-input), found more"
-        self.assert_fails(
-            run("mesh2scene", "--max-input", "1", "big.obj"),
-            1,
-            f"mesh2scene: big.mtl: {limit}",
-        )
+        self.assert_fails(run("mesh2scene", "--max-input", "1", "big.obj"), 1,
+                          f"mesh2scene: big.mtl: {limit}")
         self.assert_quiet_success(run("mesh2scene", "--max-input", "2", "--up-axis", "y", "big.obj"))
         with open("big.obj", "ab") as file:
             file.truncate(10**13)  # no bytes on the disk
         self.assert_fails(run("mesh2scene", "big.obj"), 1,
                           f"mesh2scene: big.obj: {limit.replace('1', '1000')}")
-        self.assert_fails(
-            run("mesh2scene", "--max-input", "1", stdin=BOX + "#" * 1_000_000),
-            1,
-            f"mesh2scene: <stdin>: {limit}",
-        )
+        self.assert_fails(run("mesh2scene", "--max-input", "1", stdin=BOX + "#" * 1_000_000), 1,
+                          f"mesh2scene: <stdin>: {limit}")
 
 
 class Coarse(ToolTest):
@@ -1021,6 +1015,11 @@ class Readers(ToolTest):
                 run("mesh2scene", "a.gltf").stderr.decode(),
                 "a.gltf: its own camera shows it on 0.0[0-9]* % of the picture: --eye-from 30 15 frames it")
             self.assertGreater(float(header(scene_of("a.gltf"))["projection"].split()[3]), reach)
+        # A triangle cut by the far plane is seen, even if the corner beyond it comes first.
+        document["nodes"][0]["matrix"] = [-50, 0, 598, 0, 50, 0, 598, 0, 0, 1, 0, 0, 0, -1, -300, 1]
+        document["cameras"][0]["perspective"]["zfar"] = 400
+        pathlib.Path("a.gltf").write_text(json.dumps(document))
+        self.assert_quiet_success(run("mesh2scene", "a.gltf"))
         document = changed()
         for count, message in ((2, "whole indices below 2 in meshes[0], found 2"),
                                (4000000000, "4000000000 values in a view of 36 bytes, found the view's end")):

@@ -166,32 +166,28 @@ double shown_share(const Model& model, const SceneSetting& setting) {
   const ModelCamera& camera = setting.camera;
   const ViewAxes axes = axes_of(camera);
   const double slope_y = tangent(camera.fov_y_degrees / 2), slope_x = setting.aspect * slope_y;
-  std::array<Vec3, 3> corners;
+  Triangle corners;
   std::size_t count = 0;
   double area = 0;
-  int behind_count = 0;  // of a triangle's corners
-  bool is_beside_eye = false;
+  bool is_cut = false;
   model.for_each_corner([&](const Vec3& p) {
     const Vec3 offset = difference(p, camera.eye);
     const double depth = -dot(offset, axes.back);
-    // In NDC; a corner outside the view's depth makes the area of its triangle NaN.
-    const bool is_seen = depth >= camera.near && depth <= camera.far;
-    if (!(depth >= camera.near)) ++behind_count;
-    corners[count++] = is_seen ? Vec3{dot(offset, axes.right) / (slope_x * depth),
-                                      dot(offset, axes.up) / (slope_y * depth), 0}
-                               : Vec3{NAN, NAN, NAN};
+    const double side = depth < camera.near ? -1 : depth > camera.far ? 1 : 0;
+    // NDC, but for z.
+    corners[count++] = {dot(offset, axes.right) / (slope_x * depth), dot(offset, axes.up) / (slope_y * depth),
+                        side};
     if (count < 3) return;
     count = 0;
-    const auto& [a, b, c] = corners;
-    // A triangle beside the eye, such as a floor, may cover much.
-    is_beside_eye = is_beside_eye || (std::exchange(behind_count, 0) % 3 != 0);
-    const double width = std::min(std::max({a.x, b.x, c.x}), 1.0) - std::max(std::min({a.x, b.x, c.x}), -1.0);
-    const double height =
-        std::min(std::max({a.y, b.y, c.y}), 1.0) - std::max(std::min({a.y, b.y, c.y}), -1.0);
-    if (width > 0 && height > 0)
-      area += std::min(std::fabs(cross(difference(b, a), difference(c, a)).z) / 2, width * height);
+    // A triangle cut by the near or the far plane, such as a floor, may cover much.
+    const BoundingBox box(corners);
+    is_cut = is_cut || box.low.z != box.high.z;
+    const double width = std::min(box.high.x, 1.0) - std::max(box.low.x, -1.0);
+    const double height = std::min(box.high.y, 1.0) - std::max(box.low.y, -1.0);
+    if (box.low.z == 0 && width > 0 && height > 0)
+      area += std::min(std::fabs(face_normal(corners).z) / 2, width * height);
   });
-  return is_beside_eye ? 1 : area / 4 / 2;  // of the window, which is 2 by 2; a body has two sides
+  return is_cut ? 1 : area / 4 / 2;  // of the window, which is 2 by 2; a body has two sides
 }
 
 }  // namespace pipeline
