@@ -1,7 +1,4 @@
-#include "tools/mesh2scene/model_files.h"
-
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #if __has_include(<linux/openat2.h>)
@@ -10,13 +7,13 @@
 #endif
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
 
 #include "libpipeline/text/error.h"
+#include "tools/mesh2scene/readers.h"
 #include "tools/rim/command_line.h"
 
 namespace pipeline {
@@ -44,15 +41,15 @@ int find_without_links(const std::filesystem::path& path) {
 /// Opens a regular file below the current folder. Anything else is found but not opened: to open a FIFO or a
 /// device may block or have an effect.
 int open_below(const std::string& path) {
+  int found = -1;
+  errno = ENOSYS;
 #if __has_include(<linux/openat2.h>)
   open_how how = {};
   how.flags = kFound;
   how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
-  auto found = static_cast<int>(::syscall(SYS_openat2, AT_FDCWD, path.c_str(), &how, sizeof how));
-  if (found < 0 && (errno == ENOSYS || errno == EPERM)) found = find_without_links(path);
-#else
-  const int found = find_without_links(path);
+  found = static_cast<int>(::syscall(SYS_openat2, AT_FDCWD, path.c_str(), &how, sizeof how));
 #endif
+  if (found < 0 && (errno == ENOSYS || errno == EPERM)) found = find_without_links(path);
   if (found < 0) return errno == EXDEV || errno == ELOOP ? kRefused : kNotThere;
   struct stat status = {};
   const bool is_regular = ::fstat(found, &status) == 0 && S_ISREG(status.st_mode);
@@ -66,63 +63,52 @@ int open_below(const std::string& path) {
 
 ModelFiles::ModelFiles(const std::string& path, std::size_t megabytes,
                        const std::vector<std::string>& written)
-    : megabytes_(megabytes), room_(megabytes * 1'000'000) {
+    : megabytes_(megabytes) {
   struct stat status = {};
   if (::fstat(STDOUT_FILENO, &status) == 0) outputs_[{status.st_dev, status.st_ino}] = "standard output";
   for (const std::string& file : written)
     if (::stat(file.c_str(), &status) == 0)
       outputs_.try_emplace({status.st_dev, status.st_ino}, "--writes " + pipeline::quoted(file));
-  if (path == "-") {
-    model_ = read_standard_input();
-    return;
+  int model = STDIN_FILENO;
+  if (path != "-") {
+    if (::stat(path.c_str(), &status) != 0) throw IoError("open", path.empty() ? "''" : path, errno);
+    if (S_ISDIR(status.st_mode)) throw IoError("read", path, EISDIR);
+    if (!S_ISREG(status.st_mode))
+      throw std::runtime_error(path + ": expected a regular file, or - for what comes through a pipe");
+    model = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (model < 0 || (!folder.empty() && ::chdir(folder.c_str()) != 0)) throw IoError("open", path, errno);
   }
-  if (::stat(path.c_str(), &status) != 0) throw IoError("open", path.empty() ? "''" : path, errno);
-  if (S_ISDIR(status.st_mode)) throw IoError("read", path, EISDIR);
-  if (!S_ISREG(status.st_mode))
-    throw std::runtime_error(path + ": expected a regular file, or - for what comes through a pipe");
-  const int model = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (model < 0 || (!folder.empty() && ::chdir(folder.c_str()) != 0)) throw IoError("open", path, errno);
-  model_ = map(model, path);
-  has_folder_ = true;
+  model_ = content(model, path == "-" ? "<stdin>" : path);
+  has_folder_ = path != "-";
 }
 
-void ModelFiles::take_room(std::size_t bytes, const std::string& name) {
-  if (bytes > room_)
-    throw std::runtime_error(name + ": expected at most " + std::to_string(megabytes_) +
-                             " MB in all files of a model (--max-input), found more");
-  room_ -= bytes;
-}
-
-std::string_view ModelFiles::read_standard_input() {
-  std::array<char, 1 << 16> block{};
-  for (ssize_t size = -1; size != 0;) {
-    size = ::read(STDIN_FILENO, block.data(), block.size());
-    if (size < 0 && errno != EINTR) throw IoError("read", "<stdin>", errno);
-    const auto count = static_cast<std::size_t>(std::max<ssize_t>(size, 0));
-    take_room(count, "<stdin>");
-    standard_input_.append(block.data(), count);
-  }
-  return standard_input_;
-}
-
-/// The bytes of a file; closes it, and keeps it mapped until the process ends.
-std::string_view ModelFiles::map(int descriptor, const std::string& name) {
+/// The bytes of a file, which is read once; closes it.
+std::string_view ModelFiles::content(int descriptor, const std::string& name) {
   struct stat status = {};
-  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) throw IoError("read", name, EINVAL);
-  if (const auto output = outputs_.find({status.st_dev, status.st_ino});
-      has_folder_ && output != outputs_.end())
+  if (::fstat(descriptor, &status) != 0) throw IoError("read", name, errno);
+  const Inode inode = {status.st_dev, status.st_ino};
+  if (const auto output = outputs_.find(inode); has_folder_ && output != outputs_.end())
     throw UsageError(expected_but_found("a place of its own for " + output->second,
                                         pipeline::quoted(name) + ", which the model names"));
-  const auto [known, is_new] = mapped_.try_emplace({status.st_dev, status.st_ino});
-  const auto size = static_cast<std::size_t>(is_new ? status.st_size : 0);
-  take_room(size, name);
-  // An empty file cannot be mapped.
-  const void* const bytes = size == 0 ? "" : ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+  const auto [known, is_new] = contents_.try_emplace(inode);
+  TextWriter& bytes = known->second;
+  constexpr std::size_t kBlock = 1 << 16;
+  const std::size_t room = megabytes_ * 1'000'000 - size_;
+  const auto size = static_cast<std::size_t>(status.st_size);  // 0 for a pipe
+  if (is_new && size <= room) bytes.reserve(size + kBlock);
+  for (ssize_t count = is_new ? -1 : 0; count != 0;) {
+    char* const p = bytes.reserve(kBlock);
+    count = ::read(descriptor, p, kBlock);
+    if (count < 0 && errno != EINTR) throw IoError("read", name, errno);
+    bytes.commit(p + std::max<ssize_t>(count, 0));
+    if (std::max(bytes.collected().size(), size) > room)
+      throw std::runtime_error(name + ": expected at most " + std::to_string(megabytes_) +
+                               " MB in all files of a model (--max-input), found more");
+  }
+  if (is_new) size_ += bytes.collected().size();
   ::close(descriptor);
-  if (bytes == MAP_FAILED) throw IoError("read", name, errno);
-  if (is_new) known->second = {static_cast<const char*>(bytes), size};
-  return known->second;
+  return bytes.collected();
 }
 
 std::string ModelFiles::refusal() const {
@@ -139,7 +125,7 @@ std::optional<std::string_view> ModelFiles::read(const std::string& file) {
     if (opened == kRefused && refused_.empty()) refused_ = name;
     if (opened < 0) continue;
     if (std::filesystem::path(refused_).filename() == last) refused_.clear();
-    return map(opened, name);
+    return content(opened, name);
   }
   return std::nullopt;
 }
