@@ -14,7 +14,6 @@
 #include "libpipeline/text/number_printer.h"
 #include "tools/mesh2scene/readers.h"
 #include "tools/mesh2scene/scene_setting.h"
-#include "tools/mesh2scene/scene_text.h"
 #include "tools/rim/tool.h"
 
 using namespace pipeline;
@@ -150,7 +149,6 @@ int mesh2scene_main(int argc, char** argv) {
     static Model& model = *new Model(read_model(path, files, chosen.crease_degrees));
     tool.timing().lap(&Timing::read_seconds);
     tool.timing().triangle_count = model.triangle_count();
-    const std::string& name = model.name;
     const ViewChoice view = view_of(chosen, model);
     const bool has_own_view =
         model.camera && std::ranges::none_of(std::array{"--eye-from", "--fov", "--up-axis", "--at", "--zoom"},
@@ -161,14 +159,13 @@ int mesh2scene_main(int argc, char** argv) {
                 " files (--up-axis chooses); " + extent_of(model));
     for (const std::string& note : model.notes) tool.note(note);
     if (const auto& parts = model.unheld; !parts.empty())
-      tool.note(name + ": no scene can hold its " + listed({parts.begin(), parts.end()}));
+      tool.note(model.name + ": no scene can hold its " + listed({parts.begin(), parts.end()}));
     note_what_hides(model, setting, has_own_view, chosen, tool);
-    setting.has_one_color = !chosen.color.empty();
-    if (setting.has_one_color) setting.color = to_vec3(*parse_color(chosen.color));
-    setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
-                        ", by mesh2scene; zbuf --size " + chosen.size};
+    if (!chosen.color.empty()) setting.color = to_vec3(*parse_color(chosen.color));
+    setting.comment = model.name + ", " + counted(model.triangle_count(), "triangle") +
+                      ", by mesh2scene; zbuf --size " + chosen.size;
     if (!write_scene(model, setting, chosen.as_nodes, tool.output()))
-      tool.note(name + ": it has more than " + counted(kMostMaterials, "material") +
+      tool.note(model.name + ": it has more than " + counted(kMostMaterials, "material") +
                 "; meshes with further ones get the first");
   });
 }

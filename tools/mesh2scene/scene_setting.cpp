@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -26,15 +25,16 @@ constexpr double kLeastDistance = 1e-12;
 /// The distance of a light from afar, in distances of the eye.
 constexpr double kFar = 1000;
 
-/// Orthogonal unit vectors of a camera, in the model's space; `back` points from the model to the eye.
-struct ViewAxes {
-  Vec3 right, up, back;
-};
-
-ViewAxes axes_of(const ModelCamera& camera) {
+/// The axes of a camera's view, unit vectors to the right, upwards, and from the model to the eye.
+NodeMatrix axes_of(const ModelCamera& camera) {
   const Vec3 back = unit_vector(difference(camera.eye, camera.look));
   const Vec3 right = unit_vector(cross(camera.up, back));
-  return {right, cross(back, right), back};
+  return {right, cross(back, right), back, {}};
+}
+
+/// The coordinates of a direction along axes.
+Vec3 along(const NodeMatrix& axes, const Vec3& v) {
+  return {dot(v, axes.x), dot(v, axes.y), dot(v, axes.z)};
 }
 
 /// The setting with the file's lights; without any, with a key light from the upper left, a weaker fill from
@@ -43,8 +43,6 @@ SceneSetting setting_with(const ModelCamera& camera, double aspect, const Model&
   SceneSetting setting;
   setting.camera = camera;
   setting.aspect = aspect;
-  setting.background = {232, 235, 240};
-  setting.color = {228, 222, 210};
   constexpr double kSmall = 0.03, kLarge = 1e12;
   if (camera.distance < kSmall || camera.distance > kLarge)
     setting.scale = std::pow(10, -std::floor(std::log10(camera.distance)));
@@ -53,17 +51,14 @@ SceneSetting setting_with(const ModelCamera& camera, double aspect, const Model&
     if (light.is_far)
       light.position = sum(camera.look, scaled(unit_vector(light.position), -kFar * camera.distance));
   if (!model.lights.empty()) return setting;
-  const ViewAxes axes = axes_of(camera);
-  const auto beside = [&](double x, double y, double z) {  // from the model's middle, in distances of the eye
-    const Vec3 offset = sum(sum(scaled(axes.right, x), scaled(axes.up, y)), scaled(axes.back, z));
-    return sum(camera.look, scaled(offset, camera.distance));
+  const auto beside = [&, axes = axes_of(camera)](const Vec3& place) {  // in distances from eye to model
+    return sum(camera.look, scaled(axes.direction(place), camera.distance));
   };
   setting.ambient = {0.22, 0.22, 0.22};
-  setting.lights = {{beside(-0.7, 1, 1.4), {0.74, 0.74, 0.72}}, {beside(1.5, 0.3, 0.8), {0.24, 0.24, 0.26}}};
+  setting.lights = {{beside({-0.7, 1, 1.4}), {0.74, 0.74, 0.72}},
+                    {beside({1.5, 0.3, 0.8}), {0.24, 0.24, 0.26}}};
   return setting;
 }
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Cosine and sine, without libm, whose last bits differ between systems.
 std::pair<double, double> direction_of(double degrees) {
@@ -82,55 +77,47 @@ constexpr double kDepthMargin = 0.5;
 /// The largest far / near for which a depth buffer is fine enough.
 constexpr double kMostDepth = 10000;
 
-/// The axes of a view from the model's front, its +z side (-y if z is up; -z or +y if -y or -z is up), turned
-/// about the up axis by `azimuth` degrees to the right, and upwards by `elevation` degrees, -90 to 90.
-ViewAxes view_axes(const Vec3& up, double azimuth_degrees, double elevation_degrees) {
-  const Vec3 front = up.z != 0 ? Vec3{0, -up.z, 0} : Vec3{0, 0, up.y < 0 ? -1.0 : 1.0};
-  const Vec3 side = cross(up, front);
-  const auto [cos_a, sin_a] = direction_of(azimuth_degrees);
-  const auto [cos_e, sin_e] = direction_of(elevation_degrees);
-  const Vec3 toward = sum(scaled(front, cos_a), scaled(side, sin_a));
-  const Vec3 back = sum(scaled(toward, cos_e), scaled(up, sin_e));
-  const Vec3 right = difference(scaled(side, cos_a), scaled(front, sin_a));
-  return {right, cross(back, right), back};
-}
-
 }  // namespace
 
 SceneSetting framed_setting(const Model& model, const ViewChoice& view) {
-  const ViewAxes axes = view_axes(view.up, view.azimuth_degrees, view.elevation_degrees);
+  // The view from the model's front, its +z side (-y if z is up; -z or +y if -y or -z is up), turned about
+  // the up axis by the azimuth to the right, and upwards by the elevation.
+  const Vec3 front = view.up.z != 0 ? Vec3{0, -view.up.z, 0} : Vec3{0, 0, view.up.y < 0 ? -1.0 : 1.0};
+  const Vec3 side = cross(view.up, front);
+  const auto [cos_a, sin_a] = direction_of(view.azimuth_degrees);
+  const auto [cos_e, sin_e] = direction_of(view.elevation_degrees);
+  const Vec3 toward = sum(scaled(front, cos_a), scaled(side, sin_a));
+  const Vec3 back = sum(scaled(toward, cos_e), scaled(view.up, sin_e));
+  const Vec3 right = difference(scaled(side, cos_a), scaled(front, sin_a));
+  const NodeMatrix axes = {right, cross(back, right), back, {}};
   const double slope_y = kShare * tangent(view.fov_y_degrees / 2), slope_x = view.aspect * slope_y;
-  // The largest a + slope c and -a + slope c of points (a, b, c) in the view's axes; likewise for b.
-  double right = -kInfinity, left = -kInfinity, top = -kInfinity, bottom = -kInfinity;
-  double nearest = -kInfinity, farthest = kInfinity;  // the largest and the smallest c
+  // Of points (a, b, c) in the view's axes, the boxes of a + slope c and a - slope c; likewise for b.
+  BoundingBox plus, minus;
   model.for_each_corner([&](const Vec3& p) {
-    const double a = dot(p, axes.right), b = dot(p, axes.up), c = dot(p, axes.back);
-    right = std::max(right, a + slope_x * c);
-    left = std::max(left, -a + slope_x * c);
-    top = std::max(top, b + slope_y * c);
-    bottom = std::max(bottom, -b + slope_y * c);
-    nearest = std::max(nearest, c);
-    farthest = std::min(farthest, c);
+    const auto [a, b, c] = along(axes, p);
+    const double x = slope_x * c, y = slope_y * c;
+    const Vec3 more = {a + x, b + y, c}, less = {a - x, b - y, c};
+    plus.add(Triangle{more, more, more});
+    minus.add(Triangle{less, less, less});
   });
+  const double nearest = plus.high.z, farthest = plus.low.z;
   // An eye at (x, y, z) sees a point (a, b, c) within the share if |a - x| <= slope_x (z - c) and |b - y| <=
-  // slope_y (z - c): a + slope_x c <= x + slope_x z and -a + slope_x c <= -x + slope_x z. Their sum gives the
-  // least z.
-  const double x = (right - left) / 2, y = (top - bottom) / 2;
-  const double z = std::max((right + left) / (2 * slope_x), (top + bottom) / (2 * slope_y));
+  // slope_y (z - c): a + slope_x c <= x + slope_x z and a - slope_x c >= x - slope_x z. Their difference
+  // gives the least z.
+  const double x = (plus.high.x + minus.low.x) / 2, y = (plus.high.y + minus.low.y) / 2;
+  const double z =
+      std::max((plus.high.x - minus.low.x) / (2 * slope_x), (plus.high.y - minus.low.y) / (2 * slope_y));
   const double middle = nearest + (farthest - nearest) / 2;
-  const auto on_axis = [&](double depth) {
-    return sum(sum(scaled(axes.right, x), scaled(axes.up, y)), scaled(axes.back, depth));
-  };
   const bool is_steep = std::fabs(view.elevation_degrees) > kSteepestWithWorldUp;
-  ModelCamera camera = {on_axis(z), on_axis(middle), is_steep ? axes.up : view.up, view.fov_y_degrees};
+  ModelCamera camera = {axes.direction({x, y, z}), axes.direction({x, y, middle}),
+                        is_steep ? axes.y : view.up, view.fov_y_degrees};
   camera.distance = z - middle;
   double eye_depth = z;
-  const bool is_closer = view.at || view.zoom != 1;
-  if (is_closer) {
+  if (view.at || view.zoom != 1) {
     camera.look = view.at.value_or(camera.look);
     camera.distance /= view.zoom;
-    camera.eye = sum(camera.look, scaled(axes.back, camera.distance));
-    eye_depth = dot(camera.eye, axes.back);
+    camera.eye = sum(camera.look, scaled(axes.z, camera.distance));
+    eye_depth = dot(camera.eye, axes.z);
   }
   camera.far = (eye_depth - farthest) + kDepthMargin * camera.distance;
   camera.near = std::max((eye_depth - nearest) * kDepthMargin, camera.far / kMostDepth);
@@ -147,14 +134,15 @@ SceneSetting setting_of_file(const Model& model, double aspect) {
   camera.up = unit_vector(camera.up);
   // A file gives a camera's direction, not the distance of `look`; lights should fall on the model's middle.
   Vec3 total;
-  double count = 0, farthest = 0;
+  double farthest = 0;
   const Vec3 direction = unit_vector(difference(camera.look, camera.eye));
   model.for_each_corner([&](const Vec3& p) {
     total = sum(total, p);
     farthest = std::max(farthest, dot(difference(p, camera.eye), direction));
-    ++count;
   });
-  const double ahead = dot(difference(scaled(total, 1 / count), camera.eye), direction);
+  const double ahead =
+      dot(difference(scaled(total, 1.0 / static_cast<double>(3 * model.triangle_count())), camera.eye),
+          direction);
   camera.distance = std::max({camera.near, kLeastDistance * largest_in(camera.eye), ahead});
   camera.look = sum(camera.eye, scaled(direction, camera.distance));
   // If the file gives no end, the view reaches beyond the model.
@@ -164,19 +152,16 @@ SceneSetting setting_of_file(const Model& model, double aspect) {
 
 double shown_share(const Model& model, const SceneSetting& setting) {
   const ModelCamera& camera = setting.camera;
-  const ViewAxes axes = axes_of(camera);
+  const NodeMatrix axes = axes_of(camera);
   const double slope_y = tangent(camera.fov_y_degrees / 2), slope_x = setting.aspect * slope_y;
   Triangle corners;
   std::size_t count = 0;
   double area = 0;
   bool is_cut = false;
   model.for_each_corner([&](const Vec3& p) {
-    const Vec3 offset = difference(p, camera.eye);
-    const double depth = -dot(offset, axes.back);
-    const double side = depth < camera.near ? -1 : depth > camera.far ? 1 : 0;
-    // NDC, but for z.
-    corners[count++] = {dot(offset, axes.right) / (slope_x * depth), dot(offset, axes.up) / (slope_y * depth),
-                        side};
+    const auto [x, y, back] = along(axes, difference(p, camera.eye));
+    const double depth = -back, side = depth < camera.near ? -1 : depth > camera.far ? 1 : 0;
+    corners[count++] = {x / (slope_x * depth), y / (slope_y * depth), side};  // NDC, but for z
     if (count < 3) return;
     count = 0;
     // A triangle cut by the near or the far plane, such as a floor, may cover much.

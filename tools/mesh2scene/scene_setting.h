@@ -6,22 +6,19 @@
 
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/model.h"
+#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 
 /// The part of a scene before its first triangle.
 struct SceneSetting {
-  std::vector<std::string> comments;
+  std::string comment;
   ModelCamera camera;  // in the model's space, like the lights
   double scale = 1;    // of the model in the scene: a power of ten, if seven decimals do not suit its size
   double aspect = 0;   // width / height
-  Vec3 background;
   Vec3 ambient;
-  /// Point lights.
-  std::vector<ModelLight> lights;
-  /// The color of meshes without their own, or of all, from 0 to 255.
-  Vec3 color;
-  bool has_one_color = false;
+  std::vector<ModelLight> lights;  // point lights
+  std::optional<Vec3> color;       // of all meshes
 };
 
 /// The view of a framed model; angles in degrees.
@@ -43,5 +40,14 @@ SceneSetting setting_of_file(const Model& model, double aspect);
 /// The approximate share of the picture that the model covers: half of its triangles' areas, even if they
 /// overlap.
 double shown_share(const Model& model, const SceneSetting& setting);
+
+/// The maximum number of a scene's materials: meshes with further ones get the first.
+constexpr std::size_t kMostMaterials = 256;
+
+/// Writes the model as a scene (docs/scene.md). The file's numbers have their shortest form; positions of
+/// camera and lights have five digits of the distance between eye and model. Nodes' transforms are applied to
+/// their vertices; with `as_nodes`, they are written as commands where the file gives them in steps. False if
+/// the model has more than kMostMaterials.
+bool write_scene(const Model& model, const SceneSetting& setting, bool as_nodes, TextWriter& out);
 
 }  // namespace pipeline

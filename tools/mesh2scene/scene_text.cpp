@@ -1,5 +1,3 @@
-#include "tools/mesh2scene/scene_text.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,8 +10,8 @@
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/error.h"
-#include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
+#include "tools/mesh2scene/scene_setting.h"
 
 namespace pipeline {
 
@@ -25,7 +23,8 @@ std::string text_of(const Vec3& v) {
 
 /// The color of a mesh without vertex colors, from 0 to 255.
 Vec3 color_of(const ModelMesh& mesh, const Model& model, const SceneSetting& setting) {
-  return setting.has_one_color ? setting.color : model.material(mesh).color.value_or(setting.color);
+  constexpr Vec3 kUsual = {228, 222, 210};
+  return setting.color.value_or(model.material(mesh).color.value_or(kUsual));
 }
 
 /// The materials of a scene made from a model: the distinct ones of its meshes, in the order of the meshes.
@@ -63,56 +62,11 @@ std::string float_text(const Vec3& v) {
   return float_text(v.x) + " " + float_text(v.y) + " " + float_text(v.z);
 }
 
-/// The content of a vertex's line.
-struct VertexNumbers {
-  std::array<float, 10> numbers{};  // position, perhaps a color, normal, which is never 0
-  std::size_t count = 0;
-
-  void add(const Vec3& v) {
-    for (const double x : {v.x, v.y, v.z}) numbers[count++] = static_cast<float>(x);
-  }
-  using Words = std::array<std::uint64_t, 5>;
-  [[nodiscard]] Words words() const { return std::bit_cast<Words>(numbers); }
-};
-
-/// The lines of vertices, kept for triangles that share them: the last line of each hash.
-class VertexLines {
- public:
-  [[nodiscard]] std::string_view line_of(const VertexNumbers& vertex) {
-    const VertexNumbers::Words words = vertex.words();
-    Line& line = lines_[hash(words) % kPlaces];
-    if (line.words != words) {
-      line.words = words;
-      print(vertex, line);
-    }
-    return {line.text.data(), line.length};
-  }
-
- private:
-  struct Line {
-    VertexNumbers::Words words{};
-    std::size_t length = 0;
-    std::array<char, 9 * (kMaxFloatLength + 1)> text;
-  };
-
-  static std::size_t hash(const VertexNumbers::Words& words) {
-    std::uint64_t mixed = 0;
-    for (const std::uint64_t word : words) mixed = ((mixed ^ word) + (mixed >> 32)) * 0x9e3779b97f4a7c15;
-    return static_cast<std::size_t>(mixed >> 40);
-  }
-
-  static void print(const VertexNumbers& vertex, Line& line) {
-    char* p = line.text.data();
-    for (std::size_t i = 0; i < vertex.count; ++i) {
-      p = print_shortest_float(p, vertex.numbers[i]);
-      *p++ = i + 1 < vertex.count ? ' ' : '\n';
-    }
-    line.length = static_cast<std::size_t>(p - line.text.data());
-  }
-
-  static constexpr std::size_t kPlaces = 8192;
-
-  std::vector<Line> lines_ = std::vector<Line>(kPlaces);
+/// The text of a vertex's line.
+struct VertexLine {
+  std::array<std::uint64_t, 5> numbers{};  // in pairs of floats
+  std::size_t length = 0;
+  std::array<char, 9 * (kMaxFloatLength + 1)> text;
 };
 
 /// The value rounded to the decimals with which a length has five digits.
@@ -138,10 +92,11 @@ struct SceneWriter {
   const SceneSetting& setting_;
   const SceneMaterials& materials_;
   TextWriter& out_;
-  bool has_color_columns_ = model_.has_vertex_colors() && !setting_.has_one_color;
+  bool as_nodes_;
+  bool has_color_columns_ = model_.has_vertex_colors() && !setting_.color;
 
   void write_setting() {
-    for (const std::string& comment : setting_.comments) line("# " + on_one_line(comment));
+    line("# " + on_one_line(setting_.comment));
     const ModelCamera& camera = setting_.camera;
     const double scale = setting_.scale, near = scale * camera.near, far = scale * camera.far;
     const double length = scale * camera.distance;
@@ -151,7 +106,7 @@ struct SceneWriter {
     line(text_of(rounded(camera.up, 1)));
     line(shortest_text(camera.fov_y_degrees) + " " + shortest_text(setting_.aspect) + " " +
          shortest_text(rounded(near, near)) + " " + shortest_text(rounded(far, far)) + " ratio");
-    line("background " + text_of(setting_.background));
+    line("background 232 235 240");
     line(has_color_columns_ ? "attributes color normal" : "attributes normal");
     for (const std::string& material : materials_.lines) line(material);
     if (setting_.ambient != Vec3{}) line("ambient " + text_of(setting_.ambient));
@@ -161,15 +116,13 @@ struct SceneWriter {
       line("scale " + factor + " " + factor + " " + factor);
   }
 
-  void write_meshes() {
-    for (const PlacedMesh& placed : model_.placed) write(placed, placed.model_from_mesh.mirrors());
-  }
-
-  void write_node(const ModelNode& node, const NodeMatrix& above, bool is_above_mirrored) {
-    const bool is_in_commands = node.steps && above.is_identity() && !node.parent_from_node.is_identity();
-    const NodeMatrix pending = is_in_commands ? NodeMatrix() : product(above, node.parent_from_node);
-    const bool is_mirrored = is_above_mirrored != node.parent_from_node.mirrors();
+  /// `above` has the transforms that no command stands for; `is_mirrored` is by the commands.
+  void write_node(const ModelNode& node, const NodeMatrix& above, bool is_mirrored) {
+    const NodeMatrix& own = node.parent_from_node;
+    const bool is_in_commands = as_nodes_ && node.steps && above.is_identity() && !own.is_identity();
+    const NodeMatrix pending = is_in_commands ? NodeMatrix() : product(above, own);
     if (is_in_commands) {
+      is_mirrored = is_mirrored != own.mirrors();
       const auto& [translation, turn, cosine, scaling] = *node.steps;
       line("push");
       if (translation != Vec3{}) line("translate " + float_text(translation));
@@ -203,74 +156,81 @@ struct SceneWriter {
     const std::size_t material = materials_.numbers.at(mesh.material);
     if (material != material_in_force_) line("use " + std::to_string(material));
     material_in_force_ = material;
-    placed_ = &placed;
-    color_ = color;
     // The winding of a mirror image is reversed.
-    const std::array<std::size_t, 3> order = {0, is_mirrored ? 2U : 1U, is_mirrored ? 1U : 2U};
-    const std::size_t corner_count = placed.shape->corners.size();
-    for (std::size_t i = 0; i < corner_count; i += 3) write_triangle(i, order);
+    const std::size_t second = placed.model_from_mesh.mirrors() != is_mirrored ? 2 : 1;
+    for (std::size_t i = 0; i < placed.shape->corners.size(); i += 3) {
+      constexpr std::string_view kKeyword = "triangle\n";
+      char* p = out_.reserve(kKeyword.size() + 3 * sizeof(VertexLine::text));
+      p = std::copy(kKeyword.begin(), kKeyword.end(), p);
+      for (const std::size_t corner : {i, i + second, i + 3 - second}) {
+        const std::string_view text = vertex_line(placed, corner, color);
+        p = std::copy(text.begin(), text.end(), p);
+      }
+      out_.commit(p);
+    }
   }
 
   /// The normal at a corner of the mesh; its triangle's own normal if it has no usable one.
-  [[nodiscard]] Vec3 normal(std::size_t corner) const {
-    const auto& [x, y, z] = placed_->shape->normals[corner];
+  [[nodiscard]] Vec3 normal(const PlacedMesh& placed, std::size_t corner) const {
+    const auto& [x, y, z] = placed.shape->normals[corner];
     const Vec3 in_mesh = {x, y, z};
-    const Vec3 in_model =
-        placed_->is_in_place ? in_mesh : unit_vector(placed_->model_from_mesh.normal(in_mesh));
+    const Vec3 in_model = placed.is_in_place ? in_mesh : unit_vector(placed.model_from_mesh.normal(in_mesh));
     if (is_direction(in_model)) return in_model;
-    const std::uint32_t* const i = placed_->shape->corners.data() + corner / 3 * 3;
+    const std::uint32_t* const i = placed.shape->corners.data() + corner / 3 * 3;
     const Vec3 n =
-        unit_vector(face_normal({placed_->position(i[0]), placed_->position(i[1]), placed_->position(i[2])}));
+        unit_vector(face_normal({placed.position(i[0]), placed.position(i[1]), placed.position(i[2])}));
     // A triangle without area, which is not visible, gets any normal.
-    return !is_direction(n) ? setting_.camera.up : placed_->model_from_mesh.mirrors() ? scaled(n, -1) : n;
+    return !is_direction(n) ? setting_.camera.up : placed.model_from_mesh.mirrors() ? scaled(n, -1) : n;
   }
 
   /// True if a scene accepts it as a normal.
-  static bool is_direction(const Vec3& n) {
-    const auto is_0 = [](double value) { return static_cast<float>(value) == 0; };
-    return std::isfinite(n.x + n.y + n.z) && !(is_0(n.x) && is_0(n.y) && is_0(n.z));
-  }
+  static bool is_direction(const Vec3& n) { return std::isfinite(n.x + n.y + n.z) && floats(n) != Floats{}; }
 
-  void write_triangle(std::size_t first_corner, const std::array<std::size_t, 3>& order) {
-    static constexpr std::string_view kKeyword = "triangle\n";
-    char* p = out_.reserve(kKeyword.size() + std::size_t{3} * 9 * (kMaxFloatLength + 1));
-    p = std::copy(kKeyword.begin(), kKeyword.end(), p);
-    for (const std::size_t i : order) {
-      const std::size_t corner = first_corner + i;
-      const std::uint32_t index = placed_->shape->corners[corner];
-      VertexNumbers vertex;
-      vertex.add(placed_->position(index));
-      if (has_color_columns_) vertex.add(color_of(index));
-      vertex.add(normal(corner));
-      const std::string_view line = lines_.line_of(vertex);
-      p = std::copy(line.begin(), line.end(), p);
+  std::string_view vertex_line(const PlacedMesh& placed, std::size_t corner, const Vec3& color_of_mesh) {
+    std::array<float, 10> numbers{};  // position, perhaps a color, normal, which is never 0
+    std::size_t count = 0;
+    const auto add = [&](const Vec3& v) {
+      for (const float x : floats(v)) numbers[count++] = x;
+    };
+    const std::uint32_t index = placed.shape->corners[corner];
+    add(placed.position(index));
+    if (has_color_columns_) {
+      const auto [red, green, blue] = placed.mesh->has_colors ? model_.color(index) : kNoColor;
+      add(std::isnan(red + green + blue) ? color_of_mesh : Vec3{red, green, blue});
     }
-    out_.commit(p);
-  }
-
-  [[nodiscard]] Vec3 color_of(std::uint32_t index) const {
-    if (!placed_->mesh->has_colors) return color_;
-    const auto [red, green, blue] = model_.color(index);
-    return std::isnan(red + green + blue) ? color_ : Vec3{red, green, blue};
+    add(normal(placed, corner));
+    const auto words = std::bit_cast<decltype(VertexLine::numbers)>(numbers);
+    std::uint64_t hash = 0;
+    for (const std::uint64_t word : words) hash = (hash ^ word) * 0x9e3779b97f4a7c15;
+    VertexLine& line = lines_[hash >> (64 - kHashBits)];
+    if (line.numbers != words) {
+      line.numbers = words;
+      char* p = line.text.data();
+      for (std::size_t i = 0; i < count; ++i) {
+        p = print_shortest_float(p, numbers[i]);
+        *p++ = i + 1 < count ? ' ' : '\n';
+      }
+      line.length = static_cast<std::size_t>(p - line.text.data());
+    }
+    return {line.text.data(), line.length};
   }
 
   std::optional<Vec3> color_in_force_{};
   std::size_t material_in_force_ = 0;
-  // The mesh being written:
-  const PlacedMesh* placed_ = nullptr;
-  Vec3 color_{};
-  VertexLines lines_{};
+  // The last line of each hash, kept for triangles that share vertices.
+  static constexpr int kHashBits = 13;
+  std::vector<VertexLine> lines_ = std::vector<VertexLine>(1U << kHashBits);
 };
 
 }  // namespace
 
 bool write_scene(const Model& model, const SceneSetting& setting, bool as_nodes, TextWriter& out) {
   // Paints are used if all colors come from materials or the setting, unless they make too many materials.
-  SceneMaterials materials(model, setting, setting.has_one_color || !model.has_vertex_colors());
+  SceneMaterials materials(model, setting, setting.color || !model.has_vertex_colors());
   if (materials.have_paints && materials.are_too_many) materials = {model, setting, false};
-  SceneWriter writer = {model, setting, materials, out};
+  SceneWriter writer = {model, setting, materials, out, as_nodes};
   writer.write_setting();
-  as_nodes ? writer.write_node(model.root, {}, false) : writer.write_meshes();
+  writer.write_node(model.root, {}, false);
   writer.line("end");
   return !materials.are_too_many;
 }
