@@ -47,6 +47,10 @@ struct Share {
   Vec3 direction;  // of length 1, or 0 for a triangle without area
   double area, angle;
   double plane_area = area;  // of all triangles at this position in its plane
+
+  [[nodiscard]] bool is_within(double cosine, const Vec3& other) const {
+    return dot(direction, other) >= cosine;
+  }
 };
 
 /// If more triangles share a position, each is compared only with the mean of all: time stays linear.
@@ -55,11 +59,6 @@ constexpr std::size_t kMany = 256;
 constexpr double kCoplanarCosine = 0.99996;
 /// A plane with more than this share of the area at a position stays a plane there.
 constexpr double kDominant = 0.8;
-
-/// The cosine, a little smaller, so that a crease of 0 smooths a plane.
-double cosine(double degrees) {
-  return std::cos(degrees * std::numbers::pi / 180) - 1e-6;
-}
 
 /// Sets the normals of all corners at a position.
 struct Smoothing {
@@ -84,16 +83,15 @@ struct Smoothing {
       widest = std::max(widest, share.plane_area);
       area += share.area;
     }
-    const auto is_near_mean = [&](const Share& share) {
-      return dot(share.direction, mean) >= half_way_cosine;
-    };
-    const bool is_one_surface = widest <= kDominant * area && std::ranges::all_of(shares, is_near_mean);
-    const Vec3 of_surface = is_one_surface || !is_few ? weighted_sum(is_near_mean) : Vec3{};
+    const auto is_near_mean = [&](const Share& share) { return share.is_within(half_way_cosine, mean); };
+    const bool has_mean =
+        !is_few || (widest <= kDominant * area && std::ranges::all_of(shares, is_near_mean));
+    const Vec3 of_mean = has_mean ? weighted_sum(is_near_mean) : Vec3{};
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const bool is_of_surface = is_one_surface || (!is_few && is_near_mean(shares[i]));
-      normals[corners[i]] = floats(unit_vector(is_of_surface ? of_surface
-                                               : is_few      ? normal_beside(shares[i])
-                                                             : shares[i].direction));
+      const Share& own = shares[i];
+      const bool is_of_mean = is_few || is_near_mean(own);
+      const Vec3 n = !has_mean ? normal_beside(own) : is_of_mean ? of_mean : own.direction;
+      normals[corners[i]] = floats(unit_vector(n));
     }
   }
 
@@ -109,7 +107,7 @@ struct Smoothing {
   [[nodiscard]] double plane_area(const Share& own) const {
     double area = 0;
     for (const Share& share : shares)
-      if (dot(share.direction, own.direction) >= kCoplanarCosine) area += share.area;
+      if (share.is_within(kCoplanarCosine, own.direction)) area += share.area;
     return area;
   }
 
@@ -122,9 +120,7 @@ struct Smoothing {
   }
 
   [[nodiscard]] Vec3 normal_beside(const Share& own) const {
-    const auto is_near = [&](const Share& share) {
-      return dot(share.direction, own.direction) >= least_cosine;
-    };
+    const auto is_near = [&](const Share& share) { return share.is_within(least_cosine, own.direction); };
     double area = 0;
     const Share* widest = &own;
     for (const Share& share : shares)
@@ -134,10 +130,10 @@ struct Smoothing {
       }
     if (widest->plane_area <= kDominant * area) return weighted_sum(is_near);
     const auto is_in_plane = [&](const Share& share) {
-      return dot(share.direction, widest->direction) >= kCoplanarCosine;
+      return share.is_within(kCoplanarCosine, widest->direction);
     };
     // A small turn from the plane continues it, like a fillet; a larger turn is a chamfer beside it.
-    if (dot(own.direction, widest->direction) >= half_way_cosine) return weighted_sum(is_in_plane);
+    if (own.is_within(half_way_cosine, widest->direction)) return weighted_sum(is_in_plane);
     return weighted_sum([&](const Share& share) { return is_near(share) && !is_in_plane(share); });
   }
 };
@@ -150,6 +146,8 @@ std::vector<Floats> smooth_normals(const std::vector<std::uint32_t>& all_corners
   const std::size_t task_count = normals.size() / kAtOnce + 1;
   ThreadPool pool(task_count < 4 ? 1
                                  : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)));
+  // A little smaller than the cosine, so that a crease of 0 smooths a plane.
+  const auto cosine = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180) - 1e-6; };
   pool.start(static_cast<int>(task_count), [&](int task, int) {
     Smoothing smoothing = {all_corners, points, cosine(crease_degrees), cosine(crease_degrees / 2), normals};
     std::vector<std::uint32_t> corners;
@@ -181,10 +179,6 @@ void add_normals(Model& model, double crease_degrees) {
       corners.insert(corners.end(), mesh->corners.begin(), mesh->corners.end());
     std::vector<Floats> normals(corners.size());  // 0, which makes them flat
     if (surface != 0) normals = smooth_normals(corners, model.points, crease_degrees);
-    if (meshes.size() == 1) {
-      meshes[0]->normals = std::move(normals);
-      continue;
-    }
     const Floats* begin = normals.data();
     for (ModelMesh* mesh : meshes) {
       mesh->normals.assign(begin, begin + mesh->corners.size());
