@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -38,7 +37,6 @@ struct Json {
   }
   Json operator[](std::size_t index) const { return index < items().size() ? items()[index] : kNothing; }
   [[nodiscard]] bool is_there() const { return !value->is_null(); }
-  [[nodiscard]] bool is_true() const { return value->is_boolean() && value->get<bool>(); }
   [[nodiscard]] double number(double missing = 0) const {
     return value->is_number() ? value->get<double>() : missing;
   }
@@ -49,9 +47,8 @@ struct Json {
     return (value->is_array() ? *value : kNoItems).get_ref<const nlohmann::json::array_t&>();
   }
 
-  static const nlohmann::json kNothing, kNoText, kNoItems;
+  inline static const nlohmann::json kNothing, kNoText = "", kNoItems = nlohmann::json::array();
 };
-const nlohmann::json Json::kNothing, Json::kNoText = "", Json::kNoItems = nlohmann::json::array();
 
 /// Parses a whole text, up to a NUL, since chunks of GLB are padded.
 nlohmann::json parse_json(const std::string& name, std::string_view text) {
@@ -103,10 +100,22 @@ constexpr std::array kComponents = {  // from 5120 on
     number_type<std::uint32_t>(),
     number_type<float>()};
 
-class GltfReader {
- public:
-  GltfReader(Json document, std::string_view binary, ModelFiles& files, Model& model)
-      : document_(document), binary_(binary), files_(files), model_(model) {}
+struct GltfReader {
+  const Json document_;
+  std::string_view binary_;  // of a GLB file
+  ModelFiles& files_;
+  Model& model_;
+  std::map<const nlohmann::json*, std::string> decoded_{};  // buffers in base64
+  // assimp keeps the colors of other formats when it converts them.
+  bool is_linear_ = !document_["asset"]["generator"].text().starts_with("Open Asset Import Library");
+  std::vector<Vec3> linear_colors_{};  // of materials
+  std::map<std::size_t, std::vector<std::size_t>> meshes_{};
+  std::map<nlohmann::json, std::size_t> shapes_{};  // the first mesh of primitives that differ in materials
+  std::map<std::array<double, 3>, std::pair<std::uint32_t, std::uint32_t>> points_{};
+  std::vector<double> normals_{};  // of the last accessor
+  double normals_index_ = -1;
+  bool has_orthographic_ = false;
+  std::size_t node_count_ = 0, taken_ = 0;
 
   void read() {
     if (const std::string& version = document_["asset"]["version"].text(); !version.starts_with("2"))
@@ -128,14 +137,14 @@ class GltfReader {
       const Json scene = index.is_there() ? item("scenes", index) : document_["scenes"][0];
       for (const Json node : scene["nodes"].items()) read_node(node, {}, 0, model_.root);
     } else {
-      for (std::size_t i = 0; i < document_["meshes"].items().size(); ++i) show_mesh(i, model_.root);
+      for (std::size_t i = 0; i < document_["meshes"].items().size(); ++i)
+        show_mesh(nlohmann::json(i), model_.root);
     }
     if (!model_.colors.empty()) scale_colors(model_, model_.colors, 1, is_linear_);
     if (has_orthographic_ && !model_.camera)
       model_.note("its orthographic camera is left out: the model is framed");
   }
 
- private:
   /// An item of one of the document's arrays.
   Json item(const char* array, Json index) const {
     const Json items = document_[array];
@@ -156,12 +165,12 @@ class GltfReader {
 
   std::string_view buffer(Json index) {
     const Json json = item("buffers", index);
-    if (const auto known = buffers_.find(json.value); known != buffers_.end()) return known->second;
     const std::string& uri = json["uri"].text();
     std::string_view bytes = binary_;
     if (uri.starts_with("data:")) {
-      decoded_.push_back(from_base64(std::string_view(uri).substr(std::min(uri.find(',') + 1, uri.size()))));
-      bytes = decoded_.back();
+      const auto [known, is_new] = decoded_.try_emplace(json.value);
+      if (is_new) known->second = from_base64(std::string_view(uri).substr(uri.find(',') + 1));
+      bytes = known->second;
     } else if (json["uri"].is_there()) {
       std::optional<std::string_view> file = files_.read(uri);
       if (!file) file = files_.read(without_percent_codes(uri));
@@ -174,7 +183,7 @@ class GltfReader {
     if (count(json, "byteLength") > bytes.size())
       model_.fail(counted(count(json, "byteLength"), "byte") + " in a buffer",
                   std::to_string(bytes.size()) + ": it is cut");
-    return buffers_[json.value] = bytes;
+    return bytes;
   }
 
   /// The first `width` of the components of each of `n` values.
@@ -215,7 +224,8 @@ class GltfReader {
     if (components > kKinds.size() || components < width)
       model_.fail("an accessor of " + counted(width, "number"), pipeline::quoted(kind));
     const double type = json["componentType"].number();
-    const bool is_normalized = json["normalized"].is_true(), is_in_buffer = json["bufferView"].is_there();
+    const bool is_normalized = *json["normalized"].value == true,
+               is_in_buffer = json["bufferView"].is_there();
     const std::size_t n = count(json, "count"), replaced = count(sparse, "count");
     if (!is_in_buffer && !sparse.is_there())
       model_.fail("an accessor with numbers in a buffer", "none: they are compressed, or missing");
@@ -236,8 +246,8 @@ class GltfReader {
     return values;
   }
 
-  static Vec3 vec(Json json, double missing) {
-    return {json[0].number(missing), json[1].number(missing), json[2].number(missing)};
+  static Vec3 vec(Json json, double missing, std::size_t i = 0) {
+    return {json[i].number(missing), json[i + 1].number(missing), json[i + 2].number(missing)};
   }
 
   void read_material(Json json) {
@@ -265,10 +275,7 @@ class GltfReader {
 
   static void set_matrix(Json json, ModelNode& node) {
     if (const Json m = json["matrix"]; m.items().size() == 16) {
-      const auto column = [&](std::size_t i) {
-        return Vec3{m[i].number(), m[i + 1].number(), m[i + 2].number()};
-      };
-      node.parent_from_node = {column(0), column(4), column(8), column(12)};
+      node.parent_from_node = {vec(m, 0), vec(m, 0, 4), vec(m, 0, 8), vec(m, 0, 12)};
       return;
     }
     const Json q = json["rotation"];
@@ -283,23 +290,18 @@ class GltfReader {
   }
 
   void read_node(Json index, const NodeMatrix& model_from_parent, int depth, ModelNode& parent) {
-    constexpr int kDeepest = 1000;
-    constexpr std::size_t kMostNodes = 1'000'000;
     const Json json = item("nodes", index);
-    if (depth > kDeepest || ++node_count_ > kMostNodes)
+    if (depth > 1000 || ++node_count_ > 1'000'000)
       model_.fail("nodes without a cycle, at most 1,000 deep and 1,000,000 in all", "others");
     const Json visible = json["extensions"]["KHR_node_visibility"]["visible"];
-    if (visible.is_there() && !visible.is_true()) {
+    if (visible.is_there() && *visible.value != true) {
       model_.unheld.insert("hidden nodes");
       return;
     }
     ModelNode node;
     set_matrix(json, node);
     const NodeMatrix model_from_node = product(model_from_parent, node.parent_from_node);
-    if (const Json mesh = json["mesh"]; mesh.is_there()) {
-      item("meshes", mesh);
-      show_mesh(static_cast<std::size_t>(mesh.number()), node);
-    }
+    if (const Json mesh = json["mesh"]; mesh.is_there()) show_mesh(mesh, node);
     if (json["camera"].is_there()) read_camera(item("cameras", json["camera"]), model_from_node);
     if (const Json light = json["extensions"]["KHR_lights_punctual"]["light"]; light.is_there()) {
       const Json lights = document_["extensions"]["KHR_lights_punctual"]["lights"];
@@ -334,31 +336,31 @@ class GltfReader {
   }
 
   /// Shows a mesh in a node; its primitives are read once.
-  void show_mesh(std::size_t index, ModelNode& node) {
+  void show_mesh(Json number, ModelNode& node) {
+    const Json json = item("meshes", number);
+    const auto index = static_cast<std::size_t>(number.number());
     const auto [known, is_new] = meshes_.try_emplace(index);
-    const Json json = document_["meshes"][index];
     const std::vector<nlohmann::json>& primitives = json["primitives"].items();
     const std::string own = json["name"].text().substr(0, kLongestName),
                       name = own.empty() ? "meshes[" + std::to_string(index) + "]" : own;
     for (std::size_t i = 0; is_new && i < primitives.size(); ++i)
-      if (add_primitive(primitives[i], primitives.size() > 1 ? name + "-" + std::to_string(i) : name,
-                        index + 1))
-        known->second.push_back(model_.meshes.size() - 1);
+      add_primitive(primitives[i], primitives.size() > 1 ? name + "-" + std::to_string(i) : name, index + 1,
+                    known->second);
     take(16 * known->second.size(), name);  // the memory that a mesh in a node takes
     node.meshes.insert(node.meshes.end(), known->second.begin(), known->second.end());
   }
 
-  bool add_primitive(Json json, const std::string& name, std::size_t surface) {
+  void add_primitive(Json json, const std::string& name, std::size_t surface,
+                     std::vector<std::size_t>& shown) {
     const double mode = json["mode"].number(4);
     const Json attributes = json["attributes"], material = json["material"];
     if (mode < 4) model_.unheld.insert("points and lines");
     if (json["targets"][0].is_there()) model_.unheld.insert("morph targets");
-    if (mode < 4 || mode > 6 || !attributes["POSITION"].is_there()) return false;
-    if (material.is_there()) item("materials", material);
+    if (mode < 4 || mode > 6 || !attributes["POSITION"].is_there()) return;
     ModelMesh mesh = {.name = name, .has_colors = attributes["COLOR_0"].is_there(), .surface = surface};
     // assimp gives a material of this name to meshes without a material.
     if (material.is_there() &&
-        (is_linear_ || item("materials", material)["name"].text() != "DefaultMaterial"))
+        (item("materials", material)["name"].text() != "DefaultMaterial" || is_linear_))
       mesh.material = static_cast<std::size_t>(material.number());
     // Corners and normals do not depend on the material, but colors do; and without normals, the primitives
     // of a mesh are smoothed together.
@@ -371,8 +373,8 @@ class GltfReader {
       read_shape(json, mesh);
     else
       mesh.shape = known->second;
+    shown.push_back(model_.meshes.size());
     model_.meshes.push_back(std::move(mesh));
-    return true;
   }
 
   void read_shape(Json json, ModelMesh& mesh) {
@@ -426,23 +428,6 @@ class GltfReader {
     return known->second = {static_cast<std::uint32_t>(base),
                             static_cast<std::uint32_t>(positions.size() / 3)};
   }
-
-  const Json document_;
-  std::string_view binary_;
-  ModelFiles& files_;
-  Model& model_;
-  std::map<const nlohmann::json*, std::string_view> buffers_;
-  std::deque<std::string> decoded_;
-  // assimp keeps the colors of other formats when it converts them.
-  bool is_linear_ = !document_["asset"]["generator"].text().starts_with("Open Asset Import Library");
-  std::vector<Vec3> linear_colors_;  // of materials
-  std::map<std::size_t, std::vector<std::size_t>> meshes_;
-  std::map<nlohmann::json, std::size_t> shapes_;  // the first mesh of primitives that differ in materials
-  std::map<std::array<double, 3>, std::pair<std::uint32_t, std::uint32_t>> points_;
-  std::vector<double> normals_;  // of the last accessor
-  double normals_index_ = -1;
-  bool has_orthographic_ = false;
-  std::size_t node_count_ = 0, taken_ = 0;
 };
 
 }  // namespace
@@ -451,7 +436,7 @@ void read_gltf(std::string_view bytes, ModelFiles& files, Model& model) {
   if (bytes.starts_with("glTF") && bytes.substr(4, 1) != "\2") model.fail("glTF of version 2", "another");
   const auto [json, binary] = parts_of(bytes);
   const nlohmann::json document = parse_json(model.name, json);
-  GltfReader(document, binary, files, model).read();
+  GltfReader{document, binary, files, model}.read();
 }
 
 }  // namespace pipeline

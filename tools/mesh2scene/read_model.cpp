@@ -4,7 +4,6 @@
 #include "libpipeline/scene/model_text.h"
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/scene/stl.h"
-#include "libpipeline/text/error.h"
 #include "tools/mesh2scene/readers.h"
 
 namespace pipeline {
@@ -13,11 +12,8 @@ namespace {
 /// The cure for a format that assimp reads.
 constexpr std::string_view kAssimp = "assimp export";
 
-/// A format that is not read: its first bytes in lower case, its name, and the cure.
-struct OtherFormat {
-  std::string_view begin, name, cure;
-};
-constexpr std::array<OtherFormat, 16> kOtherFormats = {{
+/// Formats that are not read: the first bytes in lower case, the name, and the cure.
+constexpr std::array<std::array<std::string_view, 3>, 16> kOtherFormats = {{
     {"version https://git-lfs", "a Git LFS pointer, which stands for the model", "git lfs pull gets it"},
     {"\x1f\x8b", "a file packed by gzip", "zcat unpacks it"},
     {"\xff\xfe", "text in UTF-16", "iconv -f UTF-16 -t UTF-8 converts it"},
@@ -41,10 +37,9 @@ bool is_obj(const std::string& name, std::string_view bytes) {
   constexpr std::array<std::string_view, 13> kWords = {"v",      "vn", "vt",     "vp", "f", "o",     "g",
                                                        "usemtl", "s",  "mtllib", "l",  "p", "cstype"};
   ModelText text(name, bytes);
-  for (bool is_there = true; is_there; is_there = text.next_line())
-    if (const std::string_view word = text.word(); !word.empty())
-      return std::ranges::find(kWords, word) != kWords.end();
-  return false;
+  std::string_view word = text.word();
+  while (word.empty() && text.next_line()) word = text.word();
+  return std::ranges::find(kWords, word) != kWords.end();
 }
 
 }  // namespace
@@ -64,20 +59,18 @@ Model read_model(const std::string& path, ModelFiles& files, double crease_degre
   };
   const bool is_binary_stl = is_whole_binary_stl(bytes);  // even if its header begins with "solid"
   for (const auto& [known, what, cure] : kOtherFormats)
-    if (!is_binary_stl && (in_lower_case(bytes.substr(0, known.size())) == known ||
-                           in_lower_case(begin.substr(0, known.size())) == known)) {
+    if (!is_binary_stl && in_lower_case(begin.substr(0, known.size())) == known) {
       if (known.starts_with("pk") && !name.ends_with(".3mf")) refuse("a ZIP archive", "unzip unpacks it");
       refuse(what, cure);
     }
-  if (is_binary_stl)
-    // NOLINTNEXTLINE(bugprone-branch-clone): some files are STL for sure, others only if nothing else
+  const bool is_ply = begin.starts_with("ply"), is_gltf = bytes.starts_with("glTF") || begin.starts_with("{");
+  if (is_binary_stl ||
+      (!is_ply && !is_gltf && (is_stl(bytes) || (name.ends_with(".stl") && !is_obj(model.name, bytes)))))
     model.format = "STL", read_stl(bytes, model);
-  else if (begin.starts_with("ply"))
+  else if (is_ply)
     model.format = "PLY", read_ply(bytes, model);
-  else if (bytes.starts_with("glTF") || begin.starts_with("{"))
+  else if (is_gltf)
     model.format = "glTF", read_gltf(bytes, files, model);
-  else if (is_stl(bytes) || (name.ends_with(".stl") && !is_obj(model.name, bytes)))
-    model.format = "STL", read_stl(bytes, model);
   else if (is_obj(model.name, bytes) || name.ends_with(".obj"))
     model.format = "OBJ", read_obj(bytes, files, model);
   else if (begin.empty() || name.ends_with(".py") || begin.starts_with("#!"))

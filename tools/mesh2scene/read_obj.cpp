@@ -23,10 +23,17 @@ float brightest(const Floats& color) {
 }
 
 /// Reads a library, and adds its materials to the model's.
-class MtlReader {
- public:
-  MtlReader(const std::string& name, std::string_view bytes, Model& model, Materials& numbers)
-      : name_(name), text_(name_, bytes), model_(model), numbers_(numbers) {}
+struct MtlReader {
+  const std::string& name_;
+  ModelText text_;
+  Model& model_;
+  Materials& numbers_;
+  std::vector<Floats> colors_{};  // of the library's materials
+  // The material being read:
+  std::string current_{};
+  Floats diffuse_ = kNoColor, ambient_ = kNoColor, specular_ = kNoColor, emitted_ = kNoColor;
+  double shininess_ = 0;
+  bool is_textured_ = false;
 
   void read() {
     for (bool is_there = true; is_there; is_there = text_.next_line()) {
@@ -49,14 +56,12 @@ class MtlReader {
     }
     finish();
     scale_colors(model_, colors_, 1);
-    ModelMaterial* material = model_.materials.data() + model_.materials.size() - colors_.size();
-    for (const auto& [red, green, blue] : colors_) {
-      if (!std::isnan(red)) material->color = Vec3{red, green, blue};
-      ++material;
-    }
+    const std::size_t first = model_.materials.size() - colors_.size();
+    for (std::size_t i = 0; i < colors_.size(); ++i)
+      if (const auto [red, green, blue] = colors_[i]; !std::isnan(red))
+        model_.materials[first + i].color = Vec3{red, green, blue};
   }
 
- private:
   /// The color of a line with three numbers, or with one for all channels.
   Floats color() {
     std::string_view word = text_.word();
@@ -91,23 +96,24 @@ class MtlReader {
     diffuse_ = ambient_ = specular_ = emitted_ = kNoColor;
     shininess_ = is_textured_ = 0;
   }
-
-  std::string name_;
-  ModelText text_;
-  Model& model_;
-  Materials& numbers_;
-  std::vector<Floats> colors_;  // of the library's materials
-  // The material being read:
-  std::string current_;
-  Floats diffuse_ = kNoColor, ambient_ = kNoColor, specular_ = kNoColor, emitted_ = kNoColor;
-  double shininess_ = 0;
-  bool is_textured_ = false;
 };
 
-class ObjReader {
- public:
-  ObjReader(std::string_view bytes, ModelFiles& files, Model& model)
-      : text_(model.name, bytes), files_(files), model_(model) {}
+struct ObjReader {
+  ModelText text_;
+  ModelFiles& files_;
+  Model& model_;
+  std::vector<Floats> normals_{};
+  std::set<const char*> libraries_{};  // that were read
+  std::set<std::string> missing_{};    // named in notes
+  bool lacks_library_ = false, is_open_ = false, has_early_faces_ = false;
+  std::uint64_t surface_ = 1;
+  std::string name_ = "defaultobject";
+  Materials materials_{};
+  Materials::iterator material_ = materials_.try_emplace("").first;
+  std::vector<Materials::iterator> mesh_materials_{};
+  // The face being read:
+  std::vector<std::uint32_t> corners_{}, corner_normals_{}, triangles_{};
+  std::vector<Vec3> polygon_{};
 
   void read() {
     for (bool is_there = true; is_there; is_there = text_.next_line()) {
@@ -142,10 +148,16 @@ class ObjReader {
     }
     if (has_early_faces_ && !normals_.empty())
       model_.note("faces come before their normals, which are made anew");
-    find_materials();
+    // The libraries of materials may be named anywhere.
+    std::string missing;
+    for (std::size_t i = 0; i < mesh_materials_.size(); ++i) {
+      model_.meshes[i].material = mesh_materials_[i]->second;
+      if (!mesh_materials_[i]->second) missing = mesh_materials_[i]->first;
+    }
+    if (!missing.empty() && !lacks_library_)
+      model_.note("its material " + pipeline::quoted(missing) + " is missing: its faces get the usual color");
   }
 
- private:
   /// Reads x y z, perhaps a weight, and perhaps a color.
   void read_vertex() {
     std::array<std::string_view, 7> words;
@@ -236,17 +248,6 @@ class ObjReader {
     return model_.meshes.back();
   }
 
-  /// Gives the meshes their materials, whose library may be named anywhere.
-  void find_materials() {
-    std::string missing;
-    for (std::size_t i = 0; i < mesh_materials_.size(); ++i) {
-      model_.meshes[i].material = mesh_materials_[i]->second;
-      if (!mesh_materials_[i]->second) missing = mesh_materials_[i]->first;
-    }
-    if (!missing.empty() && !lacks_library_)
-      model_.note("its material " + pipeline::quoted(missing) + " is missing: its faces get the usual color");
-  }
-
   /// Reads the libraries that a line names: one, perhaps in quotes and with blanks, or several.
   void read_libraries() {
     std::string names(text_.rest_of_line());
@@ -265,31 +266,16 @@ class ObjReader {
 
   bool read_library(const std::string& name) {
     const std::optional<std::string_view> bytes = files_.read(name);
-    if (bytes && libraries_.insert(bytes->data()).second) MtlReader(name, *bytes, model_, materials_).read();
+    if (bytes && libraries_.insert(bytes->data()).second)
+      MtlReader{name, {name, *bytes}, model_, materials_}.read();
     return bytes.has_value();
   }
-
-  ModelText text_;
-  ModelFiles& files_;
-  Model& model_;
-  std::vector<Floats> normals_;
-  std::set<const char*> libraries_;  // that were read
-  std::set<std::string> missing_;    // named in notes
-  bool lacks_library_ = false, is_open_ = false, has_early_faces_ = false;
-  std::uint64_t surface_ = 1;
-  std::string name_ = "defaultobject";
-  Materials materials_;
-  Materials::iterator material_ = materials_.try_emplace("").first;
-  std::vector<Materials::iterator> mesh_materials_;
-  // The face being read:
-  std::vector<std::uint32_t> corners_, corner_normals_, triangles_;
-  std::vector<Vec3> polygon_;
 };
 
 }  // namespace
 
 void read_obj(std::string_view bytes, ModelFiles& files, Model& model) {
-  ObjReader(bytes, files, model).read();
+  ObjReader{{model.name, bytes}, files, model}.read();
 }
 
 }  // namespace pipeline

@@ -47,47 +47,55 @@ struct Property {
 struct Element {
   std::string_view name;
   std::uint64_t count;
-  std::vector<Property> properties;
+  std::vector<Property> properties{};
+  std::array<double, kSlotCount> full{};  // the value for white; 0 if no property has this slot
 
-  [[nodiscard]] const Property* find(Slot slot) const {
-    const auto found = std::ranges::find(properties, slot, &Property::slot);
-    return found == properties.end() ? nullptr : &*found;
-  }
   /// Of the three slots from `first` on, the count of those with a property.
   [[nodiscard]] int count_of_three(std::size_t first) const {
-    return !!find(Slot(first)) + !!find(Slot(first + 1)) + !!find(Slot(first + 2));
+    return (full[first] > 0) + (full[first + 1] > 0) + (full[first + 2] > 0);
   }
 };
 
-class PlyReader {
- public:
-  PlyReader(std::string_view bytes, Model& model) : text_(model.name, bytes), model_(model) {}
+struct PlyReader {
+  static constexpr auto kRestart = std::numeric_limits<std::uint32_t>::max();  // ends a strip in a list
+  ModelText text_;
+  Model& model_;
+  ModelMesh& mesh_ = model_.add_mesh("");
+  bool is_text_ = true, is_big_endian_ = false;
+  std::optional<std::size_t> vertex_count_{};  // in the file; points may have copies for colors of faces
+  double full_color_ = 1;
+  std::vector<Element> elements_{};
+  std::vector<Floats> normals_{};
+  // The record being read:
+  std::string_view word_{};
+  std::array<double, kSlotCount> record_{};
+  std::vector<std::uint32_t> indices_{};
 
   void read() {
     read_header();
-    mesh_ = &model_.add_mesh("");
     const ModelText begin = text_;
     const auto vertices = std::ranges::find(elements_, "vertex", &Element::name);
     if (vertices == elements_.end()) model_.fail("an element vertex", "none");
     for (auto e = elements_.begin(); e != vertices; ++e) read_records(*e, [] {});
     read_vertices(*vertices);
     // Faces before the vertices are read after them.
-    const bool is_first = vertices == elements_.begin();
-    if (!is_first) text_ = begin;
-    for (auto e = is_first ? vertices + 1 : elements_.begin(); e != elements_.end(); ++e)
-      if (e->name == "face" || e->name == "tristrips")
-        read_faces(*e);
+    if (vertices == elements_.begin())
+      vertices->count = 0;
+    else
+      text_ = begin;
+    for (const Element& e : elements_)
+      if (e.name == "face" || e.name == "tristrips")
+        read_faces(e);
       else
-        read_records(*e, [] {});
+        read_records(e, [] {});
     if (is_text_ ? !text_.word_of_any_line().empty() : !text_.rest().empty())
       model_.note("more follows its last element: left out");
     if (!model_.colors.empty()) scale_colors(model_, model_.colors, full_color_);
-    mesh_->has_colors = !model_.colors.empty();
-    for (const std::uint32_t corner : mesh_->corners)
-      if (!normals_.empty()) mesh_->normals.push_back(normals_[corner]);
+    mesh_.has_colors = !model_.colors.empty();
+    for (const std::uint32_t corner : mesh_.corners)
+      if (!normals_.empty()) mesh_.normals.push_back(normals_[corner]);
   }
 
- private:
   void read_header() {
     for (std::string_view word; word != "end_header";) {
       word = text_.word();
@@ -99,7 +107,7 @@ class PlyReader {
           text_.fail(form, "ascii, binary_little_endian or binary_big_endian");
       } else if (word == "element") {
         const std::string_view name = text_.word(), count = text_.word();
-        elements_.push_back({name, 0, {}});
+        elements_.push_back({name, 0});
         if (!parse_count(count, elements_.back().count)) text_.fail(count, "a count");
         if (name == "edge") model_.unheld.insert("points and lines");
       } else if (word == "property" && !elements_.empty()) {
@@ -111,6 +119,7 @@ class PlyReader {
         property.slot = slot_of(text_.word(), is_list);
         const std::string_view name = elements_.back().name;
         elements_.back().properties.push_back(property);
+        elements_.back().full[property.slot] = property.type.full;
         if (property.slot == kIndices && name != "face" && name != "tristrips" && name != "edge")
           model_.unheld.insert("element " + pipeline::quoted(name));
       } else if (word == "comment" || word == "obj_info") {
@@ -175,14 +184,14 @@ class PlyReader {
   void read_list(const Property& p, bool may_restart) {
     const double count = next(*p.count_type, true);
     if (!(count >= 0 && count < 0x1p53) || count != std::floor(count)) fail("a count", count);
-    const bool are_indices = p.slot == kIndices && has_points_;
+    const bool are_indices = p.slot == kIndices && vertex_count_;
     if (are_indices) indices_.clear();
     for (auto left = static_cast<std::uint64_t>(count); left > 0; --left) {
       const double index = next(p.type, are_indices);
       if (!are_indices) continue;
       const bool is_restart = may_restart && (index == -1 || index == kRestart);
       const bool is_index =
-          index >= 0 && index < static_cast<double>(vertex_count_) && index == std::floor(index);
+          index >= 0 && index < static_cast<double>(*vertex_count_) && index == std::floor(index);
       if (!is_index && !is_restart) fail("the index of a vertex", index);
       indices_.push_back(is_restart ? kRestart : static_cast<std::uint32_t>(index));
     }
@@ -196,22 +205,19 @@ class PlyReader {
   bool find_colors(const Element& element) {
     const int count = element.count_of_three(kRed);
     if (count == 1 || count == 2) model_.note(kPartlyColored);
-    if (count == 3) full_color_ = element.find(kRed)->type.full;
+    if (count == 3) full_color_ = element.full[kRed];
     return count == 3;
   }
 
   void read_vertices(const Element& element) {
     if (element.count_of_three(kX) < 3) model_.fail("the properties x, y and z of element vertex", "others");
     const bool has_normals = element.count_of_three(kNormal) == 3, has_colors = find_colors(element);
-    const Property* const alpha = element.find(kAlpha);
-    const double opaque = alpha ? alpha->type.full : 0;
     read_records(element, [&] {
       model_.points.push_back(three(kX));
       if (has_normals) normals_.push_back(floats(three(kNormal)));
       if (has_colors) model_.colors.push_back(file_color(three(kRed)));
-      if (record_[kAlpha] < opaque) model_.unheld.insert("transparency");
+      if (record_[kAlpha] < element.full[kAlpha]) model_.unheld.insert("transparency");
     });
-    has_points_ = true;
     vertex_count_ = model_.points.size();
   }
 
@@ -225,7 +231,7 @@ class PlyReader {
       if (!are_strips) add_face();
       while (are_strips && !rest.empty()) {
         const auto size = static_cast<std::size_t>(std::ranges::find(rest, kRestart) - rest.begin());
-        append_strip(rest.first(size), false, mesh_->corners);
+        append_strip(rest.first(size), false, mesh_.corners);
         rest = rest.subspan(std::min(size + 1, rest.size()));
       }
       indices_.clear();
@@ -238,12 +244,13 @@ class PlyReader {
       std::vector<std::uint32_t> triangles;
       for (const std::uint32_t i : indices_) polygon.push_back(model_.points[i]);
       if (!append_triangles(polygon, triangles)) fail(kPolygon, static_cast<double>(indices_.size()));
-      for (const std::uint32_t i : triangles) mesh_->corners.push_back(indices_[i]);
-    } else if (indices_.size() == 3) {
-      mesh_->corners.insert(mesh_->corners.end(), indices_.begin(), indices_.end());
-    } else if (!indices_.empty()) {
-      model_.unheld.insert("points and lines");
+      for (std::uint32_t& i : triangles) i = indices_[i];
+      indices_ = triangles;
     }
+    if (indices_.size() >= 3)
+      mesh_.corners.insert(mesh_.corners.end(), indices_.begin(), indices_.end());
+    else if (!indices_.empty())
+      model_.unheld.insert("points and lines");
   }
 
   /// Replaces the corners of a face by copies with its color.
@@ -258,27 +265,12 @@ class PlyReader {
       model_.points.push_back(p);
     }
   }
-
-  static constexpr auto kRestart = std::numeric_limits<std::uint32_t>::max();
-
-  ModelText text_;
-  Model& model_;
-  ModelMesh* mesh_ = nullptr;
-  bool is_text_ = true, is_big_endian_ = false, has_points_ = false;
-  std::size_t vertex_count_ = 0;  // in the file; points may have copies for colors of faces
-  double full_color_ = 1;
-  std::vector<Element> elements_;
-  std::vector<Floats> normals_;
-  // The record being read:
-  std::string_view word_;
-  std::array<double, kSlotCount> record_{};
-  std::vector<std::uint32_t> indices_;
 };
 
 }  // namespace
 
 void read_ply(std::string_view bytes, Model& model) {
-  PlyReader(bytes, model).read();
+  PlyReader{{model.name, bytes}, model}.read();
 }
 
 }  // namespace pipeline
