@@ -31,8 +31,7 @@ struct Run {
 };
 
 Run run(std::vector<std::string> words) {
-  // A sanitizer ends a tool by a signal, which mesh2scene tells from an error of its own. What assimp has not
-  // freed at the end of a process does not matter.
+  // A sanitizer ends a tool by a signal. What mesh2scene never frees does not matter.
   ::setenv("ASAN_OPTIONS", "abort_on_error=1:detect_leaks=0", 1);
   const TextFile out(""), messages("");
   std::vector<char*> argv;
