@@ -60,8 +60,6 @@ class UncertainView {
   [[nodiscard]] UncertainTriangle triangle(const TriangleBatch& p_ndc, std::size_t index) const;
   /// Bounds on the depth (see UncertainTriangle) of a depth in NDC.
   [[nodiscard]] std::array<double, 2> depths_at(double z) const;
-  /// The depth before which nothing is seen, and the depth beyond which nothing is cut.
-  [[nodiscard]] const std::array<double, 2>& front() const { return front_; }
 
  private:
   struct Corners;
@@ -84,8 +82,8 @@ class UncertainView {
   bool is_perspective_;
   double near_ = 0, far_ = 0;
   std::array<Axis, 2> axes_ = {};
-  double least_shown_w_ = 1;  // no true point with less w can be seen
-  std::array<double, 2> front_ = {};
+  double least_shown_w_ = 1;          // no true point with less w can be seen
+  std::array<double, 2> front_ = {};  // depths: nearer ones are not seen, and farther ones are never cut
 };
 
 }  // namespace pipeline
