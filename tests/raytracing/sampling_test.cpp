@@ -101,13 +101,6 @@ TEST(SampleOrder, HasEverySampleOnce) {
   }
 }
 
-TEST(ColorMean, IsRoundedHalvesUp) {
-  ColorMean colors;
-  for (const Color color : {Color{0, 1, 255}, Color{1, 1, 255}, Color{0, 2, 254}, Color{1, 2, 255}})
-    colors.add(color);
-  EXPECT_EQ(colors.mean(), Color(1, 2, 255));
-}
-
 TEST(LargestDifference, IsThatOfTheChannelThatDiffersMostOrOfAlpha) {
   const std::vector<Color> colors = {{10, 20, 30}, {12, 90, 0}, {11, 0, 255}};
   EXPECT_EQ(largest_difference(std::span(colors).first(1)), 0);
@@ -142,13 +135,6 @@ TEST(ColorMean, IsThatOfTheRegularSamples) {
       expect_mean_of_downsampler(samples, background);
     }
   }
-}
-
-TEST(ColorMean, OfAnInvisibleBackgroundAndASurfaceHasTheColorOfTheSurface) {
-  ColorMean mean;
-  for (const Color color : {Color(9, 9, 9).with_alpha(0), Color(200, 100, 50), Color(9, 9, 9).with_alpha(0)})
-    mean.add(color);
-  EXPECT_EQ(mean.mean(), Color(200, 100, 50).with_alpha(85));
 }
 
 }  // namespace
