@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "libpipeline/picture/image_formats.h"
@@ -31,33 +32,73 @@ bool can_seek(int descriptor) {
   return flags >= 0 && (flags & O_APPEND) == 0 && ::lseek(descriptor, 0, SEEK_CUR) == 0;
 }
 
-/// Writes four pixels, blue, green and red each, to `out`; returns their end. Processors are little-endian
-/// (eight_digits.h).
-char* append_four(const Color* colors, char* out) {
-  const std::uint32_t a = colors[0].rgb(), b = colors[1].rgb(), c = colors[2].rgb(), d = colors[3].rgb();
-  for (const std::uint32_t bytes : {a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8}) {
-    std::memcpy(out, &bytes, sizeof bytes);
-    out += sizeof bytes;
-  }
-  return out;
-}
-
 class BmpWriter final : public ImageWriter {
  public:
-  BmpWriter(int descriptor, const std::string& path, int columns, int rows);
+  BmpWriter(int descriptor, const std::string& path, int columns, int rows)
+      : descriptor_(descriptor),
+        path_(path),
+        columns_(static_cast<std::size_t>(columns)),
+        rows_(static_cast<std::size_t>(rows)),
+        row_size_(row_size(columns)),
+        can_seek_(can_seek(descriptor)) {
+    check_bmp_size(path, columns, rows);
+    write_header();
+    const std::size_t rows_at_once = std::clamp<std::size_t>(kBlockSize / row_size_, 1, rows_);
+    block_.resize(row_size_ * (can_seek_ ? rows_at_once : rows_));
+  }
 
-  void write_row(std::span<const Color> colors) override;
-  void finish() override;
+  void write_row(std::span<const Color> colors) override {
+    assert(colors.size() == columns_);
+    if (buffered_row_count_ == block_rows()) write_block();
+    char* out = block_.data() + row_size_ * (block_rows() - ++buffered_row_count_);
+    // Blue, green, red, as processors are little-endian (eight_digits.h); the next color replaces a fourth
+    // byte.
+    for (const Color color : colors.first(columns_ - 1)) {
+      std::memcpy(out, &color, sizeof color);
+      out += 3;
+    }
+    std::memcpy(out, &colors.back(), 3);
+  }
+  void finish() override {
+    write_block();
+    assert(written_row_count_ == rows_);
+  }
 
  private:
   [[nodiscard]] std::size_t block_rows() const { return block_.size() / row_size_; }
-  void write_header();
-  void write_block();
+
+  // T24
+  void write_header() {
+    constexpr auto kHeader = static_cast<std::uint32_t>(kHeaderSize);
+    const auto pixels_size = static_cast<std::uint32_t>(row_size_ * rows_);
+    const std::array<std::uint32_t, 13> numbers = {
+        kHeader + pixels_size,
+        0,        // reserved
+        kHeader,  // where the pixels start
+        40,       // size of the second header, BITMAPINFOHEADER
+        static_cast<std::uint32_t>(columns_),
+        static_cast<std::uint32_t>(rows_),  // positive: from the bottom
+        1 | 24 << 16,                       // planes, bits per pixel
+        0,                                  // not compressed
+        pixels_size,
+    };  // unspecified, 0: pixels per meter in x and y, palette size, important colors
+    std::string header = "BM";
+    header.append(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
+    write_all(descriptor_, header, path_);
+  }
+
+  void write_block() {
+    const std::size_t size = buffered_row_count_ * row_size_;
+    written_row_count_ += std::exchange(buffered_row_count_, 0);
+    const std::size_t position = kHeaderSize + (rows_ - written_row_count_) * row_size_;
+    if (can_seek_ && ::lseek(descriptor_, static_cast<off_t>(position), SEEK_SET) < 0)
+      throw IoError("write", path_, errno);
+    write_all(descriptor_, {block_.data() + block_.size() - size, size}, path_);
+  }
 
   int descriptor_;
   std::string path_;
-  int columns_;
-  int rows_;
+  std::size_t columns_, rows_;
   std::size_t row_size_;  // bytes, padding included
   bool can_seek_;
   // Rows not yet written, in the order of the file, so filled from the end.
@@ -65,68 +106,6 @@ class BmpWriter final : public ImageWriter {
   std::size_t buffered_row_count_ = 0;
   std::size_t written_row_count_ = 0;
 };
-
-BmpWriter::BmpWriter(int descriptor, const std::string& path, int columns, int rows)
-    : descriptor_(descriptor),
-      path_(path),
-      columns_(columns),
-      rows_(rows),
-      row_size_(row_size(columns)),
-      can_seek_(can_seek(descriptor)) {
-  check_bmp_size(path, columns, rows);
-  write_header();
-  const std::size_t all_rows = static_cast<std::size_t>(rows);
-  const std::size_t rows_at_once = std::clamp<std::size_t>(kBlockSize / row_size_, 1, all_rows);
-  block_.resize(row_size_ * (can_seek_ ? rows_at_once : all_rows));
-}
-
-// T24
-void BmpWriter::write_header() {
-  const auto pixels_size = static_cast<std::uint32_t>(row_size_ * static_cast<std::size_t>(rows_));
-  const auto header_size = static_cast<std::uint32_t>(kHeaderSize);
-  const std::array<std::uint32_t, 13> numbers = {
-      header_size + pixels_size,
-      0,            // reserved
-      header_size,  // where the pixels start
-      40,           // size of the second header, BITMAPINFOHEADER
-      static_cast<std::uint32_t>(columns_),
-      static_cast<std::uint32_t>(rows_),  // positive: from the bottom
-      1 | 24 << 16,                       // planes, bits per pixel
-      0,                                  // not compressed
-      pixels_size,
-  };  // unspecified, 0: pixels per meter in x and y, palette size, important colors
-  std::string header = "BM";
-  header.append(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
-  write_all(descriptor_, header, path_);
-}
-
-void BmpWriter::write_row(std::span<const Color> colors) {
-  assert(colors.size() == static_cast<std::size_t>(columns_));
-  if (buffered_row_count_ == block_rows()) write_block();
-  char* out = block_.data() + row_size_ * (block_rows() - ++buffered_row_count_);
-  for (; colors.size() >= 4; colors = colors.subspan(4)) out = append_four(colors.data(), out);
-  for (const Color color : colors) {
-    *out++ = static_cast<char>(color.blue());
-    *out++ = static_cast<char>(color.green());
-    *out++ = static_cast<char>(color.red());
-  }
-}
-
-void BmpWriter::write_block() {
-  const std::size_t size = buffered_row_count_ * row_size_;
-  written_row_count_ += buffered_row_count_;
-  buffered_row_count_ = 0;
-  const std::size_t rows_below = static_cast<std::size_t>(rows_) - written_row_count_;
-  if (can_seek_ &&
-      ::lseek(descriptor_, static_cast<off_t>(kHeaderSize + rows_below * row_size_), SEEK_SET) < 0)
-    throw IoError("write", path_, errno);
-  write_all(descriptor_, {block_.data() + block_.size() - size, size}, path_);
-}
-
-void BmpWriter::finish() {
-  write_block();
-  assert(written_row_count_ == static_cast<std::size_t>(rows_));
-}
 
 }  // namespace
 
