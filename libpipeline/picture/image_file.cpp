@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <filesystem>
-#include <utility>
 
 #include "libpipeline/picture/image_formats.h"
 #include "libpipeline/scene/spelling.h"
@@ -12,32 +11,6 @@
 
 namespace pipeline {
 namespace {
-
-/// Writes formats with rows from the top and red first, by a writer of bytes.
-class RgbWriter final : public ImageWriter {
- public:
-  RgbWriter(std::unique_ptr<ByteWriter> rows, bool has_alpha)
-      : rows_(std::move(rows)), has_alpha_(has_alpha) {}
-
-  void write_row(std::span<const Color> colors) override {
-    const bool has_alpha = has_alpha_;  // a copy: bytes that are written do not change it
-    bytes_.resize((has_alpha ? 4 : 3) * colors.size());
-    unsigned char* out = bytes_.data();
-    for (const Color color : colors) {
-      *out++ = color.red();
-      *out++ = color.green();
-      *out++ = color.blue();
-      if (has_alpha) *out++ = color.alpha();
-    }
-    rows_->write_row(bytes_);
-  }
-  void finish() override { rows_->finish(); }
-
- private:
-  std::unique_ptr<ByteWriter> rows_;
-  bool has_alpha_;
-  std::vector<unsigned char> bytes_;
-};
 
 // The last needs libpng.
 constexpr std::array<std::string_view, 3> kExtensions = {".bmp", ".ppm", ".png"};
@@ -99,7 +72,15 @@ std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& pat
   if (format == ".bmp") return bmp_writer(descriptor, file, columns, rows);
   const auto byte_writer = format == ".png" ? png_writer : netpbm_writer;
   const PixelBytes pixels = has_alpha ? PixelBytes::rgba8 : PixelBytes::rgb8;
-  return std::make_unique<RgbWriter>(byte_writer(descriptor, file, pixels, columns, rows), has_alpha);
+  const auto convert = [has_alpha](Color color, unsigned char* out) {
+    *out++ = color.red();
+    *out++ = color.green();
+    *out++ = color.blue();
+    if (has_alpha) *out++ = color.alpha();
+    return out;
+  };
+  return std::make_unique<ConvertingWriter<Color, decltype(convert)>>(
+      byte_writer(descriptor, file, pixels, columns, rows), convert);
 }
 
 std::string extension_of(const std::string& path) {
