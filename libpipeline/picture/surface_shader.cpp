@@ -19,18 +19,6 @@ SurfacePoint middle(const std::array<SurfacePoint, 3>& p) {
           mean(Triangle{p[0].color, p[1].color, p[2].color}, kEqual)};
 }
 
-/// Gives every corner the normal of the triangle.
-void use_face_normal(std::array<SurfacePoint, 3>& corners) {
-  const Vec3 normal = face_normal({corners[0].position, corners[1].position, corners[2].position});
-  for (SurfacePoint& corner : corners) corner.normal = normal;
-}
-
-/// The index of the first pixel that shows a surface; the number of pixels if none does.
-std::size_t first_surface(std::span<const SurfaceShader::SurfaceId> ids) {
-  const auto is_surface = [](SurfaceShader::SurfaceId id) { return id != SurfaceShader::kNoSurface; };
-  return static_cast<std::size_t>(std::ranges::find_if(ids, is_surface) - ids.begin());
-}
-
 }  // namespace
 
 /// The triangle with its attributes; for a piece, the triangle it was clipped from.
@@ -40,6 +28,8 @@ SurfaceShader::KeptTriangle SurfaceShader::unclipped(const TriangleBatch& p_ndc,
   const ClipTriangle* const whole = p_ndc.unclipped_of(index);
   KeptTriangle kept;
   kept.is_divided = whole == nullptr;
+  kept.has_normals = !attributes.normals.empty();
+  if (!attributes.materials.empty()) kept.material = attributes.materials[index];
   if (whole != nullptr)
     kept.corners = *whole;
   else
@@ -55,32 +45,29 @@ SurfaceShader::KeptTriangle SurfaceShader::unclipped(const TriangleBatch& p_ndc,
 }
 
 SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
-  const KeptTriangle kept = unclipped(p_ndc, index, own_color);
-  has_normals_ = !p_ndc.attributes.normals.empty();
-  triangles_.push_back(kept);
-  if (setup_.materials.size() > 1 && !p_ndc.attributes.materials.empty())
-    materials_.push_back(p_ndc.attributes.materials[index]);
+  triangles_.push_back(unclipped(p_ndc, index, own_color));
   assert(triangles_.size() < kNoSurface);
   return static_cast<SurfaceId>(triangles_.size() - 1);
 }
 
 const SurfaceShader::Surface& SurfaceShader::surface(SurfaceId id, Worker& worker) const {
   CachedSurface& cached = worker.cache[id % worker.cache.size()];
-  if (cached.id != id)
-    cached = {id, made_surface(triangles_[id], has_normals_, materials_.size() == 0 ? 0 : materials_[id])};
+  if (cached.id != id) cached = {id, made_surface(triangles_[id])};
   return cached.surface;
 }
 
-SurfaceShader::Surface SurfaceShader::made_surface(const KeptTriangle& kept, bool has_normals,
-                                                   std::uint32_t material) const {
-  Surface surface = {CornerWeights(grid_, kept.corners, kept.is_divided), {}, material};
+SurfaceShader::Surface SurfaceShader::made_surface(const KeptTriangle& kept) const {
+  Surface surface = {CornerWeights(grid_, kept.corners, kept.is_divided), {}, kept.material};
   for (std::size_t v = 0; v < 3; ++v) {
     const auto& [p, w, color, normal] = kept.corners[v];
     const Vec3 p_clip = kept.is_divided ? scaled(p, w) : p;
     const Vec3 p_view = setup_.view_from_clip ? (*setup_.view_from_clip)(p_clip, w) : Vec3();
     surface.corners[v] = {p_view, normal, color};
   }
-  if (!has_normals || setup_.model == ShadingModel::flat) use_face_normal(surface.corners);
+  auto& [a, b, c] = surface.corners;
+  surface.greatest_channel = largest_in(BoundingBox({a.color, b.color, c.color}).high);
+  if (!kept.has_normals || setup_.model == ShadingModel::flat)
+    a.normal = b.normal = c.normal = face_normal({a.position, b.position, c.position});
   light_corners(surface);
   return surface;
 }
@@ -88,16 +75,18 @@ SurfaceShader::Surface SurfaceShader::made_surface(const KeptTriangle& kept, boo
 void SurfaceShader::keep(const KeptIds& kept) {
   assert(kept.size() == triangles_.size());
   triangles_.keep(kept);
-  materials_.keep(kept);
   for (Worker& worker : workers_) worker.cache.clear(), worker.dark_pixels.clear(), worker.seen.clear();
 }
 
 void SurfaceShader::light_corners(Surface& surface) const {
+  const auto lit = [&](const SurfacePoint& point) {
+    return lit_color(point, setup_.lighting, setup_.materials[surface.material]);
+  };
   if (setup_.model == ShadingModel::flat) {
-    const Vec3 color = lit_color_of(middle(surface.corners), surface);
+    const Vec3 color = lit(middle(surface.corners));
     for (SurfacePoint& corner : surface.corners) corner.color = color;
   } else if (setup_.model == ShadingModel::gouraud) {
-    for (SurfacePoint& corner : surface.corners) corner.color = clamped_color(lit_color_of(corner, surface));
+    for (SurfacePoint& corner : surface.corners) corner.color = clamped_color(lit(corner));
   }
 }
 
@@ -105,19 +94,21 @@ std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> 
   Worker& worker = workers_[static_cast<std::size_t>(number)];
   worker.row.resize(ids.size() + kMaxLanesShaded);  // the last run may write beyond the row
   if (worker.cache.empty()) worker.cache.resize(std::min(std::bit_ceil(ids.size()), kMaxCached));
-  const std::size_t first = first_surface(ids);
-  std::fill_n(worker.row.begin(), first, setup_.background);
-  if (first < ids.size()) worker.shown.has_surface = true;
   const bool is_looking =
       !worker.shown.is_varied ||
       (row % row_stride() == 0 && static_cast<double>(worker.shown.visible) < enough_visible());
   // Neighbors mostly show the same triangle, so it is looked up once.
-  for (std::size_t column = first, end; column < ids.size(); column = end) {
-    end = column + 1;
-    while (end < ids.size() && ids[end] == ids[column]) ++end;
-    shade_columns(row, column, end, ids[column], worker);
-    if (is_looking && ids[column] != kNoSurface)
-      look_at_run(ids[column], std::span(worker.row).subspan(column, end - column), worker);
+  for (std::size_t column = 0, end; column < ids.size(); column = end) {
+    const SurfaceId id = ids[column];
+    for (end = column + 1; end < ids.size() && ids[end] == id;) ++end;
+    const std::span<Color> run(worker.row.data() + column, end - column);
+    if (id == kNoSurface) {
+      std::ranges::fill(run, setup_.background);
+      continue;
+    }
+    worker.shown.has_surface = true;
+    shade_run(surface(id, worker), row, static_cast<int>(column), static_cast<int>(run.size()), run.data());
+    if (is_looking) look_at_run(id, run, worker);
   }
   worker.row.resize(ids.size());
   return worker.row;
@@ -145,22 +136,30 @@ ShownColors SurfaceShader::shown() const {
   for (const Worker& worker : workers_) all.add(worker.shown);
   // If enough is visible, no reasons for black pixels are needed.
   if (static_cast<double>(all.visible) >= enough_visible()) return all;
-  Worker alone = {std::vector<CachedSurface>(1), {}, {}, {}, {}};
   for (const Worker& worker : workers_)
     for (std::size_t id = 0; id < worker.dark_pixels.size(); ++id)
       if (const std::uint32_t count = worker.dark_pixels[id]; count > 0)
-        all.add(dark_surface(triangles_[id], surface(static_cast<SurfaceId>(id), alone)), count,
-                setup_.lighting, is_lit());
+        all.add(dark_surface(made_surface(triangles_[id])), count, setup_.lighting, is_lit());
   return all;
 }
 
-DarkSurface SurfaceShader::dark_surface(const KeptTriangle& kept, const Surface& surface) const {
-  double greatest = 0;
-  for (const VertexLine& corner : kept.corners)
-    greatest = std::max({greatest, corner.color.x, corner.color.y, corner.color.z});
-  if (!is_lit()) return {greatest};
-  const double light = light_in_front_of(surface);
-  return {greatest, setup_.materials[surface.material], light, light};
+DarkSurface SurfaceShader::dark_surface(const Surface& surface) const {
+  DarkSurface dark = {surface.greatest_channel};
+  if (!is_lit()) return dark;
+  dark.material = setup_.materials[surface.material];
+  const Lighting& lighting = setup_.lighting;
+  std::array<SurfacePoint, 3> points = surface.corners;
+  if (setup_.model == ShadingModel::flat) points.fill(middle(points));
+  for (const SurfacePoint& point : points) {
+    const Vec3& p = point.position;
+    const Vec3 to_eye = lighting.is_perspective ? unit_vector(scaled(p, -1)) : Vec3{0, 0, 1};
+    lit_color(point, lighting, {}, to_eye, [&](std::size_t number) {
+      const Light& light = lighting.lights[number];
+      dark.light_in_front = dark.light_arriving = std::max(dark.light_in_front, largest_in(light.intensity));
+      return Vec3();
+    });
+  }
+  return dark;
 }
 
 bool SurfaceShader::is_plane() const {
@@ -181,33 +180,6 @@ bool SurfaceShader::is_plane() const {
       if (std::fabs(dot(normal, corner) - offset) > kFlat) return false;
   }
   return true;
-}
-
-/// The greatest intensity, without attenuation, of the lights in front of a surface: those that would light
-/// it, if white, at its one lit point or any corner.
-double SurfaceShader::light_in_front_of(const Surface& surface) const {
-  std::array<SurfacePoint, 3> points = surface.corners;
-  if (setup_.model == ShadingModel::flat) points.fill(middle(points));
-  for (SurfacePoint& point : points) point.color = {1, 1, 1};
-  Lighting alone;
-  alone.is_perspective = setup_.lighting.is_perspective;
-  double greatest = 0;
-  for (const Light& light : setup_.lighting.lights) {
-    alone.lights = {{light.position, {1, 1, 1}}};
-    if (std::ranges::any_of(points, [&](const SurfacePoint& point) { return lit_color(point, alone).x > 0; }))
-      greatest = std::max({greatest, light.intensity.x, light.intensity.y, light.intensity.z});
-  }
-  return greatest;
-}
-
-void SurfaceShader::shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id,
-                                  Worker& worker) const {
-  Color* const colors = worker.row.data();
-  if (id == kNoSurface) {
-    std::fill(colors + begin, colors + end, setup_.background);
-    return;
-  }
-  shade_run(surface(id, worker), row, static_cast<int>(begin), static_cast<int>(end - begin), colors + begin);
 }
 
 void SurfaceShader::shade_run(const Surface& surface, int row, int column, int count, Color* colors) const {

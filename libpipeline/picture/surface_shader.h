@@ -45,6 +45,7 @@ class SurfaceShader {
     // In view space; the colors are already lit except for phong shading.
     std::array<SurfacePoint, 3> corners;
     std::uint32_t material = 0;
+    double greatest_channel = 0;  // of its own colors
   };
 
   SurfaceShader(const Viewport& screen, Setup setup) : grid_(screen), setup_(std::move(setup)) {}
@@ -64,17 +65,12 @@ class SurfaceShader {
   // The next three keep no triangles, and may be called on any number of threads at a time.
   /// The surface of a triangle of a batch in NDC; `own_color` is its color if the batch has none.
   [[nodiscard]] Surface surface_of(const TriangleBatch& p_ndc, std::size_t index, Color own_color) const {
-    const AttributeArrays& attributes = p_ndc.attributes;
-    return made_surface(unclipped(p_ndc, index, own_color), !attributes.normals.empty(),
-                        attributes.materials.empty() ? 0 : attributes.materials[index]);
+    return made_surface(unclipped(p_ndc, index, own_color));
   }
   /// The color of a surface at the center of a pixel.
   [[nodiscard]] Color color_at(const Surface& surface, int row, int column) const;
-  /// The data that explain why the triangle's surface looks black.
-  [[nodiscard]] DarkSurface dark_surface(const TriangleBatch& p_ndc, std::size_t index, Color own_color,
-                                         const Surface& surface) const {
-    return dark_surface(unclipped(p_ndc, index, own_color), surface);
-  }
+  /// The data that explain why a surface looks black.
+  [[nodiscard]] DarkSurface dark_surface(const Surface& surface) const;
 
   /// Statistics of the pixels shaded so far; of some of them in a high picture, or once these show enough.
   [[nodiscard]] ShownColors shown() const;
@@ -88,6 +84,8 @@ class SurfaceShader {
   struct KeptTriangle {
     ClipTriangle corners;     // positions in NDC if they are divided by w, else in clip space
     bool is_divided = false;  // false for pieces, whose corners may lie behind the eye
+    bool has_normals = false;
+    std::uint32_t material = 0;
   };
   struct CachedSurface {
     SurfaceId id = kNoSurface;
@@ -103,11 +101,7 @@ class SurfaceShader {
 
   [[nodiscard]] KeptTriangle unclipped(const TriangleBatch& p_ndc, std::size_t index, Color own_color) const;
   [[nodiscard]] const Surface& surface(SurfaceId id, Worker& worker) const;
-  [[nodiscard]] Surface made_surface(const KeptTriangle& kept, bool has_normals,
-                                     std::uint32_t material) const;
-  [[nodiscard]] Vec3 lit_color_of(const SurfacePoint& point, const Surface& surface) const {
-    return lit_color(point, setup_.lighting, setup_.materials[surface.material]);
-  }
+  [[nodiscard]] Surface made_surface(const KeptTriangle& kept) const;
   void light_corners(Surface& surface) const;
   void look_at_run(SurfaceId id, std::span<const Color> colors, Worker& worker) const;
   /// In a tall picture, statistics cover every fourth row.
@@ -117,16 +111,11 @@ class SurfaceShader {
     const int row_count = grid_.rows / row_stride();
     return ShownColors::kVisibleShare * grid_.columns * row_count;
   }
-  [[nodiscard]] DarkSurface dark_surface(const KeptTriangle& kept, const Surface& surface) const;
-  [[nodiscard]] double light_in_front_of(const Surface& surface) const;
-  void shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id, Worker& worker) const;
   void shade_run(const Surface& surface, int row, int column, int count, Color* colors) const;
 
   PixelGrid grid_;
   Setup setup_;
   ChunkedArray<KeptTriangle> triangles_;
-  ChunkedArray<std::uint32_t> materials_;  // of the triangles; empty if all have the same
-  bool has_normals_ = false;
   std::vector<Worker> workers_ = std::vector<Worker>(1);
 };
 

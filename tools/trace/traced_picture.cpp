@@ -107,8 +107,7 @@ class PixelTracer {
     const SurfaceShader& shader = *scene_.shader;
     const Color color = shader.color_at(shown.surface, row, column);
     if (shown_.add(color, scene_.background, shader.is_lit()))
-      shown_.add(shader.dark_surface(scene_.triangles.p_ndc(), seen.id, shown.own_color, shown.surface), 1,
-                 shader.setup().lighting, shader.is_lit());
+      shown_.add(shader.dark_surface(shown.surface), 1, shader.setup().lighting, shader.is_lit());
     return color;
   }
   const CachedSurface& surface(SurfaceId id) {
