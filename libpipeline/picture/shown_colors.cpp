@@ -2,14 +2,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 
 namespace pipeline {
 namespace {
-
-double greatest_of(const Vec3& channels) {
-  return std::max({channels.x, channels.y, channels.z});
-}
 
 /// True if colors differ by at most one step in each channel.
 bool are_alike(Color a, Color b) {
@@ -26,12 +21,11 @@ Darkness reason_of(const DarkSurface& surface, const Lighting& lighting, bool is
   if (*surface.greatest_channel <= kBlackChannel || !is_lit) return Darkness::small_color;
   if (surface.material.diffuse < kLeastDiffuse)
     return surface.material.specular == 0 ? Darkness::no_reflectance : Darkness::highlights_alone;
-  if (std::ranges::all_of(lighting.lights,
-                          [](const Light& light) { return greatest_of(light.intensity) == 0; }))
+  if (std::ranges::all_of(lighting.lights, [](const Light& light) { return light.intensity == Vec3(); }))
     return Darkness::no_intensity;
   if (surface.light_in_front == 0) return Darkness::averted;
   if (surface.light_arriving == 0) return Darkness::in_shadow;
-  if (lighting.attenuation.weakens()) return Darkness::weakened_light;
+  if (lighting.attenuation.weakens() && surface.part_left < kStrongLight) return Darkness::weakened_light;
   if (surface.light_arriving < kStrongLight) return Darkness::weak_light;
   return *surface.greatest_channel <= kDimChannel ? Darkness::small_color : Darkness::grazing_light;
 }
@@ -53,8 +47,9 @@ void ShownColors::add(const DarkSurface& surface, std::uint64_t pixel_count, con
   const Darkness reason = reason_of(surface, lighting, is_lit);
   auto& [count, greatest] = dark[static_cast<std::size_t>(reason)];
   count += pixel_count;
-  greatest = std::max(greatest,
-                      reason == Darkness::small_color ? *surface.greatest_channel : surface.light_arriving);
+  // Without light, a triangle whose greatest channel is beyond this is seen where it is darker.
+  const double channel = std::min(surface.greatest_channel.value_or(0), is_lit ? 255 : kBlackChannel);
+  greatest = std::max(greatest, reason == Darkness::small_color ? channel : surface.light_arriving);
 }
 
 void ShownColors::add(const ShownColors& others) {
@@ -68,12 +63,6 @@ void ShownColors::add(const ShownColors& others) {
   has_surface |= others.has_surface;
   is_varied |= others.is_varied || (first && others.first && *first != *others.first);
   if (!first) first = others.first;
-}
-
-std::uint64_t ShownColors::dark_count() const {
-  std::uint64_t count = 0;
-  for (const Dark& some : dark) count += some.count;
-  return count;
 }
 
 }  // namespace pipeline

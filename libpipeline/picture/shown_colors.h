@@ -47,6 +47,7 @@ struct DarkSurface {
   Material material = {};
   double light_in_front = 0;  // the greatest intensity of the lights in front of it,
   double light_arriving = 0;  // and of their light that arrives at it
+  double part_left = 0;       // the greatest part of such a light that attenuation leaves
   bool has_cut_rays = false;
 };
 
@@ -64,8 +65,11 @@ struct ShownColors {
   bool add(Color color, Color background, bool is_lit);
   void add(const DarkSurface& surface, std::uint64_t pixel_count, const Lighting& lighting, bool is_lit);
   void add(const ShownColors& others);
-  [[nodiscard]] std::uint64_t dark_count() const;
-  [[nodiscard]] std::uint64_t count() const { return visible + as_background + white + dark_count(); }
+  [[nodiscard]] std::uint64_t count() const {
+    std::uint64_t sum = visible + as_background + white;
+    for (const Dark& some : dark) sum += some.count;
+    return sum;
+  }
 
   std::uint64_t visible = 0, as_background = 0;
   std::uint64_t white = 0;                     // white though lit

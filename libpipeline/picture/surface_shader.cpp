@@ -156,6 +156,8 @@ DarkSurface SurfaceShader::dark_surface(const Surface& surface) const {
     lit_color(point, lighting, {}, to_eye, [&](std::size_t number) {
       const Light& light = lighting.lights[number];
       dark.light_in_front = dark.light_arriving = std::max(dark.light_in_front, largest_in(light.intensity));
+      dark.part_left =
+          std::max(dark.part_left, lighting.attenuation.part_left(difference(light.position, p)));
       return Vec3();
     });
   }
@@ -169,15 +171,18 @@ bool SurfaceShader::is_plane() const {
   for (std::size_t id = 0; id < triangles_.size(); ++id) {
     const auto has_seen = [id](const Worker& worker) { return id < worker.seen.size() && worker.seen[id]; };
     if (std::ranges::none_of(workers_, has_seen)) continue;
-    if (!triangles_[id].is_divided) return false;
-    const auto& [a, b, c] = triangles_[id].corners;
-    const Triangle p = {a.position, b.position, c.position};
+    Triangle p;
+    for (std::size_t v = 0; v < 3; ++v) {  // a point behind the eye lies in the plane as well
+      const VertexLine& corner = triangles_[id].corners[v];
+      p[v] = triangles_[id].is_divided ? corner.position : scaled(corner.position, 1 / corner.w);
+    }
     if (normal == Vec3() && face_normal(p) != Vec3()) {
       normal = unit_vector(face_normal(p));
       offset = dot(normal, p[0]);
     }
     for (const Vec3& corner : p)
-      if (std::fabs(dot(normal, corner) - offset) > kFlat) return false;
+      if (!(std::fabs(dot(normal, corner) - offset) <= kFlat * std::max(1.0, largest_in(corner))))
+        return false;
   }
   return true;
 }

@@ -160,6 +160,8 @@ Vec3 LightTransport::part_of_light(const SurfaceHit& hit, std::size_t light, con
   const Vec3 part = setup_.has_shadows ? part_through(hit, from.position) : Vec3{1, 1, 1};
   dark_.light_in_front = std::max(dark_.light_in_front, largest(from.intensity));
   dark_.light_arriving = std::max(dark_.light_arriving, largest(product(part, from.intensity)));
+  const Vec3 way = difference(from.position, hit.point);
+  dark_.part_left = std::max(dark_.part_left, setup_.lighting.attenuation.part_left(way));
   if (!setup_.has_shadows) return part;
   ++counts_.cast[static_cast<std::size_t>(RayKind::shadow)];
   if (log_ == nullptr) return part;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -44,6 +45,11 @@ struct Attenuation {
   double linear = 0;
   double quadratic = 0;
 
+  /// The part of the light that is left after this way.
+  [[nodiscard]] double part_left(const Vec3& way) const {
+    const double squared = way.x * way.x + way.y * way.y + way.z * way.z;
+    return 1 / (constant + linear * std::sqrt(squared) + quadratic * squared);
+  }
   [[nodiscard]] bool weakens() const { return constant > 1 || linear != 0 || quadratic != 0; }
 };
 

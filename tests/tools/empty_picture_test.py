@@ -15,6 +15,11 @@ EMPTY = "zbuf: note: the picture is empty: "
 WILL_BE_EMPTY = "project: note: the picture will be empty: "
 WINDOW = "the window from -1 to 1)"
 LIT = "light 0 0 -9 1 1 1\n"
+BLACK = "zbuf: note: the picture is black: "
+GRAZED = (BLACK + "light only grazes the side that is seen, or is of another color: put a white light in "
+          "front of it")
+CORNER = "triangle\n-1e4 -9 0 0 0 0\n1e4 -9 0 0 0 0\n0 1e5 0 255 255 255\n"
+FLOOR = "".join(f"triangle\n-99 -1 -99\n99 -1 {z}\n{x} -1 99\n" for x, z in ((-99, 99), (99, -99)))
 
 
 def stderr_of(scene, config, options):
@@ -186,6 +191,12 @@ NOTES = [
         "attenuation 1 0 100\nlight 0 0 5 1 1 1\ncolor 200 200 200\n" + TRIANGLE,
         "zbuf: note: the picture is black: the light on the side that is seen is too weak (its intensity is "
         "1, and attenuation weakens it: '1 0 0' would not)"),
+    claim("a light that grazes, hardly weakened",
+          "attenuation 1 0.0001 0\nlight 100 0 0.5 1 1 1\n" + TRIANGLE, GRAZED),
+    claim("a light of another color", "light 0 0 5 1 0 0\ncolor 0 0 200\n" + TRIANGLE, GRAZED),
+    claim("the black corner of a triangle", "attributes color\n" + CORNER,
+          BLACK + "no channel of its colors is above 8, but channels run from 0 to 255"),
+    claim("a floor below the eye", "light 0 1e6 0 1 1 1\ncolor 200 180 0\n" + FLOOR),
     claim(
         "a material of no share", "material 1 0 0 1\nlight 0 0 5 1 1 1\ncolor 200 200 200\n" + TRIANGLE,
         "zbuf: note: the picture is black: the material reflects no light but the ambient (of 'material KA "
@@ -195,7 +206,10 @@ NOTES = [
     claim("the color of the background", "background 255 255 255\ncolor 255 255 255\n" + TRIANGLE,
           EMPTY + "what is seen has the color of the background"),
     claim("no edge in sight", "scale 99 99 1\ntranslate -0.3 -0.3 0\n" + TRIANGLE,
-          EMPTY + "--wireframe shows edges alone, and none is in sight", zbuf=["--wireframe"])]
+          EMPTY + "--wireframe shows edges alone, and none is in sight", zbuf=["--wireframe"]),
+    claim("edges behind a triangle that fills the picture",
+          TRIANGLE + "scale 99 99 1\ntranslate -0.3 -0.3 1\n" + TRIANGLE, config="99 99\n", zbuf=[
+              "--wireframe", "all"])]
 add_claims(Notes, NOTES)
 
 # Samples that show what a note tells of: zbuf draws matt what is glass; 7 digits cannot tell two walls apart.

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/error.h"
@@ -151,14 +152,10 @@ bool is_most(std::uint64_t part, std::uint64_t all) {
   return static_cast<double>(all - part) < ShownColors::kVisibleShare * static_cast<double>(all);
 }
 
-double greatest_of(Vec3 channels) {
-  return std::max({channels.x, channels.y, channels.z});
-}
-
 /// True for whole channels up to 255, one of them too large for an intensity of light.
 bool is_like_color(Vec3 channels) {
   const auto is_whole = [](double channel) { return channel == std::floor(channel); };
-  return greatest_of(channels) >= 32 && greatest_of(channels) <= 255 && is_whole(channels.x) &&
+  return largest_in(channels) >= 32 && largest_in(channels) <= 255 && is_whole(channels.x) &&
          is_whole(channels.y) && is_whole(channels.z);
 }
 
@@ -178,7 +175,7 @@ constexpr std::array<const char*, kDarknessCount> kReasons = {
     "the light on the side that is seen is too weak (its intensity is #; 1 is full)",
     "the light on the side that is seen is too weak (its intensity is #, and attenuation weakens it: '1 0 0' "
     "would not)",
-    "light only grazes the side that is seen: put the light in front of it"};
+    "light only grazes the side that is seen, or is of another color: put a white light in front of it"};
 
 /// "the picture is black: ", or "97.5 % of what is drawn is black: "
 std::string looks(std::uint64_t count, std::uint64_t all, const std::string& color, bool is_picture) {
@@ -189,7 +186,7 @@ std::string looks(std::uint64_t count, std::uint64_t all, const std::string& col
 /// The reason why the drawn surfaces look black; none if enough do not.
 std::optional<std::string> dark_note(const ShownColors& shown, const ColorSetting& setting) {
   constexpr double kBright = 128;  // before this, black surfaces are silhouettes
-  const double background = setting.background.is_opaque() ? greatest_of(to_vec3(setting.background)) : 255;
+  const double background = setting.background.is_opaque() ? largest_in(to_vec3(setting.background)) : 255;
   const auto is_odd = [&](Darkness reason) {
     if (background <= kBlackChannel) return true;
     return reason == Darkness::unit_color || (reason >= Darkness::no_reflectance && background < kBright);
@@ -239,11 +236,11 @@ std::optional<std::string> bright_light_note(const Appearance& appearance) {
            " times full light: 1 is full, so divide by 255 if this is a color";
   };
   if (appearance.ambient && is_like_color(appearance.ambient->value))
-    return note(appearance.ambient->location, "ambient light", greatest_of(appearance.ambient->value));
+    return note(appearance.ambient->location, "ambient light", largest_in(appearance.ambient->value));
   if (appearance.attenuation) return std::nullopt;
   for (const Located<Light>& light : appearance.lights)
     if (is_like_color(light.value.intensity))
-      return note(light.location, "a light", greatest_of(light.value.intensity));
+      return note(light.location, "a light", largest_in(light.value.intensity));
   return std::nullopt;
 }
 

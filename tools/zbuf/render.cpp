@@ -141,7 +141,7 @@ void note_odd_picture(const Tool& tool, const ZbufOptions& chosen, const Drawing
   const bool is_known = bright_light_note(header.appearance).has_value();  // model has noted it
   if (!note && shader && is_whole)
     note = odd_colors_note(shown, {shader->setup().background, chosen.wireframe, is_known});
-  if (!note && is_whole && shows_one_triangle && pixel_count(screen) >= kLargePicture)
+  if (!note && is_whole && shows_one_triangle && !chosen.wireframe && pixel_count(screen) >= kLargePicture)
     note =
         "one triangle fills the picture, and no edge is in view: it is too large or too near, or fovY too "
         "small";
