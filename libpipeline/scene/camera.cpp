@@ -70,18 +70,15 @@ Volume read_volume(LineScanner& line) {
   return v;
 }
 
-/// A part of the camera and its name in messages; null if the keyword names no such part.
+/// A part of the camera besides the projection: its keyword, and its name in messages.
 struct PositionPart {
-  std::optional<Located<Vec3>> CameraParameters::*part = nullptr;
-  std::string_view name;
+  std::string_view keyword, name;
+  std::optional<Located<Vec3>> CameraParameters::*part;
 };
-
-PositionPart position_part(std::string_view keyword) {
-  if (keyword == "eye") return {&CameraParameters::eye, "the eye"};
-  if (keyword == "look") return {&CameraParameters::look, "the point looked at"};
-  if (keyword == "up") return {&CameraParameters::up, "the up direction"};
-  return {};
-}
+constexpr std::array<PositionPart, 3> kPositionParts = {
+    {{"eye", "the eye", &CameraParameters::eye},
+     {"look", "the point looked at", &CameraParameters::look},
+     {"up", "the up direction", &CameraParameters::up}}};
 
 }  // namespace
 
@@ -95,7 +92,8 @@ Projection read_projection(std::string_view keyword, LineScanner& line) {
 bool read_camera_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                       CameraParameters& camera) {
   const SourceLocation location = line.location();
-  if (const auto [part, name] = position_part(keyword); part != nullptr) {
+  for (const auto& [word, name, part] : kPositionParts) {
+    if (keyword != word) continue;
     if (camera.*part) throw given_twice(std::string(keyword), (camera.*part)->location, keyword_location);
     camera.*part = {line.vec3(name), location};
     return true;
@@ -127,9 +125,8 @@ void check_camera(const CameraParameters& camera) {
 
 CameraParameters merged(const CameraParameters& preferred, const CameraParameters& otherwise) {
   CameraParameters camera = preferred;
-  if (!camera.eye) camera.eye = otherwise.eye;
-  if (!camera.look) camera.look = otherwise.look;
-  if (!camera.up) camera.up = otherwise.up;
+  for (const auto& [word, name, part] : kPositionParts)
+    if (!(camera.*part)) camera.*part = otherwise.*part;
   if (!camera.projection) camera.projection = otherwise.projection;
   return camera;
 }

@@ -12,31 +12,24 @@
 #include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
+
 SceneReader::SceneReader(TextReader& text) : text_(text) {
   text_.expect_word(line_, "the eye (three numbers)");
   // A word that begins with a letter and is no command of ours: another program's scene.
   if (const auto w = line_.peek(); w.size() > 1 && w >= "A" && w < "{" && !find_scene_command(w))
     line_.fail("the x of the eye", " (a scene begins with numbers: pipeline help scene)");
-  camera_.eye = read_camera_vec3("the eye");
-  camera_.look = read_camera_vec3("the point looked at");
-  camera_.up = read_camera_vec3("the up direction");
-  camera_.projection = read_camera_projection();
-  check_camera(camera_);
-}
-
-Located<Vec3> SceneReader::read_camera_vec3(const std::string& name) {
-  text_.expect_word(line_, name + " (three numbers)");
-  const SourceLocation location = line_.location();
-  return {line_.vec3(name), location};
-}
-
-Located<Projection> SceneReader::read_camera_projection() {
+  const auto read = [&](std::string_view keyword) { read_camera_part(keyword, location_, line_, camera_); };
+  read("eye");
+  text_.expect_word(line_, "the point looked at (three numbers)");
+  read("look");
+  text_.expect_word(line_, "the up direction (three numbers)");
+  read("up");
   text_.expect_word(line_, "fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F)");
   const std::string_view first = line_.peek();
   const bool is_named = first == "ortho" || first == "frustum";
   if (is_named) line_.word();
-  const SourceLocation location = line_.location();
-  return {read_projection(is_named ? first : "perspective", line_), location};
+  read(is_named ? first : "perspective");
+  check_camera(camera_);
 }
 
 std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>& p_model,

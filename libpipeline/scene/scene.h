@@ -93,8 +93,6 @@ class SceneReader {
   [[nodiscard]] bool has_buffered_command() const { return text_.has_buffered_lines(4); }
 
  private:
-  Located<Vec3> read_camera_vec3(const std::string& name);
-  Located<Projection> read_camera_projection();
   TriangleCommand read_triangle();
   void read_vertex(std::size_t index);
   [[nodiscard]] bool is_allowed(const SceneCommand& command) const;
