@@ -41,11 +41,8 @@ std::optional<Color> parse_color(std::string_view word) {
 Color TriangleColors::of(std::uint64_t number) {
   // 3 * number wraps at 2^64, a multiple of the generator's period.
   if (number != next_number_) state_ = state_after(3 * number);
-  const std::uint8_t red = draw();
-  const std::uint8_t green = draw();
-  const std::uint8_t blue = draw();
   next_number_ = number + 1;
-  return {red, green, blue};
+  return {draw(), draw(), draw()};  // braces keep the order
 }
 
 std::uint8_t TriangleColors::draw() {
