@@ -1,5 +1,6 @@
 #include "libpipeline/scene/config.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <tuple>
@@ -59,16 +60,21 @@ void read_depth_limits(LineScanner line, Viewport& viewport) {
 
 }  // namespace
 
-std::optional<Viewport> parse_size(std::string_view word) {
-  const std::size_t x = word.find('x');
-  std::uint64_t columns = 0;
-  std::uint64_t rows = 0;
-  if (x == std::string_view::npos || !parse_count(word.substr(0, x), columns) ||
-      !parse_count(word.substr(x + 1), rows) || !is_size(columns) || !is_size(rows))
+std::optional<std::pair<std::uint64_t, std::uint64_t>> parse_pair(std::string_view word, char separator) {
+  const std::size_t end = std::min(word.find(separator), word.size());
+  std::pair<std::uint64_t, std::uint64_t> pair;
+  if (!parse_count(word.substr(0, end), pair.first) ||
+      !parse_count(word.substr(std::min(end + 1, word.size())), pair.second))
     return std::nullopt;
+  return pair;
+}
+
+std::optional<Viewport> parse_size(std::string_view word) {
+  const auto size = parse_pair(word, 'x');
+  if (!size || !is_size(size->first) || !is_size(size->second)) return std::nullopt;
   Viewport viewport;
-  viewport.columns = static_cast<int>(columns);
-  viewport.rows = static_cast<int>(rows);
+  viewport.columns = static_cast<int>(size->first);
+  viewport.rows = static_cast<int>(size->second);
   return viewport;
 }
 

@@ -2,8 +2,8 @@
 
 #include "libpipeline/picture/image_file.h"
 #include "libpipeline/picture/supersampling.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/text/error.h"
-#include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
 #include "tools/rim/command_line.h"
 
@@ -103,12 +103,8 @@ void ZbufOptions::complete(bool is_terminal) {
 }
 
 Viewport ZbufOptions::drawn_part(Viewport screen) const {
-  const std::size_t colon = rows.find(':');
-  const std::string_view word = rows;
-  std::uint64_t first = 0, end = 0;
-  const bool has_numbers = colon != std::string::npos && parse_count(word.substr(0, colon), first) &&
-                           parse_count(word.substr(colon + 1), end);
-  if (!has_numbers || first >= end || end > static_cast<std::size_t>(screen.rows))
+  const auto [first, end] = parse_pair(rows, ':').value_or(std::pair<std::uint64_t, std::uint64_t>());
+  if (first >= end || end > static_cast<std::size_t>(screen.rows))
     throw UsageError("--rows",
                      "A:B, the first row and the one after the last, from 0:1 to " +
                          std::to_string(screen.rows - 1) + ":" + std::to_string(screen.rows),
