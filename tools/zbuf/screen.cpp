@@ -30,6 +30,10 @@ std::string times_as_wide(double stretch) {
   return std::string(times.data()) + " times as wide as high: ";
 }
 
+bool is_size(double pixels) {
+  return pixels >= 0.5 && pixels <= kMaxViewportSize;
+}
+
 std::string size_option(double columns, double rows) {
   const auto count = [](double pixels) {
     return std::to_string(std::lround(std::clamp(pixels, 1.0, static_cast<double>(kMaxViewportSize))));
@@ -43,10 +47,12 @@ std::optional<std::string> stretch_note(const Viewport& of_config, const Viewpor
   const double stretch = static_cast<double>(screen.columns) * of_config.rows /
                          (static_cast<double>(screen.rows) * of_config.columns);
   if (std::abs(std::log(stretch)) <= std::log(1 + kLeastStretch)) return std::nullopt;
-  const long rows = std::lround(static_cast<double>(screen.columns) * of_config.rows / of_config.columns);
+  const double rows = static_cast<double>(screen.columns) * of_config.rows / of_config.columns;
+  const std::string option =
+      is_size(rows) ? size_option(screen.columns, rows) : size_option(of_config.columns, of_config.rows);
   return "a square of the config's " + std::to_string(of_config.columns) + " x " +
-         std::to_string(of_config.rows) + " picture is drawn " + times_as_wide(stretch) +
-         size_option(screen.columns, static_cast<double>(rows)) + " keeps its shape";
+         std::to_string(of_config.rows) + " picture is drawn " + times_as_wide(stretch) + option +
+         " keeps its shape";
 }
 
 /// Width / height of a projection's window from -1 to 1; none for a perspective by the rule angle.
@@ -99,9 +105,9 @@ std::optional<std::string> squeezed_note(const Projection& projection, const Vie
   // The size may differ by half a pixel in either direction.
   if (std::abs(screen.columns - shape * screen.rows) <= (1 + shape) / 2) return std::nullopt;
   const double columns = shape * screen.rows;
-  const std::string option = columns <= kMaxViewportSize
-                                 ? size_option(columns, screen.rows)
-                                 : size_option(screen.columns, screen.columns / shape);
+  const double rows = screen.columns / shape;
+  const std::string option =
+      is_size(columns) ? size_option(columns, screen.rows) : size_option(screen.columns, rows);
   return "a square is drawn " + times_as_wide(screen.columns / columns) + option +
          " has the shape of the camera's window";
 }
