@@ -233,17 +233,9 @@ void CommandLine::add_word(const std::string& name, const std::string& type_name
 void CommandLine::add_words(const std::string& name, std::size_t count, const std::string& type_name,
                             std::vector<std::string>& words, const std::string& help) {
   declare(name, [=, &words](CLI::App& app) {
-    app.add_option(name, words, help)
-        ->expected(static_cast<int>(count))
-        ->allow_extra_args(false)
-        ->type_name(type_name);
-  });
-}
-
-void CommandLine::add_repeatable(const std::string& name, const std::string& type_name,
-                                 std::vector<std::string>& words, const std::string& help) {
-  declare(name, [=, &words](CLI::App& app) {
-    app.add_option(name, words, help)->type_name(type_name)->allow_extra_args(false);
+    CLI::Option* const option = app.add_option(name, words, help)->type_name(type_name);
+    if (count > 0) option->expected(static_cast<int>(count));
+    option->allow_extra_args(false);
   });
 }
 

@@ -78,12 +78,14 @@ class CommandLine {
   /// An option that takes one word of any kind, which --help calls `type_name`.
   void add_word(const std::string& name, const std::string& type_name, std::string& word,
                 const std::string& help, const WordCheck& check = nullptr);
-  /// An option that takes `count` words.
+  /// An option that takes `count` words; with 0, one word each time it is given.
   void add_words(const std::string& name, std::size_t count, const std::string& type_name,
                  std::vector<std::string>& words, const std::string& help);
   /// An option that takes one word and may be repeated.
   void add_repeatable(const std::string& name, const std::string& type_name, std::vector<std::string>& words,
-                      const std::string& help);
+                      const std::string& help) {
+    add_words(name, 0, type_name, words, help);
+  }
   /// An option that takes a whole number from `least` to `most`.
   void add_whole(const std::string& name, int& number, int least, int most, const std::string& help);
   /// An option that takes a number for which `is_fine` holds; messages describe it as `expected`.

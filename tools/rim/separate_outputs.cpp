@@ -25,10 +25,6 @@ bool may_share(const NamedFile& earlier, const NamedFile& output) {
 
 }  // namespace
 
-NamedFile file_or_stream(const std::string& name, const std::string& path, const NamedFile& stream) {
-  return path == "-" ? stream : NamedFile{name, path};
-}
-
 void expect_separate(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
   std::vector<std::pair<const NamedFile*, FilePlace>> taken;
   for (const NamedFile& input : inputs)

@@ -17,7 +17,9 @@ inline const NamedFile kStandardOutput = {"standard output", "/dev/stdout"};
 inline const NamedFile kStandardError = {"standard error", "/dev/stderr"};
 
 /// The file of an option or operand whose "-" means `stream`.
-NamedFile file_or_stream(const std::string& name, const std::string& path, const NamedFile& stream);
+inline NamedFile file_or_stream(const std::string& name, const std::string& path, const NamedFile& stream) {
+  return path == "-" ? stream : NamedFile{name, path};
+}
 
 /// Throws a UsageError if an output of a run would share a regular file or a pipe with another output (one
 /// would replace the other, or both would mix) or with an input. Devices may be shared. Standard output and

@@ -74,12 +74,6 @@ InputFile::~InputFile() {
   if (descriptor_ != STDIN_FILENO) ::close(descriptor_);
 }
 
-void Timing::lap(double Timing::*phase) {
-  const auto now = std::chrono::steady_clock::now();
-  this->*phase += std::chrono::duration<double>(now - last_).count();
-  last_ = now;
-}
-
 Tool::Tool(const ToolDescription& description, OutputKind output_kind)
     : out_of_memory_(end_process_without_memory({description.name, output_kind == OutputKind::stage_text})),
       name_(description.name),
@@ -121,7 +115,13 @@ void Tool::expect_separate(const std::vector<NamedFile>& outputs, std::vector<Na
 int Tool::run(int argc, char** argv, const std::function<void()>& work) {
   if (!has_own_operands_) options_.add_operand("INPUT", input_path_, input_help_);
   try {
-    if (const auto asked_for = options_.parse(argc, argv)) return answer(*asked_for);
+    if (const auto asked_for = options_.parse(argc, argv)) {  // --help or --version
+      output_kind_ = OutputKind::other_text;
+      return status_of([&] {
+        output_.append(*asked_for);
+        close_output();
+      });
+    }
   } catch (const UsageError& error) {
     return fail_misuse(error.what());
   }
@@ -134,15 +134,6 @@ int Tool::run(int argc, char** argv, const std::function<void()>& work) {
   });
   if (status != kExitDone) remove_unfinished();
   return status;
-}
-
-/// Prints the text of --help or --version.
-int Tool::answer(const std::string& text) {
-  output_kind_ = OutputKind::other_text;
-  return status_of([&] {
-    output_.append(text);
-    close_output();
-  });
 }
 
 /// Memory may also run out while another failure is reported.

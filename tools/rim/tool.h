@@ -47,7 +47,11 @@ struct Timing {
   std::string details;  // counts that only one tool has
 
   /// Adds the time since the last call (or the start) to `phase`, one of the three above.
-  void lap(double Timing::*phase);
+  void lap(double Timing::*phase) {
+    const auto now = std::chrono::steady_clock::now();
+    this->*phase += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
 
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
@@ -96,7 +100,6 @@ class Tool {
   static void report(const std::string& line);
 
  private:
-  int answer(const std::string& text);
   int status_of(const std::function<void()>& work);
   int fail(const std::string& message, int status);
   int fail_after(const EarlierFailure& failure);
