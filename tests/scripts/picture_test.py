@@ -5,6 +5,7 @@ usage: picture_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import time
@@ -18,9 +19,9 @@ def setUpModule():  # noqa: N802
     expect_mesh2scene()
 
 
-def picture(*words, command="picture"):
+def picture(*words, command="picture", **settings):
     return subprocess.run([SOURCE / "scripts" / command, *words], capture_output=True, text=True,
-                          env={**os.environ, "BIN": str(BIN)})
+                          env={**os.environ, "BIN": str(BIN)}, **settings)
 
 
 class Picture(ToolTest):
@@ -151,11 +152,6 @@ class Picture(ToolTest):
                  "'own.png', which the model names (try mesh2scene --help)\n"))
         self.assertEqual(pathlib.Path("own.png").read_text(), "newmtl red\n")
 
-    def test_options_of_trace_need_trace(self):
-        done = picture("vase.obj", "--no-shadows", "-o", "one.png")
-        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
-                         (2, "picture: --no-shadows is for trace: it needs --trace (try picture --help)"))
-
     def test_a_note_is_passed_on_with_the_models_box(self):
         corners = [
             line.split()[1:4] for line in pathlib.Path("vase.obj").read_text().splitlines()
@@ -184,17 +180,13 @@ class Picture(ToolTest):
             pathlib.Path("long").write_bytes(bytes(place) + b"sphere")
             self.assertTrue(has_the_word("long", b"sphere"))
 
-    def test_a_pipe_with_a_name_is_refused(self):
-        os.mkfifo("pipe")
-        self.assertEqual(
-            picture("pipe", "-o", "one.png").stderr,
-            "picture: mesh2scene: pipe: expected a regular file, or - for what comes through a pipe\n")
-
     def test_of_failures_the_cause_is_told_alone(self):
+        os.mkfifo("pipe")
         pathlib.Path("broken.obj").write_text("v 0 0\n")
         pathlib.Path("large.obj").write_text("#" * 1_000_001)
         for words, reason in (("missing.obj", "cannot open missing.obj: No such file or directory"),
                               ("broken.obj", "broken.obj:1:6: expected three coordinates, "),
+                              ("pipe", "pipe: expected a regular file, or - for what comes through a pipe\n"),
                               ("large.obj --max-input 1", "large.obj: expected at most 1 MB "),
                               ("vase.obj --fov 0", "--fov: expected "), ("vase.obj --size 0x1",
                                                                          "--size: expected ")):
@@ -249,7 +241,7 @@ class Picture(ToolTest):
         self.assertEqual(pathlib.Path("scene.txt").read_text(), text)
         self.assertEqual(pathlib.Path("stage1.txt").read_bytes(), run("model", "scene.txt").stdout)
 
-    def test_a_stage_that_cannot_be_read_back_is_refused(self):
+    def test_a_stage_that_cannot_be_written_or_read_back_is_refused(self):
         pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n")
         os.makedirs("kept")
         for make in (lambda: os.symlink(os.devnull, "kept/stage3.txt"), lambda: os.mkfifo("kept/stage3.txt")):
@@ -261,6 +253,10 @@ class Picture(ToolTest):
                 "found kept/stage3.txt\n")
             self.assertEqual((os.listdir("kept"), os.path.exists("one.png")), (["stage3.txt"], False))
             os.unlink("kept/stage3.txt")
+        done = picture("scene.txt", "--stages", "kept", "-o", "one.png",
+                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (50, 50)))
+        self.assertEqual((done.stderr, os.listdir("kept")),
+                         ("picture: model: cannot write kept/stage1.txt: File too large\n", []))
 
     def test_a_scene_keeps_its_camera_and_colors(self):
         pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n")
@@ -291,29 +287,25 @@ class Picture(ToolTest):
                 picture("vase.obj", option, color, "-o", "a.png").stderr, f"picture: argument {option}: "
                 f"expected RRGGBB[AA], a CSS color, or transparent, found '{color}' (try picture --help)\n")
 
-    def test_what_is_asked_for_elsewhere_is_named(self):
-        self.assertIn("(--trace draws them)", picture("vase.obj", "--shadows", "-o", "a.png").stderr)
-        self.assertIn("draw a.png, then: convert a.png a.jpg", picture("vase.obj", "-o", "a.jpg").stderr)
-        for output in ("png:", ""):
-            self.assertEqual(
-                picture("vase.obj", "-o", output).stderr,
-                f"picture: -o: expected the name of a file, found '{output}' (try picture --help)\n")
-
     def test_a_model_stands_for_a_scene(self):
-        done = subprocess.run([SOURCE / "scripts/explain", "vase.obj", "--triangle", "0"],
-                              capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
+        done = picture("vase.obj", "--triangle", "0", command="explain")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(": the scene of vase.obj, line ", done.stdout.splitlines()[0])
 
-    def test_a_misspelt_option_names_the_nearest(self):
-        done = picture("vase.obj", "--bakground", "00000000", "-o", "one.png")
-        self.assertEqual(
-            done.stderr, "picture: unrecognized arguments: --bakground 00000000 (did you mean "
-            "--background?) (try picture --help)\n")
-        # Not --eye-from.
-        self.assertEqual(
-            picture("vase.obj", "--eye", "30", "15", "-o", "one.png").stderr,
-            "picture: unrecognized arguments: --eye 30 15 (try picture --help)\n")
+    def test_misuse_is_told_in_a_line(self):
+        for words, message in (("--shadows",
+                                "expected an option of picture, found '--shadows' (--trace draws them)"),
+                               ("--no-shadows", "--no-shadows is for trace: it needs --trace"),
+                               ("--bakground red", "unrecognized arguments: --bakground red (did you mean "
+                                "--background?)"), ("--eye 30 15", "unrecognized arguments: --eye 30 15"),
+                               ("-o a.jpg",
+                                "-o: expected a .png, .bmp or .ppm file, found 'a.jpg': draw a.png, "
+                                "then: convert a.png a.jpg"), ("-o png:", "-o: expected the name of a file, "
+                                                               "found 'png:'"),
+                               ("--output=", "-o: expected the name of a file, found ''")):
+            done = picture("vase.obj", "-o", "a.png", *words.split(" "))
+            self.assertEqual((done.returncode, done.stderr),
+                             (2, f"picture: {message} (try picture --help)\n"))
 
 
 if __name__ == "__main__":
