@@ -2,6 +2,7 @@
 input or its arguments have changed. Stages that run do so in parallel, as in a shell's pipe."""
 import contextlib
 import dataclasses
+import functools
 import os
 import pathlib
 import subprocess
@@ -9,6 +10,8 @@ import tempfile
 import threading
 
 from fly_parts.framing import Ball
+from lib.rim.command import leftovers, unbroken
+from lib.rim.output_file import write_file
 from lib.running.pipe_tools import opaque_background
 from lib.text.projection import line_of
 from lib.text.stage_text import header_of
@@ -74,10 +77,13 @@ class FramePipe:
         self.tools = tools
         self.names = TRACING if is_traced else RASTERIZING
         self.last = self.names[-1]
-        self.folder = tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
+        with unbroken():
+            place = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+            self.folder = tempfile.TemporaryDirectory(dir=place)
+            leftovers.add(self.folder.name)
         self.image = pathlib.Path(self.folder.name, "frame.ppm")
         self.config = pathlib.Path(self.folder.name, "config.txt")
-        self.config_text = self.frame_image = self.found_ball = None
+        self.config_text = self.frame_image = None
         self.stages = {name: Stage() for name in self.names}
         self.run([("model", ["--framed", str(scene)])], None)
         self.light = self.header("light")  # the first one
@@ -120,11 +126,10 @@ class FramePipe:
         """The words after a header keyword, None if it is not there."""
         return header_of(self.stages["model"].output.read()).get(keyword)
 
+    @functools.cached_property
     def ball(self):
         """The Ball around the scene; None if the scene is empty."""
-        if self.found_ball is None:
-            self.found_ball = (Ball.around(self.stages["model"].output.read()),)
-        return self.found_ball[0]
+        return Ball.around(self.stages["model"].output.read())
 
     def put_light(self, words):
         """Moves the first light without running stage 1 again."""
@@ -145,7 +150,7 @@ class FramePipe:
             self.last: drawing_words}
         calls = [(name, words[name]) for name in self.names[1:]]
         if self.config_text != config:
-            self.config.write_text(config)
+            write_file(self.config, config.encode())
             self.config_text = config
             self.stages[self.last].words = None  # not to be reused
         source = self.stages["model"].output

@@ -199,23 +199,19 @@ class FlyWindow:
             self.change(changed)
         if name == "Escape":
             self.root.quit()
+        elif name == "h" and self.keys.winfo_manager():
+            self.keys.place_forget()
         elif name == "h":
-            self.show_keys(not self.keys.winfo_manager())
+            self.keys.place(in_=self.picture, x=8, y=8)
         elif name in LIGHT_MOVES and self.pipe.light is None:
             self.say("the scene has no light")
         elif name in LIGHT_MOVES:
             self.move_light(LIGHT_MOVES[name])
         elif name == "p":
-            self.write_scene()
-        elif name == "P":
-            self.write_picture()
+            self.write(self.outputs[0], self.scene_text)
+        elif name == "P" and self.draw(self.size):
+            self.write(self.outputs[1], lambda: png(*read_picture(self.pipe.image)))
         return None
-
-    def show_keys(self, is_shown):
-        if is_shown:
-            self.keys.place(in_=self.picture, x=8, y=8)
-        else:
-            self.keys.place_forget()
 
     def changed(self, name):
         """The settings after a key, None if it does not change any."""
@@ -229,7 +225,7 @@ class FlyWindow:
                 self.put_light(self.start_light)
             return self.start
         if name == "Home":
-            ball = self.pipe.ball()
+            ball = self.pipe.ball
             return ball and dataclasses.replace(
                 now, camera=camera.framing(ball.center, framing_distance(ball, self.pipe.projection)))
         if name in ("c", "v"):
@@ -338,7 +334,7 @@ class FlyWindow:
                          for name, place in (("eye", eye), ("look", look))), field])
 
     def way_back(self):
-        ball = self.pipe.ball()
+        ball = self.pipe.ball
         if ball is None:
             return "the scene has no triangles"
         return (f"nothing is in sight: the scene is {direction(self.settings.camera, ball)}\nHome "
@@ -354,13 +350,6 @@ class FlyWindow:
         # Comments keep bytes that are not UTF-8.
         text = read_input(str(self.scene), only_regular=True).decode("utf-8-sig", errors="surrogateescape")
         return rewritten(text, self.settings.camera.lines(), light).encode(errors="surrogateescape")
-
-    def write_scene(self):
-        self.write(self.outputs[0], self.scene_text)
-
-    def write_picture(self):
-        if self.draw(self.size):
-            self.write(self.outputs[1], lambda: png(*read_picture(self.pipe.image)))
 
     def write(self, path, content):
         try:

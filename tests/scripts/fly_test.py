@@ -276,11 +276,10 @@ class Flying(WindowTest):
         self.assertEqual(self.shown(), first)
 
     def test_options_are_those_of_the_tools(self):
-        self.press("c")
-        self.assertEqual(self.shown(), frame_of(SCENE, project=["--clip", "frustum"]))
-        self.press("b")
         culled = ["--clip", "frustum", "--cull", "back"]
-        self.assertEqual(self.shown(), frame_of(SCENE, project=culled))
+        for key, words in (("c", culled[:2]), ("b", culled)):
+            self.press(key)
+            self.assertEqual(self.shown(), frame_of(SCENE, project=words))
         for key, model in (("1", "none"), ("2", "flat"), ("3", "gouraud"), ("4", "phong")):
             self.press(key)
             self.assertEqual(self.shown(), frame_of(SCENE, project=culled, zbuf=["--shading", model]))
@@ -301,12 +300,9 @@ class Flying(WindowTest):
                           for y in range(41)])
 
     def test_the_wireframe_is_zbufs(self):
-        self.press("f")
-        self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--wireframe"]))
-        self.press("f")
-        self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--wireframe", "all"]))
-        self.press("f")
-        self.assertEqual(self.shown(), frame_of(SCENE))
+        for words in (["--wireframe"], ["--wireframe", "all"], []):
+            self.press("f")
+            self.assertEqual(self.shown(), frame_of(SCENE, zbuf=words))
 
     def test_the_first_light_moves(self):
         self.press("l")
@@ -449,21 +445,23 @@ class Ending(ToolTest):
     def test_a_signal_ends_it_without_a_traceback(self):
         pathlib.Path("scene.txt").write_text(SCENE)
         for number in (signal.SIGINT, signal.SIGTERM):
-            # It prints a line when its window waits.
+            # It prints the folder of its frames when its window waits.
             program = (
                 "import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = "
                 "['scene.txt']\n"
                 "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import "
                 "FlyWindow\n"
-                "draw = FlyWindow.tell; FlyWindow.tell = lambda *words: (draw(*words), print('.', "
-                "flush=True), sys.stdout.flush())\n"
+                "draw = FlyWindow.tell; FlyWindow.tell = lambda window, *words: "
+                "(draw(window, *words), print(window.pipe.folder.name, flush=True))\n"
                 "Loader('__main__', sys.path[0] + '/fly').load_module()")
             process = subprocess.Popen([sys.executable, "-c", program, SOURCE / "scripts"],
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                        env={**os.environ, "BIN": str(BIN)}, preexec_fn=heed_signals)
-            self.assertEqual(process.stdout.readline(), b".\n")
+            folder = process.stdout.readline().rstrip()
+            self.assertIn(b"frame.ppm", os.listdir(folder))
             self.assertEqual((end_by_signal(process, number)[1].decode(), process.returncode),
                              (f"fly: ended by {number.name}\n", -number))
+            self.assertFalse(os.path.exists(folder))
 
 
 class TransparentBackground(ToolTest):
@@ -485,38 +483,22 @@ class TransparentBackground(ToolTest):
 
 
 class Messages(ToolTest):
-    def fly(self, *words, **settings):
-        return subprocess.run([SOURCE / "scripts/fly", *words], capture_output=True, text=True, timeout=60,
-                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", **settings})
-
-    @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
-    def test_what_is_wrong_with_the_scene_is_the_tools_message(self):
-        pathlib.Path("scene.txt").write_text("1 2 x\n")
-        done = self.fly("scene.txt")
-        self.assertEqual((done.returncode, done.stderr),
-                         (1, "fly: model: scene.txt:1:5: expected the z of the eye, found 'x'\n"))
-
-    @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
-    def test_a_sphere_needs_trace(self):
-        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "sphere 0 0 0 1\ntriangle", 1))
-        done = self.fly("scene.txt")
-        line = pathlib.Path("scene.txt").read_text().split("sphere")[0].count("\n") + 1
-        self.assertEqual(
-            (done.returncode, done.stderr),
-            (1,
-             f"fly: model: scene.txt:{line}:1: expected triangles alone, found a sphere: --trace draws it\n"))
-
-    def test_options_of_trace_need_trace(self):
-        for words, option in ((["--samples", "3"], "--samples"), (["--max-depth", "3"], "--max-depth")):
-            done = self.fly("scene.txt", *words)
-            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
-                             (2, f"fly: {option} is for trace: it needs --trace (try fly --help)"))
-
-    @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
-    def test_without_a_display_it_says_so(self):
-        done = self.fly("scene.txt")
-        self.assertEqual((done.returncode, done.stderr),
-                         (1, "fly: no display name and no $DISPLAY environment variable\n"))
+    def test_what_is_wrong_is_told_in_a_line(self):
+        with_sphere = SCENE.replace("triangle", "sphere 0 0 0 1\ntriangle", 1)
+        for text, words, status, message in (
+            (SCENE, [
+                "--samples", "3"], 2, "--samples is for trace: it needs --trace (try fly --help)"), (SCENE, [
+                    "--max-depth", "3"], 2, "--max-depth is for trace: it needs --trace (try fly --help)"),
+            ("1 2 x\n", [], 1, "model: scene.txt:1:5: expected the z of the eye, found 'x'"),
+            (with_sphere, [], 1,
+             "model: scene.txt:9:1: expected triangles alone, found a sphere: --trace draws it"),
+            (SCENE, [], 1, "no display name and no $DISPLAY environment variable")):
+            if status == 1 and MISSING:
+                self.skipTest(f"needs {' and '.join(MISSING)}")
+            pathlib.Path("scene.txt").write_text(text)
+            done = subprocess.run([SOURCE / "scripts/fly", "scene.txt", *words], capture_output=True,
+                                  text=True, timeout=60, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+            self.assertEqual((done.returncode, done.stderr), (status, f"fly: {message}\n"))
 
 
 if __name__ == "__main__":
