@@ -76,37 +76,21 @@ class Instructions(unittest.TestCase):
         self.assertRegex(lines[2], r"^one zbuf +scalar +1,000,000 +990,000 +-1\.00 %$")
         self.assertEqual(len(lines), 4)
 
-    def test_a_row_that_grew_fails_and_is_named(self):
-        self.commit("one view,scalar,GCC 12.2.0,1000000", "one zbuf,scalar,GCC 12.2.0,1000000")
-        self.take("zbuf", 1_010_100)
-        status, lines = self.hold(VIEW, ZBUF)
-        self.assertEqual((status, lines[-2:]), (1, [
-            "failed: one zbuf: 1,000,000 instructions committed, 1,010,100 counted, +1.01 %",
-            "1 passed, 1 failed"]))
-
-    def test_a_row_that_shrank_passes_and_is_named(self):
-        self.commit("one view,scalar,GCC 12.2.0,1000000")
-        self.take("view", 980_000)
-        status, lines = self.hold(VIEW)
-        self.assertEqual(
-            (status, lines[-2:]),
-            (0, ["faster: one view: -2.00 %, commit the new count with --accept", "1 passed, 0 failed"]))
-
-    def test_a_row_without_a_count_fails(self):
-        self.commit("one view,avx2,GCC 12.2.0,1000000")
-        status, lines = self.hold(VIEW)
-        self.assertEqual((status, lines[-2:]), (1, [
-            "failed: one view: no count is committed, 1,000,000 instructions counted; commit it with "
-            "--accept", "0 passed, 1 failed"]))
-
-    def test_a_tool_that_fails_fails_its_row_alone(self):
-        self.commit("one view,scalar,GCC 12.2.0,1000000", "one zbuf,scalar,GCC 12.2.0,1000000")
-        pathlib.Path(f"{self.valgrind}.view.message").write_text(
-            "==1== Callgrind\nview: one-world.txt:1:1: wrong\n")
-        status, lines = self.hold(VIEW, ZBUF)
-        self.assertEqual((status, lines[-2:]), (1, [
-            "failed: one view: view one-world.txt failed with status 1: view: one-world.txt:1:1: wrong",
-            "1 passed, 1 failed"]))
+    def test_rows_that_differ_are_named(self):
+        said = pathlib.Path(f"{self.valgrind}.view.message")
+        for kernel, count, message, failed, line in (
+            ("scalar", 980_000, None, 0, "faster: one view: -2.00 %, commit the new count with --accept"),
+            ("scalar", 1_010_100, None, 1, "failed: one view: 1,000,000 instructions committed, 1,010,100 "
+             "counted, +1.01 %"), ("avx2", 1_000_000, None, 1, "failed: one view: no count is committed, "
+                                   "1,000,000 instructions counted; commit it with --accept"),
+            ("scalar", 1_000_000, "==1== Callgrind\nview: one-world.txt:1:1: wrong\n", 1, "failed: one view: "
+             "view one-world.txt failed with status 1: view: one-world.txt:1:1: wrong")):
+            self.commit(f"one view,{kernel},GCC 12.2.0,1000000", "one zbuf,scalar,GCC 12.2.0,1000000")
+            self.take("view", count)
+            if message:
+                said.write_text(message)
+            status, lines = self.hold(VIEW, ZBUF)
+            self.assertEqual((status, lines[-2:]), (failed, [line, f"{2 - failed} passed, {failed} failed"]))
 
     def test_another_compiler_skips_the_row_and_is_named(self):
         self.commit("one view,scalar,GCC 12.2.0,1", "one zbuf,scalar,GCC 12.2.0,1000000")
@@ -140,14 +124,11 @@ class Instructions(unittest.TestCase):
     def test_the_tools_run_in_an_environment_of_their_own(self):
         with mock.patch.dict(os.environ, LC_ALL="de_DE.UTF-8", PIPELINE_KERNEL="avx2", SOMETHING="else"):
             self.hold(VIEW, accept=True)
-        environment = dict(
-            line.split("=", 1)
-            for line in pathlib.Path(f"{self.valgrind}.environment").read_text().splitlines())
         given = {
-            name: value
-            for name, value in environment.items()
-            if name not in ("PWD", "OLDPWD", "SHLVL", "_")}  # the shell's own
-        self.assertEqual(given, {"PATH": "/usr/bin:/bin", "LC_ALL": "C", "PIPELINE_KERNEL": "scalar"})
+            line
+            for line in pathlib.Path(f"{self.valgrind}.environment").read_text().splitlines()
+            if line.split("=")[0] not in ("PWD", "OLDPWD", "SHLVL", "_")}  # the shell's own
+        self.assertEqual(given, {"PATH=/usr/bin:/bin", "LC_ALL=C", "PIPELINE_KERNEL=scalar"})
         self.assertEqual(
             pathlib.Path(f"{self.valgrind}.words").read_text(),
             "--tool=callgrind --callgrind-out-file=/dev/null bin/view one-world.txt\n")
@@ -188,6 +169,10 @@ class Instructions(unittest.TestCase):
             ["NOTHING WAS COUNTED, for the reasons above", f"0 passed, 0 failed, {len(ROWS)} skipped"])
         self.assertFalse(self.counts.exists())
         self.assertEqual(self.bench("--accept", PATH=str(self.tools)).returncode, 1)
+        # Other things that cannot be done are told before anything is counted.
+        for words, status in ((["--accept", "--output", "nowhere"], 1), (["--rounds", "0"], 2)):
+            done = self.bench(*words)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (status, "", 1))
 
     def test_every_row_has_its_count_committed(self):
         with open(SOURCE_DIR / "scripts/measure/results/instructions.csv", newline="") as file:

@@ -7,6 +7,7 @@ therefore names.
 """
 import csv
 import dataclasses
+import io
 import os
 import pathlib
 import platform
@@ -15,15 +16,13 @@ import shutil
 import subprocess
 import tempfile
 
+from lib.rim.command import CommandFailure
+from lib.rim.output_file import expect_writable, write_file
 from parts.instruction_rows import ROWS, TEXTS
 
 TOLERATED_PERCENT = 1.0
 FLAGS = {"scalar": set(), "sse4": {"sse4_2"}, "avx2": {"sse4_2", "bmi1", "bmi2", "avx2",
                                                        "fma"}}  # in /proc/cpuinfo
-
-
-class RunFailed(Exception):
-    """A tool or Valgrind failed."""
 
 
 def compiler_of(program):
@@ -64,7 +63,7 @@ def callgrind_count(words, folder, stdin=subprocess.DEVNULL, stdout=subprocess.D
     collected = re.search(r"Collected : (\d+)", done.stderr)
     if done.returncode != 0 or not collected:
         own = [line for line in done.stderr.splitlines() if line and not line.startswith("==")]
-        raise RunFailed(
+        raise CommandFailure(
             f"failed with status {done.returncode}: {' '.join(own) or 'valgrind has counted nothing'}")
     return int(collected[1])
 
@@ -85,8 +84,8 @@ def count(row, folder):
             total += counted(stage, source, text)
             text.seek(0)
         return total + counted(last, text, subprocess.DEVNULL)
-    except RunFailed as error:
-        raise RunFailed(f"{row.words} {error}") from None
+    except CommandFailure as error:
+        raise CommandFailure(f"{row.words} {error}") from None
 
 
 @dataclasses.dataclass
@@ -128,7 +127,7 @@ class Comparison:
             return self.skip(row, f"built by {compiler}, the committed count is for {before.compiler}")
         try:
             now = count(row, folder)
-        except RunFailed as error:
+        except CommandFailure as error:
             self.tell(row, "failed")
             return self.fail(row, str(error))
         self.counted[key] = Committed(compiler, now)
@@ -161,15 +160,18 @@ class Comparison:
 def write_counts(path, counts, rows):
     """Writes the counts in the order of the rows; a row that could not run here keeps its count."""
     keys = [key for row in rows if (key := (row.name, row.kernel)) in counts]
-    with open(path, "w", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["row", "kernel", "compiler", "instructions"])
-        table.writerows([*key, *dataclasses.astuple(counts[key])] for key in keys)
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerows([["row", "kernel", "compiler", "instructions"],
+                     *([*key, *dataclasses.astuple(counts[key])] for key in keys)])
+    write_file(path, text.getvalue().encode())
 
 
 def hold(tools, path, accept=False, rows=ROWS):
     """Compares the instructions of a folder's tools with a CSV file, or accepts them as its new counts;
     returns the exit status."""
+    if accept:
+        expect_writable(path)
     there = {row.tool for row in rows if (tools / row.tool).exists()}
     if missing := sorted({row.tool for row in rows} - there - {"mesh2scene"}):
         print(f"bench: {tools} has no {', '.join(missing)}; scripts/build-release builds the tools")
