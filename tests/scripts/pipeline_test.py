@@ -83,7 +83,7 @@ class Prefix(ToolTest):
         self.assertEqual((status, messages), (0, ""))
         self.assertEqual(re.findall(r"^  ([a-z0-9-]+) {2,}(.*)$", text, re.M),
                          [("model", "Runs the commands"), ("show", "Shows its words")])
-        self.assertEqual(run(self.pipeline, "help"), (0, text, ""))
+        self.assertEqual(run(self.pipeline, "help", env={**PLAIN, "POSIXLY_CORRECT": "1"}), (0, text, ""))
         self.assertEqual(run(self.pipeline), (2, "", text))
 
     def test_help_of_a_command_is_its_own(self):
