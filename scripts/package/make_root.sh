@@ -13,7 +13,7 @@ echo "making a Debian in $root (some 15 minutes; log: $root.log)"
 new=$root.$$ job=
 trap 'rm -rf --one-file-system -- "$new"' EXIT
 trap '[ -z "$job" ] || kill "$job" 2> /dev/null || :; wait; exit 1' HUP INT TERM
-mmdebstrap --variant=minbase --aptopt='APT::Install-Recommends "false"' --include="$packages" "$@" "$suite" "$new" \
+timeout 0 mmdebstrap --variant=minbase --aptopt='APT::Install-Recommends "false"' --include="$packages" "$@" "$suite" "$new" \
   ${DEBIAN_MIRROR:+"$DEBIAN_MIRROR"} > "$root.log" 2>&1 & job=$!
 wait $job || {
   tail -n 5 "$root.log" >&2

@@ -15,7 +15,8 @@ import time
 import unittest
 
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
-STUB = '#!/bin/sh\n[ ! -e "$0.hangs" ] || { : > "$0.started"; exec sleep 99; }\n'
+# Hangs as mmdebstrap does, which waits for its child whatever signal comes.
+STUB = '#!/bin/sh\n[ ! -e "$0.hangs" ] || { trap : TERM; : > "$0.started"; sleep 99; exit 1; }\n'
 # Stands for the build in the root: writes what the words after -- and --bind ask for.
 BWRAP = STUB + """[ ! -e "$0.fails" ] || { echo no namespaces >&2; exit 1; }
 [ ! -e "$0.commits" ] || git -c user.name=a -c user.email=a@b.invalid commit -qm 'area: Do more' --allow-empty
@@ -170,13 +171,13 @@ class MakeRelease(unittest.TestCase):
 
     def test_version_and_changelog_are_those_of_the_commit(self):
         self.refused("CMakeLists.txt has another version than 9.8.6", version="9.8.6")
-        self.put(self.tree / "CMakeLists.txt", "project(pipeline VERSION 90807 LANGUAGES CXX)\n")
-        self.commit()
-        self.refused("CMakeLists.txt has another version than 9.8.7")
-        self.put(self.tree / "CMakeLists.txt", "project(pipeline VERSION 9.8.7 LANGUAGES CXX)\n")
-        self.put(self.tree / "CHANGELOG.md", "# Log\n\n## Unreleased\n\n- New.\n")
-        self.commit()
-        self.refused("CHANGELOG.md has no section '## 9.8.7 - DATE'")
+        for name, text, message in (("CHANGELOG.md", "## Unreleased\n\n- New.\n",
+                                     "no section '## 9.8.7 - DATE'"),
+                                    ("CMakeLists.txt", "project(pipeline VERSION 90807 LANGUAGES CXX)\n",
+                                     "another version than 9.8.7")):
+            self.put(self.tree / name, text)
+            self.commit()
+            self.refused(f"{name} has {message}")
 
     def test_a_build_that_fails_says_why_and_is_gone_on_with(self):
         self.put(self.bin / "bwrap.fails", "")

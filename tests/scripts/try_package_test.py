@@ -10,10 +10,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
-PROGRAMS = ("sh", "env", "dirname", "basename", "readlink", "mkdir", "mktemp", "rm", "tail", "cat")
+PROGRAMS = "sh env dirname basename readlink mkdir mktemp rm tail cat timeout sleep".split()
+SKIPPED = "try-package: skipped: "
 
 
 class TryPackage(unittest.TestCase):
@@ -39,29 +41,32 @@ class TryPackage(unittest.TestCase):
         path.write_text(text)
         path.chmod(0o755)
 
-    def run_there(self, *words):
-        done = subprocess.run([self.tree / "scripts/maintain/try-package", *words], env={
-            "PATH": str(self.bin), "TMPDIR": str(self.bin.parent)}, capture_output=True, text=True,
-                              timeout=60)
+    def run_there(self, *words, started=None):
+        """The status and what is printed; a signal ends it when the file `started` appears."""
+        process = subprocess.Popen([self.tree / "scripts/maintain/try-package", *words], env={
+            "PATH": str(self.bin), "TMPDIR": str(self.bin.parent)}, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        while started and not started.exists() and process.poll() is None:
+            time.sleep(0.05)
+        if started:
+            process.terminate()
+        output, messages = process.communicate(timeout=60)
         self.assertEqual(sorted(os.listdir(self.bin.parent)), ["bin", "tree"])  # nothing is left
-        return done.returncode, done.stdout, done.stderr
+        return process.returncode, output, messages
 
-    def test_a_user_is_told_that_it_needs_root(self):
+    def test_where_it_cannot_work_it_says_why(self):
+        status, output, messages = self.run_there()
+        self.assertEqual(
+            (status, output.splitlines()[-1], messages),
+            (77, f"{SKIPPED}a root of bookworm could not be made: is there a network?", "no network\n"))
+        (self.tree / "build/release/libexec/pipeline/model").unlink()
+        self.assertEqual(self.run_there(), (1, "", "try-package: build first: scripts/build-release\n"))
+        (self.bin / "mmdebstrap").unlink()
+        self.assertEqual(self.run_there("--quick"),
+                         (77, f"{SKIPPED}mmdebstrap is missing (scripts/install-packages --checks)\n", ""))
         self.put(self.bin / "id", "#!/bin/sh\necho 1000\n")
         self.assertEqual(self.run_there(),
-                         (77, "try-package: skipped: only root can make a root folder and enter it\n", ""))
-
-    def test_a_missing_tool_is_named(self):
-        (self.bin / "mmdebstrap").unlink()
-        self.assertEqual(
-            self.run_there("--quick"),
-            (77, "try-package: skipped: mmdebstrap is missing (scripts/install-packages --checks)\n", ""))
-
-    def test_without_a_network_it_is_skipped(self):
-        status, output, messages = self.run_there()
-        self.assertEqual((status, messages), (77, "no network\n"))
-        self.assertEqual(output.splitlines()[-1],
-                         "try-package: skipped: a root of bookworm could not be made: is there a network?")
+                         (77, f"{SKIPPED}only root can make a root folder and enter it\n", ""))
 
     def test_a_package_that_cannot_be_made_is_a_failure(self):
         self.put(self.bin / "cpack", "#!/bin/sh\necho broken\nexit 1\n")
@@ -70,9 +75,10 @@ class TryPackage(unittest.TestCase):
                          (1, "FAIL  cpack makes a package and a source archive"))
         self.assertIn("broken\n", messages)
 
-    def test_without_a_build_it_fails(self):
-        (self.tree / "build/release/libexec/pipeline/model").unlink()
-        self.assertEqual(self.run_there(), (1, "", "try-package: build first: scripts/build-release\n"))
+    def test_a_signal_ends_the_step_that_runs(self):
+        for name in ("mmdebstrap", "cpack"):  # the first waits for its child whatever signal comes
+            self.put(self.bin / name, '#!/bin/sh\ntrap : TERM\n: > "$0.started"\nsleep 99\nexit 1\n')
+            self.assertEqual(self.run_there(started=self.bin / f"{name}.started")[0], 1)
 
 
 if __name__ == "__main__":
