@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""install-packages and demo: as root, with sudo, and as a user who may not install anything. dpkg, apt and
-sudo are stubs.
+"""install-packages, as root, with sudo, and as a user who may not install anything; build-release and
+demo. dpkg, apt, sudo and cmake are stubs.
 
 usage: packages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -46,12 +46,17 @@ def lists():
                                                                "scripts/install-packages").read_text(), re.M)}
 
 
+def tree_with(script):
+    tree = pathlib.Path("a tree").resolve()
+    (tree / "scripts" / script).parent.mkdir(parents=True)
+    shutil.copy(SOURCE / "scripts" / script, tree / "scripts" / script)
+    return tree
+
+
 class Packages(ToolTest):
     def setUp(self):
         super().setUp()
-        self.tree, self.state = pathlib.Path("a tree").resolve(), pathlib.Path("state").resolve()
-        (self.tree / "scripts").mkdir(parents=True)
-        shutil.copy(SOURCE / "scripts/install-packages", self.tree / "scripts")
+        self.tree, self.state = tree_with("install-packages"), pathlib.Path("state").resolve()
         for folder in ("installed", "unknown", "bin"):
             (self.state / folder).mkdir(parents=True)
         self.environment = {
@@ -59,9 +64,7 @@ class Packages(ToolTest):
             "LANG": "C.UTF-8"}
         for name, text in STUBS.items():
             self.put(name, text)
-        self.needed = lists()["to_build"] + lists()["to_test"]
-        self.optional = lists()["to_test_all"]
-        self.have(*self.needed, *self.optional)
+        self.have(*lists()["to_build"], *lists()["to_test"], *lists()["to_test_all"])
 
     def put(self, name, text):
         (self.state / "bin" / name).write_text(text)
@@ -99,6 +102,9 @@ class Packages(ToolTest):
             self.put(name, "#!/bin/sh\nexit 99\n")
         self.assertEqual(self.install("--tests"), (0, "", ""))
         self.assertFalse((self.tree / "build").exists())
+        self.lack("xvfb", "libgtest-dev")  # only what is asked for counts
+        self.assertEqual(self.install(), (0, "", ""))
+        self.assertEqual(self.install("--checks", "--playground")[:2], (2, ""))
 
     def test_root_installs_what_is_missing_and_apt_chatters_into_a_log(self):
         self.lack("cmake", "xvfb")
@@ -106,22 +112,14 @@ class Packages(ToolTest):
         self.assertEqual(self.calls(), ["-q update", "-q install -y --no-install-recommends cmake xvfb"])
         self.assertIn("chatter of apt-get -q install", (self.tree / "build/apt.log").read_text())
 
-    def test_only_what_is_asked_for_counts(self):
-        self.lack("xvfb", "libgtest-dev")
-        self.assertEqual(self.install(), (0, "", ""))
-        self.assertEqual(self.install("--checks", "--playground")[:2], (2, ""))
-
     def test_a_package_of_another_name_does_not_keep_the_others_out(self):
         self.lack("cmake", "chromium-driver", "xvfb")
         (self.state / "unknown/chromium-driver").touch()
-        self.assertEqual(
-            self.install("--tests"),
-            (0, "installing: cmake xvfb chromium-driver\n",
-             "install-packages: cannot install chromium-driver; tests that need these packages will be "
-             "skipped\n"))
+        line = "installing: cmake xvfb chromium-driver\n"
+        self.assertEqual(self.install("--tests"),
+                         (0, line, "install-packages: cannot install chromium-driver; "
+                          "tests that need these packages will be skipped\n"))
         self.assertTrue((self.state / "installed/xvfb").exists())
-
-    def test_a_needed_package_that_cannot_be_installed_is_an_error(self):
         self.lack("cmake")
         (self.state / "unknown/cmake").touch()
         status, _, messages = self.install()
@@ -133,8 +131,8 @@ class Packages(ToolTest):
         self.lack("g++")
         self.assertEqual(self.install(), (0, "installing: g++\n", ""))
         self.assertIn(
-            "sudo env DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends g++",
-            self.calls())
+            "sudo env DEBIAN_FRONTEND=noninteractive apt-get -q install -y "
+            "--no-install-recommends g++", self.calls())
 
     def test_a_user_without_root_is_told_what_to_ask_for(self):
         for sudo, why in ((None, "neither root nor sudo"), ("no",
@@ -160,26 +158,30 @@ class Packages(ToolTest):
         self.assertTrue(
             messages.endswith("  apt-get install --no-install-recommends chromium mandoc\n"
                               "install-packages: going on; tests that need these packages will be skipped\n"))
-
-    def test_another_system_is_left_alone(self):
-        self.as_user()
-        (self.state / "bin/dpkg-query").unlink()
+        (self.state / "bin/dpkg-query").unlink()  # another system is left alone
         status, output, messages = self.install()
         self.assertEqual((status, messages), (0, ""))
         self.assertTrue(
-            output.startswith(
-                "install-packages: this is not a Debian system; install equivalents of these packages: g++ "))
+            output.startswith("install-packages: this is not a Debian system; install equivalents "
+                              "of these packages: g++ "))
 
 
 class BuildRelease(ToolTest):
-    def test_where_nothing_can_be_written_it_fails(self):
-        tree = pathlib.Path("a tree").resolve()
-        (tree / "scripts").mkdir(parents=True)
-        shutil.copy(SOURCE / "scripts/build-release", tree / "scripts")
+    def test_it_ends_as_its_build_does_also_where_others_build_or_nothing_can_be_written(self):
+        tree = tree_with("build-release")
         (tree / "build").symlink_to("/proc")
         done = subprocess.run([tree / "scripts/build-release"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
                          (1, "build-release: failed, see above"))
+        (tree / "build").unlink()
+        (tree / "cmake").write_text(
+            '#!/bin/sh\n[ $1 != --build ] || { mkdir busy && sleep 0.3 && rmdir busy && '
+            'exit $FAILS; }\n')
+        (tree / "cmake").chmod(0o755)
+        runs = [
+            subprocess.Popen([tree / "scripts/build-release"], stderr=subprocess.DEVNULL, env={
+                "PATH": f"{tree}:/usr/bin:/bin", "FAILS": fails}) for fails in "0100"]
+        self.assertEqual([run.wait(60) for run in runs], [0, 1, 0, 0])
 
 
 class Demo(ToolTest):
@@ -194,6 +196,9 @@ class Demo(ToolTest):
         done = subprocess.run([tree / "scripts/demo", "worked-example"], capture_output=True, text=True, env={
             "PATH": "/usr/bin:/bin"}, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for name in ("", "../samples/worked-example"):
+            done_nothing = subprocess.run([tree / "scripts/demo", name], capture_output=True)
+            self.assertEqual((done_nothing.returncode, done_nothing.stdout), (2, b""))
         self.assertEqual(sorted(path.name for path in tree.iterdir()), ["build", "out", "samples", "scripts"])
         made = sorted(path.name for path in (tree / "out/worked-example").iterdir())
         self.assertEqual(made,
