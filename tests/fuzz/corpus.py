@@ -9,6 +9,7 @@ is no printable ASCII, '\\\\' for a backslash, and '\\' at the end of a line whe
 """
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -55,6 +56,7 @@ def main():
             with open(path, "rb") as file:
                 sys.stdout.write(f"== {os.path.basename(path)}\n{encoded(file.read())}")
         return 0
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # without what it made, and the command
     with open(sys.argv[1], "rb") as file, tempfile.TemporaryDirectory() as folder:
         for name, data in inputs(file.read()):
             with open(os.path.join(folder, name), "wb") as target:

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""install-packages, as root, with sudo, and as a user who may not install anything; build-release and
-demo. dpkg, apt, sudo and cmake are stubs.
+"""install-packages, as root, with sudo, and as a user who may not install anything; build-release, fuzz and
+demo. dpkg, apt, sudo, cmake and the fuzzer are stubs.
 
 usage: packages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import os
 import pathlib
 import re
 import shutil
 import subprocess
+import time
 import unittest
 
 from toolbox import BIN, SOURCE, ToolTest
@@ -182,6 +184,31 @@ class BuildRelease(ToolTest):
             subprocess.Popen([tree / "scripts/build-release"], stderr=subprocess.DEVNULL, env={
                 "PATH": f"{tree}:/usr/bin:/bin", "FAILS": fails}) for fails in "0100"]
         self.assertEqual([run.wait(60) for run in runs], [0, 1, 0, 0])
+
+
+class Fuzz(ToolTest):
+    def test_it_searches_where_it_is_told_until_the_time_is_over_or_a_signal_comes(self):
+        tree = tree_with("maintain/fuzz")
+        shutil.copytree(SOURCE / "tests/fuzz", tree / "tests/fuzz")
+        for name, line in (("bin/cmake", ""), ("build/fuzz/tests/fuzz/scene_fuzz", 'exec sleep "${3#*=}"')):
+            (tree / name).parent.mkdir(parents=True)
+            (tree / name).write_text(f"#!/bin/sh\n{line}\n")
+            (tree / name).chmod(0o755)
+        os.mkdir("tmp")
+
+        def fuzz(seconds):
+            return subprocess.Popen(
+                [tree / "scripts/maintain/fuzz", "--found", "found", "--seconds", seconds, "scene"], env={
+                    "PATH": f"{tree}/bin:/usr/bin:/bin",
+                    "TMPDIR": os.path.abspath("tmp")}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+        self.assertEqual([fuzz(seconds).wait(60) for seconds in ("0", "x", "1")], [2, 2, 0])
+        self.assertTrue(os.path.exists("found/scene.log"))
+        process = fuzz("99")
+        while not [*pathlib.Path("tmp").glob("*/*")] and process.poll() is None:
+            time.sleep(0.05)
+        process.terminate()
+        self.assertEqual((process.wait(60), os.listdir("tmp")), (1, []))
 
 
 class Demo(ToolTest):
