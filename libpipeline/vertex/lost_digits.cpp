@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "libpipeline/numbers/decimal_units.h"
+#include "libpipeline/numbers/vec_math.h"
 
 namespace pipeline {
 namespace {
@@ -208,22 +209,27 @@ void LostDigits::look_along(Row& row, double y, Surface& surface, double reach, 
   farthest_ = std::ranges::max_element(rows_, {}, &Row::farthest)->farthest;
 }
 
-/// Recalculates p_ndc from p_view, as read: p_ndc may be rounded. For a piece, p_view from p_ndc.
+/// Recalculates p_ndc, which may be rounded, from p_view, as read. A piece's p_view becomes the points of the
+/// uncut triangle's plane that are seen where its corners are.
 void LostDigits::undo_rounding(Surface& surface) const {
   constexpr double kSame = 1e-6;
-  const Triangle whole = projected(surface.p_view);
+  Triangle p_view = surface.p_view;
   const auto are_same = [](const Vec3& p, const Vec3& q) {
     return std::fabs(p.x - q.x) + std::fabs(p.z - q.z) < kSame;
   };
-  if (std::ranges::equal(whole, surface.p_ndc, are_same)) {
-    surface = Surface(whole, surface.p_view);
-    return;
+  if (!std::ranges::equal(projected(p_view), surface.p_ndc, are_same)) {
+    const Vec3 normal = face_normal(p_view), corner = p_view[0];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto seen_at = [&](double z) {
+        const double w = view_from_clip_.w_of({0, 0, z});
+        return view_from_clip_({surface.p_ndc[i].x * w, surface.p_ndc[i].y * w, z * w}, w);
+      };
+      const Vec3 near = seen_at(-1), along = difference(seen_at(1), near);
+      const double share = dot(normal, difference(corner, near)) / dot(normal, along);
+      p_view[i] = sum(near, scaled(along, share));
+    }
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& p = surface.p_ndc[i];
-    const double w = view_from_clip_.w_of(p);
-    surface.p_view[i] = view_from_clip_({p.x * w, p.y * w, p.z * w}, w);
-  }
+  surface = Surface(projected(p_view), p_view);
 }
 
 Triangle LostDigits::projected(const Triangle& p_view) const {
@@ -306,15 +312,16 @@ std::optional<LostDigits::Found> LostDigits::found() {
       at_edges += edge_share(a, place.z);
       if (place.rival == kNone) continue;
       const Surface& b = seen_[place.rival];
+      const double x = place_at(column, kColumns), y = place_at(i, rows_.size());
+      const double gap = std::fabs(a.at(x, y) - b.at(x, y));
       const auto are_close = [&](double read, double written, int decimals = 0) {
         const double times = power_of_ten(decimals);
         const auto error = [&](const Surface& s) {
           return depth_error(s, place.z, read / times, written / times);
         };
-        return place.gap <= error(a) + error(b);
+        return gap <= error(a) + error(b);
       };
       if (!are_close(half_read_, half_written_)) continue;
-      const double x = place_at(column, kColumns), y = place_at(i, rows_.size());
       const double share = wrong_share(place, x, y, kTrialCount * static_cast<unsigned>(shown));
       if (share == 0) continue;
       wrong += share;

@@ -29,7 +29,7 @@ std::optional<LostDigits::Found> found(TriangleBatch p_view, std::optional<int> 
   LostDigits lost_digits(projection, decimals, decimals_read);
   for (std::size_t i = 0; i < p_view.size(); i += batch_size) {
     const TriangleBatch part = part_of(p_view, i, std::min(i + batch_size, p_view.size()));
-    lost_digits.add(part, projected(part, projection, ClipMode::none).p_ndc);
+    lost_digits.add(part, projected(part, projection, ClipMode::automatic).p_ndc);
   }
   return lost_digits.found();
 }
@@ -58,13 +58,18 @@ TEST(LostDigits, OfLayersOfAMapAreFound) {
   EXPECT_NEAR(lost->share, 0.25, 0.05);
   EXPECT_EQ(lost->enough, 8);
   EXPECT_FALSE(lost->near_helps);
+  TriangleBatch apart;
+  add_wall(apart, 700000, 800);
+  add_wall(apart, 699999, 400);
+  EXPECT_FALSE(found(apart, 7, kMap));
 }
 
-TEST(LostDigits, OfLayersThatDecimalsTellApartAreNotFound) {
-  TriangleBatch map;
-  add_wall(map, 700000, 800);
-  add_wall(map, 699999, 400);
-  EXPECT_FALSE(found(map, 7, kMap));
+TEST(LostDigits, OfLayersCutAtTheNearPlaneAreFound) {
+  TriangleBatch floors;
+  floors.add({Vec3{-50, -1, 50}, Vec3{50, -1, 50}, Vec3{0, -1, -800}}, 0, {});
+  floors.add({Vec3{-50, -0.99999, 50}, Vec3{50, -0.99999, 50}, Vec3{0, -0.99999, -900}}, 1, {});
+  EXPECT_TRUE(found(floors));
+  EXPECT_FALSE(found(floors, 12));
 }
 
 TEST(LostDigits, ThatAWallInFrontHidesDoNotCount) {
@@ -150,10 +155,7 @@ TEST(LostDigits, OfEdgesInASmallSceneAreFound) {
   EXPECT_TRUE(lost->is_of_edges);
   EXPECT_NEAR(lost->share, 0.01, 0.006);  // three edges, each off by some 4e-8 of 1e-5
   EXPECT_FALSE(found(fine_grid(1.03e-3), 7, projection));
-}
-
-TEST(LostDigits, OfATextWithZerosAtItsEndsAreNotFound) {
-  const ProjectionTransform projection = {true, 4, 0, 4, 0, 1e-5, 1};
+  // A text with zeros at the ends of its numbers has lost nothing.
   EXPECT_TRUE(found(fine_grid(1.03e-5), 12, projection, 2048, 7));
   EXPECT_FALSE(found(fine_grid(1.03e-5), 12, projection, 2048, 9));
 }
