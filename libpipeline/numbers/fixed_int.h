@@ -22,6 +22,23 @@ inline int bit_length(UInt128 value) {
   return (high != 0 ? 128 : 64) - std::countl_zero(high != 0 ? high : low);
 }
 
+/// An inverse as factor * 2^exponent; the factor is truncated to 128 bits, the highest of which is 1.
+struct BinaryInverse {
+  UInt128 factor = 0;
+  int exponent = 1;
+};
+
+/// 1 / divisor, by long division of a power of two, bit by bit; `divisor` is from 1 to 2^127.
+constexpr BinaryInverse binary_inverse(UInt128 divisor) {
+  BinaryInverse inverse;
+  for (UInt128 rest = 1; (inverse.factor >> 127) == 0; rest <<= 1, --inverse.exponent) {
+    const bool bit = rest >= divisor;
+    if (bit) rest -= divisor;
+    inverse.factor = inverse.factor << 1 | (bit ? 1 : 0);
+  }
+  return inverse;
+}
+
 /// 2^exponent, for a normal double.
 inline double power_of_two(int exponent) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);

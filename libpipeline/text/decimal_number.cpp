@@ -13,34 +13,15 @@ namespace {
 
 constexpr int kMaxDecimals = 24;  // three words of eight digits
 
-/// 10^-n as factor * 2^exponent; the factor is truncated to 128 bits, the highest of which is 1.
-struct InversePower {
-  std::uint64_t high = 0;
-  std::uint64_t low = 0;
-  int exponent = 0;
-};
-
-/// 10^-n by long division of 2^k by 10^n, bit by bit, until the quotient has 128 bits.
-constexpr InversePower inverse_power_of_ten(int n) {
-  UInt128 divisor = 1;
-  for (int i = 0; i < n; ++i) divisor *= 10;
-  UInt128 rest = 1;
-  UInt128 quotient = 0;
-  int exponent = 1;
-  while ((quotient >> 127) == 0) {
-    const bool bit = rest >= divisor;
-    if (bit) rest -= divisor;
-    quotient = (quotient << 1) | (bit ? 1 : 0);
-    rest <<= 1;
-    --exponent;
-  }
-  return {static_cast<std::uint64_t>(quotient >> 64), static_cast<std::uint64_t>(quotient), exponent};
-}
-
+/// 10^-n.
 constexpr auto kInversePowers = [] {
-  std::array<InversePower, kMaxDecimals + 1> powers{};
-  for (int n = 0; n <= kMaxDecimals; ++n) powers[static_cast<std::size_t>(n)] = inverse_power_of_ten(n);
-  return powers;
+  std::array<BinaryInverse, kMaxDecimals + 1> inverses;
+  UInt128 power = 1;
+  for (BinaryInverse& inverse : inverses) {
+    inverse = binary_inverse(power);
+    power *= 10;
+  }
+  return inverses;
 }();
 
 /// The nearest double to digits / 10^decimals; false where the product is too close to a tie to decide.
@@ -59,11 +40,11 @@ bool divide_by_power_of_ten(std::uint64_t digits, int decimals, double& value) {
   // digits * 10^-n to 128 bits. Truncating the power and truncating here each lose less than one unit, or two
   // after the shift, so the product is too small by less than kError.
   constexpr UInt128 kError = 4;
-  const InversePower& power = kInversePowers[n];
+  const BinaryInverse& power = kInversePowers[n];
   const int shift = std::countl_zero(digits);
   const std::uint64_t factor = digits << shift;
-  UInt128 product = static_cast<UInt128>(factor) * power.high;
-  product += (static_cast<UInt128>(factor) * power.low) >> 64;
+  UInt128 product = static_cast<UInt128>(factor) * static_cast<std::uint64_t>(power.factor >> 64);
+  product += (static_cast<UInt128>(factor) * static_cast<std::uint64_t>(power.factor)) >> 64;
   int exponent = power.exponent - shift + 64;
   if ((product >> 127) == 0) {
     product <<= 1;
