@@ -21,11 +21,11 @@ bool may_be_cut(double part, double moved_part) {
 Ball::Ball(double value) : value_{value, 0} {
   assert(std::isfinite(value));
   const double size = std::fabs(value);
-  if (value != 0 && (size > kSafeMax || size < kSafeMin)) *this = normalized(value_, 0, 0);
+  if (value != 0 && (size > kSafeMax || size < kSafeMin)) *this = with_error(value_, 0);
 }
 
 /// The general case; the larger of the midpoint and the error sets the exponent.
-Ball Ball::normalized_anew(DoubleDouble value, double error, std::int64_t exponent) {
+Ball Ball::normalized(DoubleDouble value, double error, std::int64_t exponent) {
   const double leading = std::max(std::fabs(value.hi), error);
   if (leading == 0) return {};
   if (exponent == 0 && leading <= kSafeMax && leading >= kSafeMin) return {value, error, 0};
@@ -66,7 +66,7 @@ Ball Ball::add_across_ranges(const Ball& a, const Ball& b) {
   const std::int64_t small_shift = small.exponent_ - common;
   // An operand more than 600 binary places smaller only adds to the error.
   if (std::abs(a_magnitude - b_magnitude) > 600)
-    return normalized(large_value, (large_error + kCut) * kRoundUp, common);
+    return with_error(large_value, (large_error + kCut) * kRoundUp, common);
   const DoubleDouble small_value = scaled(small.value_, static_cast<int>(small_shift));
   double small_error = std::ldexp(small.error_, static_cast<int>(small_shift));
   if (may_be_cut(small.value_.lo, small_value.lo) || may_be_cut(small.error_, small_error))
@@ -85,7 +85,7 @@ Ball operator/(const Ball& a, const Ball& b) {
   const bool plain = a.is_exact() && b.is_exact() && a.value_.lo == 0 && b.value_.lo == 0;
   const bool divides = plain && quotient.lo == 0 && std::fma(quotient.hi, b.value_.hi, -a.value_.hi) == 0;
   const double lost = divides ? 0 : std::fabs(quotient.hi) * Ball::kDivSqrtBound;
-  return Ball::normalized(quotient, (spread + lost) * Ball::kRoundUp, a.exponent_ - b.exponent_);
+  return Ball::with_error(quotient, (spread + lost) * Ball::kRoundUp, a.exponent_ - b.exponent_);
 }
 
 Ball sqrt(const Ball& a) {
@@ -94,13 +94,13 @@ Ball sqrt(const Ball& a) {
   const DoubleDouble value = odd ? scaled(a.value_, 1) : a.value_;
   const double error = odd ? 2 * a.error_ : a.error_;
   const std::int64_t exponent = (a.exponent_ - (odd ? 1 : 0)) / 2;
-  if (value.hi <= error) return Ball::normalized({0, 0}, std::sqrt(2 * error) * Ball::kRoundUp, exponent);
+  if (value.hi <= error) return Ball::with_error({0, 0}, std::sqrt(2 * error) * Ball::kRoundUp, exponent);
   const DoubleDouble root = sqrt(value);
   const DoubleDouble square = two_product(root.hi, root.hi);
   const bool perfect = error == 0 && root.lo == 0 && square.hi == value.hi && square.lo == value.lo;
   // |sqrt(v +- e) - sqrt(v)| <= e / sqrt(v).
   const double lost = perfect ? 0 : root.hi * Ball::kDivSqrtBound + error / root.hi * Ball::kRoundUp;
-  return Ball::normalized(root, lost * Ball::kRoundUp, exponent);
+  return Ball::with_error(root, lost * Ball::kRoundUp, exponent);
 }
 
 Ball Ball::with_error_at_most(double bound) const {
@@ -109,7 +109,7 @@ Ball Ball::with_error_at_most(double bound) const {
   // `least` keeps the error above 0 even if the bound underflows: the ball is not exact.
   const double least = std::max(std::fabs(value_.hi), error_) * 0x1p-150;
   const double limit = (exponent_ == 0 ? bound : std::ldexp(bound, shift)) + least;
-  return limit < error_ ? normalized(value_, limit, exponent_) : *this;
+  return limit < error_ ? with_error(value_, limit, exponent_) : *this;
 }
 
 /// An upper bound on size * 2^exponent; above 0 for a size above 0.

@@ -22,6 +22,8 @@ class Ball {
   Ball(double value);  // NOLINT(google-explicit-constructor): a double is a ball of radius 0
   /// (value +- error) * 2^exponent, value and error within the normal range of a double.
   static Ball with_error(DoubleDouble value, double error, std::int64_t exponent = 0) {
+    const double size = std::fabs(value.hi);
+    if (exponent == 0 && size <= kSafeMax && size >= kSafeMin && error <= size) return {value, error, 0};
     return normalized(value, error, exponent);
   }
 
@@ -76,20 +78,15 @@ class Ball {
   Ball(DoubleDouble value, double error, std::int64_t exponent)
       : value_(value), error_(error), exponent_(exponent) {}
 
-  /// The ball with an exponent as the class guarantees it.
-  static Ball normalized(DoubleDouble value, double error, std::int64_t exponent) {
-    const double size = std::fabs(value.hi);
-    if (exponent == 0 && size <= kSafeMax && size >= kSafeMin && error <= size) return {value, error, 0};
-    return normalized_anew(value, error, exponent);
-  }
-  static Ball normalized_anew(DoubleDouble value, double error, std::int64_t exponent);
+  /// The ball with an exponent as the class guarantees it: the general case of with_error.
+  static Ball normalized(DoubleDouble value, double error, std::int64_t exponent);
   static Ball add_across_ranges(const Ball& a, const Ball& b);
   static Ball add_parts(DoubleDouble a, double a_error, DoubleDouble b, double b_error,
                         std::int64_t exponent) {
     const bool is_exact = a.lo == 0 && b.lo == 0 && a_error == 0 && b_error == 0;
     const DoubleDouble sum = a + b;
     const double lost = is_exact ? 0 : std::fabs(sum.hi) * kAddMulBound;
-    return normalized(sum, (a_error + b_error + lost) * kRoundUp, exponent);
+    return with_error(sum, (a_error + b_error + lost) * kRoundUp, exponent);
   }
   [[nodiscard]] double scaled_up(double size) const;
 
@@ -107,7 +104,7 @@ inline Ball operator*(const Ball& a, const Ball& b) {
   const double lost = is_exact ? 0 : std::fabs(product.hi) * Ball::kAddMulBound;
   // hi stands for hi + lo here; kRoundUp covers |lo| <= 2^-53 |hi|.
   const double error = a_size * b.error_ + b_size * a.error_ + a.error_ * b.error_ + lost;
-  return Ball::normalized(product, error * Ball::kRoundUp, a.exponent_ + b.exponent_);
+  return Ball::with_error(product, error * Ball::kRoundUp, a.exponent_ + b.exponent_);
 }
 
 /// A vector of balls: each component carries its error bound.
