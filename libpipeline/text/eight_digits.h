@@ -66,24 +66,6 @@ inline std::uint64_t split_digits(std::uint32_t number) {
   return tens | (pairs - 10 * tens) << 8;
 }
 
-#ifdef __x86_64__
-/// The digits of two numbers below 10^8 at once, one per byte.
-inline __m128i sixteen_digits(std::uint32_t first, std::uint32_t last) {
-  const __m128i eights = _mm_set_epi64x(static_cast<std::int64_t>(last), static_cast<std::int64_t>(first));
-  // x / 10000 for x < 10^8, in 64 bits.
-  const __m128i high = _mm_srli_epi64(_mm_mul_epu32(eights, _mm_set1_epi64x(0xd1b71759)), 45);
-  const __m128i low = _mm_sub_epi32(eights, _mm_mul_epu32(high, _mm_set1_epi64x(10000)));
-  const __m128i fours = _mm_or_si128(high, _mm_slli_epi64(low, 32));
-  // x / 100 for x < 10^4, then x / 10 for x < 100, in 16 bits.
-  const __m128i hundreds = _mm_srli_epi16(_mm_mulhi_epu16(fours, _mm_set1_epi16(5243)), 3);
-  const __m128i rest = _mm_sub_epi16(fours, _mm_mullo_epi16(hundreds, _mm_set1_epi16(100)));
-  const __m128i pairs = _mm_or_si128(hundreds, _mm_slli_epi32(rest, 16));
-  const __m128i tens = _mm_mulhi_epu16(pairs, _mm_set1_epi16(6554));
-  const __m128i ones = _mm_sub_epi16(pairs, _mm_mullo_epi16(tens, _mm_set1_epi16(10)));
-  return _mm_or_si128(tens, _mm_slli_epi16(ones, 8));
-}
-#endif
-
 /// Sixteen digits, one per byte.
 struct SixteenDigits {
   std::uint64_t first;
@@ -96,7 +78,18 @@ inline SixteenDigits split_sixteen(std::uint64_t number) {
   const auto high = static_cast<std::uint32_t>(number / kEightDigits);
   const auto low = static_cast<std::uint32_t>(number % kEightDigits);
 #ifdef __x86_64__
-  const __m128i digits = sixteen_digits(high, low);
+  const __m128i eights = _mm_set_epi64x(static_cast<std::int64_t>(low), static_cast<std::int64_t>(high));
+  // x / 10000 for x < 10^8, in 64 bits.
+  const __m128i upper = _mm_srli_epi64(_mm_mul_epu32(eights, _mm_set1_epi64x(0xd1b71759)), 45);
+  const __m128i lower = _mm_sub_epi32(eights, _mm_mul_epu32(upper, _mm_set1_epi64x(10000)));
+  const __m128i fours = _mm_or_si128(upper, _mm_slli_epi64(lower, 32));
+  // x / 100 for x < 10^4, then x / 10 for x < 100, in 16 bits.
+  const __m128i hundreds = _mm_srli_epi16(_mm_mulhi_epu16(fours, _mm_set1_epi16(5243)), 3);
+  const __m128i rest = _mm_sub_epi16(fours, _mm_mullo_epi16(hundreds, _mm_set1_epi16(100)));
+  const __m128i pairs = _mm_or_si128(hundreds, _mm_slli_epi32(rest, 16));
+  const __m128i tens = _mm_mulhi_epu16(pairs, _mm_set1_epi16(6554));
+  const __m128i ones = _mm_sub_epi16(pairs, _mm_mullo_epi16(tens, _mm_set1_epi16(10)));
+  const __m128i digits = _mm_or_si128(tens, _mm_slli_epi16(ones, 8));
   return {static_cast<std::uint64_t>(_mm_cvtsi128_si64(digits)),
           static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_unpackhi_epi64(digits, digits)))};
 #else

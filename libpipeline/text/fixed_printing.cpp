@@ -68,7 +68,7 @@ constexpr hn::Repartition<std::uint8_t, decltype(kDoubles)> kBytes;
 using Words = hn::Vec<decltype(kWords)>;
 constexpr std::size_t kBlocks = kLanes / 2;
 
-/// Like sixteen_digits in eight_digits.h, for numbers below 10^8, two in each block of sixteen bytes.
+/// Like split_sixteen in eight_digits.h, for numbers below 10^8, two in each block of sixteen bytes.
 PIPELINE_INLINE auto digits_of(Words eights) {
   const auto as_fours = [](auto v) HWY_ATTR { return hn::BitCast(kFours, v); };
   const auto as_pairs = [](auto v) HWY_ATTR { return hn::BitCast(kPairs, v); };

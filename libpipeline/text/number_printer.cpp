@@ -17,11 +17,6 @@
 namespace pipeline {
 namespace {
 
-char* print_eight(char* out, std::uint64_t number) {
-  store_eight(out, split_digits(static_cast<std::uint32_t>(number)) + kEightZeros);
-  return out + 8;
-}
-
 /// The count of trailing zeros; 16 if all digits are 0.
 int trailing_zero_count(SixteenDigits digits) {
   const int count = std::countl_zero(digits.last) / 8;
@@ -137,8 +132,9 @@ char* print_whole(char* out, std::uint64_t number) {
     store_eight(out, (digits + kEightZeros) >> (8 * (8 - length)));
     return out + length;
   }
-  const std::uint64_t high = number / kEightDigits;
-  return print_eight(print_whole(out, high), number - high * kEightDigits);
+  out = print_whole(out, number / kEightDigits);
+  store_eight(out, split_digits(static_cast<std::uint32_t>(number % kEightDigits)) + kEightZeros);
+  return out + 8;
 }
 
 char* print_shortest(char* out, double value) {
