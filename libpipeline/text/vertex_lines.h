@@ -65,14 +65,13 @@ class LastRead {
 /// Three numbers that were printed, and their text with a blank after each.
 class LastPrinted {
  public:
-  /// True if these are the same numbers; always false once colors have stopped repeating.
-  [[nodiscard]] bool is_of(const Vec3& three) {
-    return miss_count_ < kMaxMissesInARow && counted(length_ > 0 && three == numbers_);
-  }
-  /// True if all vertices of the triangle have these numbers.
+  /// True if all vertices of the triangle have these; always false once colors have stopped repeating.
   [[nodiscard]] bool is_of(const Triangle& triangle) {
+    if (miss_count_ == kMaxMissesInARow) return false;
     const auto& [a, b, c] = triangle;
-    return miss_count_ < kMaxMissesInARow && counted(length_ > 0 && a == numbers_ && b == a && c == a);
+    const bool repeats = length_ > 0 && a == numbers_ && b == a && c == a;
+    miss_count_ = repeats ? 0 : miss_count_ + 1;
+    return repeats;
   }
   /// `out` is the end of the text; kMaxLength characters from `begin` on are copied, whatever they are.
   void set(const Vec3& printed, const char* begin, const char* out) {
@@ -87,11 +86,6 @@ class LastPrinted {
   }
 
  private:
-  bool counted(bool repeats) {
-    miss_count_ = repeats ? 0 : miss_count_ + 1;
-    return repeats;
-  }
-
   static constexpr std::size_t kMaxLength = 64;  // more than three numbers with a sign, 16 digits and a point
 
   std::array<char, kMaxLength> text_{};
