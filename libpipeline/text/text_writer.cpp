@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -31,8 +32,9 @@ void write_all(int descriptor, std::string_view bytes, const std::string& path) 
   if (const int error = try_write_all(descriptor, bytes)) throw IoError("write", path, error);
 }
 
-TextWriter::TextWriter(int descriptor, std::string file)
-    : descriptor_(descriptor), file_(std::move(file)), buffer_(2 * kFlushedSize) {}
+TextWriter::TextWriter(int descriptor, std::string file) : descriptor_(descriptor), file_(std::move(file)) {
+  reserve(2 * kFlushedSize);
+}
 
 void TextWriter::append(std::string_view text) {
   if (descriptor_ != kNowhere && text.size() >= kLongText) {
@@ -46,8 +48,14 @@ void TextWriter::append(std::string_view text) {
 
 char* TextWriter::reserve(std::size_t size) {
   if (end_ >= kFlushedSize) flush();
-  if (buffer_.size() - end_ < size) buffer_.resize(end_ + size);
-  return buffer_.data() + end_;
+  if (buffer_size_ - end_ < size) {
+    const std::size_t larger_size = std::max(end_ + size, 2 * buffer_size_);
+    std::unique_ptr<char[]> larger = std::make_unique_for_overwrite<char[]>(larger_size);
+    std::copy_n(buffer_.get(), end_, larger.get());
+    buffer_ = std::move(larger);
+    buffer_size_ = larger_size;
+  }
+  return buffer_.get() + end_;
 }
 
 void TextWriter::flush() {

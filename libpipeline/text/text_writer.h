@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace pipeline {
 
@@ -27,30 +26,21 @@ class TextWriter {
   void append(std::string_view text);
   /// Room for at least `size` characters; `commit` marks the end of the filled ones.
   char* reserve(std::size_t size);
-  void commit(const char* end) { end_ = static_cast<std::size_t>(end - buffer_.data()); }
+  void commit(const char* end) { end_ = static_cast<std::size_t>(end - buffer_.get()); }
   /// Writes the buffered text, unless this writer has no descriptor.
   void flush();
-  [[nodiscard]] std::string_view collected() const { return {buffer_.data(), end_}; }
+  [[nodiscard]] std::string_view collected() const { return {buffer_.get(), end_}; }
 
   [[nodiscard]] std::size_t bytes_written() const { return bytes_written_; }
 
  private:
   void write(std::string_view text);
 
-  /// Leaves a growing vector's new elements uninitialized: they are written before they are read.
-  struct UninitializedAllocator : std::allocator<char> {
-    template <typename U>
-    struct rebind {
-      using other = UninitializedAllocator;
-    };
-    void construct(char*) {}
-    void construct(char* p, char value) { *p = value; }
-  };
-
   static constexpr int kNowhere = -1;
   int descriptor_ = kNowhere;
   std::string file_;
-  std::vector<char, UninitializedAllocator> buffer_;
+  std::unique_ptr<char[]> buffer_;  // uninitialized: characters are written before they are read
+  std::size_t buffer_size_ = 0;
   std::size_t end_ = 0;
   std::size_t bytes_written_ = 0;
 };
