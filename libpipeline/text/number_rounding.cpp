@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "libpipeline/numbers/decimal_units.h"
@@ -58,13 +59,17 @@ PrintableNumber round_to_decimals(DoubleDouble value, double error, int decimals
 
 }  // namespace
 
-PrintableNumber round_wide_to_shortest(const Ball& ball, double input_size) {
+PrintableNumber round_to_shortest(const Ball& ball, double input_size) {
+  // Both ends of most balls round to the midpoint's double; this test needs no neighbors. The bound is
+  // enlarged by more than the sums lose.
+  const auto [hi, lo] = ball.value();
+  const double error = ball.error() + (ball.error() + std::fabs(lo)) * 0x1p-50;
+  if (ball.exponent() == 0 && hi + (lo + error) == hi && hi + (lo - error) == hi) return {hi, 0};
   const double nearest = ball.nearest_double();
   if (ball.is_exact() || !std::isfinite(nearest)) return {nearest, 0};
   if (ball.sign() == 0) return {0, 0, ball.magnitude() <= kZeroTolerance * input_size};
   // Distances are measured on the midpoint's own scale; past +-3000 they are infinite.
   const auto shift = static_cast<int>(std::clamp<std::int64_t>(-ball.exponent(), -3000, 3000));
-  const auto [hi, lo] = ball.value();
   const double rest = hi - std::ldexp(nearest, shift);  // nonzero only below a double's normal range
   const double direction = std::copysign(1.0, rest != 0 ? rest : lo);
   const double neighbor = std::nextafter(nearest, direction * HUGE_VAL);
@@ -88,6 +93,20 @@ PrintableNumber round_to_text(const Ball& ball, NumberFormat format, double inpu
     return round_to_decimals(value, std::ldexp(ball.error(), shift), format.decimals);
   }
   return round_to_decimals(ball.value(), ball.error(), format.decimals);
+}
+
+PrintablePoint round_to_text(const BallVec3& p, NumberFormat format, double input_size) {
+  const PrintableNumber x = round_to_text(p.x, format, input_size),
+                        y = round_to_text(p.y, format, input_size),
+                        z = round_to_text(p.z, format, input_size);
+  const auto is_infinite = [](const PrintableNumber& number) { return !std::isfinite(number.hi); };
+  return {{x.hi, y.hi, z.hi},
+          {x.lo, y.lo, z.lo},
+          x.is_certain && y.is_certain && z.is_certain,
+          is_infinite(x)   ? 'x'
+          : is_infinite(y) ? 'y'
+          : is_infinite(z) ? 'z'
+                           : '\0'};
 }
 
 }  // namespace pipeline

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "libpipeline/numbers/ball.h"
 #include "libpipeline/text/number_printer.h"
 
@@ -23,17 +21,17 @@ struct PrintableNumber {
 /// that cancel on the way do not raise this limit. Overflow gives an infinite hi.
 PrintableNumber round_to_text(const Ball& ball, NumberFormat format, double input_size = 1);
 
-/// round_to_shortest for a ball whose ends may round to different doubles.
-PrintableNumber round_wide_to_shortest(const Ball& ball, double input_size);
+/// A point ready to be printed.
+struct PrintablePoint {
+  Vec3 hi, lo;
+  bool is_certain = true;  // true if all coordinates are
+  char overflow = 0;       // the name of the first infinite coordinate, if there is one
+};
+
+/// The three coordinates by round_to_text.
+PrintablePoint round_to_text(const BallVec3& p, NumberFormat format, double input_size);
 
 /// round_to_text in the shortest form.
-inline PrintableNumber round_to_shortest(const Ball& ball, double input_size = 1) {
-  // Both ends of most balls round to the midpoint's double; this test needs no neighbors. The bound is
-  // enlarged by more than the sums lose.
-  const auto [hi, lo] = ball.value();
-  const double error = ball.error() + (ball.error() + std::fabs(lo)) * 0x1p-50;
-  if (ball.exponent() == 0 && hi + (lo + error) == hi && hi + (lo - error) == hi) return {hi, 0};
-  return round_wide_to_shortest(ball, input_size);
-}
+PrintableNumber round_to_shortest(const Ball& ball, double input_size = 1);
 
 }  // namespace pipeline

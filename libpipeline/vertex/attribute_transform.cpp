@@ -39,18 +39,12 @@ bool scale_to_1(std::span<BallVec3> vectors) {
 }
 
 Located<Light> moved_to(const Located<Light>& light, const BallVec3& position, UncertainDigits& uncertain) {
-  bool is_certain = true;
-  const auto rounded = [&](const Ball& coordinate, const char* name) {
-    const PrintableNumber number = round_to_shortest(coordinate, size_of(light.value.position));
-    if (!std::isfinite(number.hi))
-      throw InputError(light.location, "a light whose image is within a double's range",
-                       std::string("an overflow of its ") + name);
-    is_certain = is_certain && number.is_certain;
-    return number.hi;
-  };
-  const Vec3 p = {rounded(position.x, "x"), rounded(position.y, "y"), rounded(position.z, "z")};
-  if (!is_certain) uncertain.add(LineAndColumn(light.location.line, light.location.column));
-  return {{p, light.value.intensity}, light.location};
+  const PrintablePoint p = round_to_text(position, kShortest, size_of(light.value.position));
+  if (p.overflow != 0)
+    throw InputError(light.location, "a light whose image is within a double's range",
+                     std::string("an overflow of its ") + p.overflow);
+  if (!p.is_certain) uncertain.add(LineAndColumn(light.location.line, light.location.column));
+  return {{p.hi, light.value.intensity}, light.location};
 }
 
 }  // namespace

@@ -31,12 +31,6 @@ RoundingTest CoordinateRounder::rounding_test() const {
           format_.decimals > kMaxDecimalsOfDoubles};
 }
 
-void CoordinateRounder::expect_finite(double coordinate, char name, LineAndColumn vertex) const {
-  if (std::isfinite(coordinate)) return;
-  const std::string found = std::string("an overflow of its ") + name;
-  throw InputError(location_of(vertex), "a vertex whose image is within a double's range", found);
-}
-
 // These two are seldom called; they are not inlined, so that their callers can be.
 [[gnu::noinline]] double CoordinateRounder::size_within_bounds(double input_size, const BallVec3& p) {
   return std::min(input_size, std::max({p.x.magnitude(), p.y.magnitude(), p.z.magnitude(), kLeastSize}));
@@ -53,31 +47,28 @@ InputError CoordinateRounder::without_bounds(LineAndColumn vertex) const {
   return {location_of(vertex), "a vertex within bounds", "numbers that cancel beyond 31 digits, or overflow"};
 }
 
-RoundedVertex CoordinateRounder::rounded_exactly(const BallVec3& p, LineAndColumn location, double input_size,
-                                                 bool is_certain) {
-  const double size = size_for_zero(input_size, p);
-  const PrintableNumber x = round_to_text(p.x, format_, size);
-  const PrintableNumber y = round_to_text(p.y, format_, size);
-  const PrintableNumber z = round_to_text(p.z, format_, size);
-  expect_finite(x.hi, 'x', location);
-  expect_finite(y.hi, 'y', location);
-  expect_finite(z.hi, 'z', location);
-  if (!(is_certain && x.is_certain && y.is_certain && z.is_certain)) add_uncertain(location, p, input_size);
-  return {{x.hi, y.hi, z.hi}, {x.lo, y.lo, z.lo}};
+PrintablePoint CoordinateRounder::rounded_exactly(const BallVec3& p, LineAndColumn location,
+                                                  double input_size, bool is_certain) {
+  const PrintablePoint point = round_to_text(p, format_, size_for_zero(input_size, p));
+  if (point.overflow != 0)
+    throw InputError(location_of(location), "a vertex whose image is within a double's range",
+                     std::string("an overflow of its ") + point.overflow);
+  if (!is_certain || !point.is_certain) add_uncertain(location, p, input_size);
+  return point;
 }
 
 // Flattened, as it is called for every vertex of a cut triangle.
 [[gnu::flatten]] void CoordinateRounder::set_vertex_exactly(TriangleBatch& batch, std::size_t triangle,
                                                             std::size_t vertex, const BallVec3& p,
                                                             double input_size, bool is_certain) {
-  const auto [rounded, low_part] =
+  const PrintablePoint rounded =
       rounded_exactly(p, batch.locations[triangle][vertex], input_size, is_certain);
-  batch.triangles[triangle][vertex] = rounded;
+  batch.triangles[triangle][vertex] = rounded.hi;
   if (batch.low_parts.empty()) {
-    if (low_part == Vec3{}) return;
+    if (rounded.lo == Vec3{}) return;
     batch.low_parts.resize(batch.size());
   }
-  batch.low_parts[triangle][vertex] = low_part;
+  batch.low_parts[triangle][vertex] = rounded.lo;
 }
 
 }  // namespace pipeline

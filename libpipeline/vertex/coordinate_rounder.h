@@ -34,12 +34,6 @@ struct UncertainDigits {
 double size_of(const Vec3& point);
 double size_of(const Triangle& triangle);
 
-/// A vertex as it is printed, and the low parts of its doubles.
-struct RoundedVertex {
-  Vec3 p;
-  Vec3 low_part;
-};
-
 /// Rounds calculated coordinates to the numbers that are printed. Most pass the rounding test of a kernel
 /// (vertex_kernel.h); the caller calculates the others again as balls, which this class rounds. It counts the
 /// vertices with an uncertain printed digit.
@@ -54,8 +48,8 @@ class CoordinateRounder {
   /// Rounds the vertex at `location`, on the slow, exact path. `p` contains the exact image, `input_size` is
   /// the size of the triangle that was read (size_of). `is_certain` is false if another number of the vertex
   /// is uncertain. An InputError at the location if a coordinate is beyond a double's range.
-  RoundedVertex rounded_exactly(const BallVec3& p, LineAndColumn location, double input_size,
-                                bool is_certain = true);
+  PrintablePoint rounded_exactly(const BallVec3& p, LineAndColumn location, double input_size,
+                                 bool is_certain = true);
   /// Sets a vertex of a triangle of the batch to its rounded_exactly.
   void set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex, const BallVec3& p,
                           double input_size, bool is_certain = true);
@@ -79,7 +73,6 @@ class CoordinateRounder {
   }
 
  private:
-  void expect_finite(double coordinate, char name, LineAndColumn vertex) const;
   [[nodiscard]] static double size_within_bounds(double input_size, const BallVec3& p);
 
   Precision precision_;

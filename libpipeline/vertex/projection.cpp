@@ -242,17 +242,15 @@ std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
   p_view.attributes.copy(index, triangle);
   std::array<bool, 3> is_certain = {};
   for (std::size_t v = 0; v < 3; ++v) {
-    const double size = rounder_.size_for_zero(input_size, point_of(corners[v]));
-    const PrintableNumber x = round_to_shortest(corners[v].x, size);
-    const PrintableNumber y = round_to_shortest(corners[v].y, size);
-    const PrintableNumber z = round_to_shortest(corners[v].z, size);
-    if (!std::isfinite(x.hi) || !std::isfinite(y.hi) || !std::isfinite(z.hi)) {
+    const BallVec3 p = point_of(corners[v]);
+    const PrintablePoint rounded = round_to_text(p, kShortest, rounder_.size_for_zero(input_size, p));
+    if (rounded.overflow != 0) {
       if (error_) throw rounder_.without_bounds(p_view.locations[index][v]);
       return nullptr;
     }
-    triangle[v].position = {x.hi, y.hi, z.hi};
+    triangle[v].position = rounded.hi;
     triangle[v].w = w_of(p_view.triangles[index][v]);
-    is_certain[v] = x.is_certain && y.is_certain && z.is_certain;
+    is_certain[v] = rounded.is_certain;
   }
   for (std::size_t v = 0; v < 3; ++v)
     if (!is_certain[v]) rounder_.add_uncertain(p_view.locations[index][v], point_of(corners[v]), input_size);

@@ -86,12 +86,12 @@ void VertexTransform::apply(Sphere& sphere, CoordinateRounder& rounder) const {
   p.fill(std::array{Triangle{center, i, j}, Triangle{k, center, center}});
   vertex_kernel().transform(coefficients_, rounder.rounding_test(), p, image);
   for (std::size_t v = 0; v < sphere.points.size(); ++v) {
-    RoundedVertex rounded = {image.vertex(v), {}};
+    PrintablePoint rounded = {.hi = image.vertex(v), .lo = {}};
     if (image.passes_rounding_test[v] == 0)
       rounded = rounder.rounded_exactly(apply_in_balls(matrix_, coefficients_.origin, p.vertex(v)),
                                         sphere.locations[v], size_of(p.triangle(v / 3)));
-    sphere.points[v] = rounded.p;
-    sphere.low_parts[v] = rounded.low_part;
+    sphere.points[v] = rounded.hi;
+    sphere.low_parts[v] = rounded.lo;
   }
 }
 
