@@ -18,18 +18,10 @@ std::array<Ball, 4> row_of(const BallVec3& v) {
   return {v.x, v.y, v.z, Ball()};
 }
 
-/// True if every entry is exactly the identity's.
-bool is_identity(const AffineMatrix& m) {
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 4; ++j)
-      if (m.rows[i][j] != Ball(i == j ? 1 : 0)) return false;
-  return true;
-}
-
 }  // namespace
 
 VertexTransform::VertexTransform(const AffineMatrix& world_from_model)
-    : matrix_(world_from_model), is_identity_(is_identity(world_from_model)) {
+    : matrix_(world_from_model), is_identity_(world_from_model.rows == identity().rows) {
   set_coefficients();
 }
 
