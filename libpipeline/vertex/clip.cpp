@@ -42,38 +42,27 @@ Ball distance_by_coordinates(ClipPlane plane, const ClipVertex& vertex) {
   return is_low(plane) ? vertex.w + coordinate : vertex.w - coordinate;
 }
 
-/// The distance from the near plane (`sign` -1) or the far plane.
-Ball distance_from_end(int sign, const ClipVertex::Origin& vertex) {
-  const double d = -vertex.p_view.z, inset = vertex.clip_inset;
-  const double near = vertex.projection->near, far = vertex.projection->far;
-  const bool is_perspective = vertex.projection->is_perspective;
-  const double w = is_perspective ? d : 1, other = !is_perspective ? 1 : sign < 0 ? far : near;
-  return exact_sum({{-2.0 * sign, d, other},
-                    {2.0 * sign, sign < 0 ? near : far, other},
-                    {-inset, w, far},
-                    {inset, w, near}}) /
-         (Ball(far) - near);
-}
-
-/// The distance from the low side (`sign` -1) or the high one of an axis, at w before the inset.
-Ball distance_from_side(int sign, const VolumeSides& sides, double coordinate, double w, double inset) {
-  const auto& [at, low, high] = sides;
-  return exact_sum({{2.0 * sign, w, sign < 0 ? low : high},
-                    {-2.0 * sign, at, coordinate},
-                    {-inset, w, high},
-                    {inset, w, low}}) /
-         (Ball(high) - low);
-}
-
 /// The distance from unrounded products; none if it depends on a tangent that is not a double.
 std::optional<Ball> exact_distance(ClipPlane plane, const ClipVertex::Origin& vertex) {
+  const ProjectionTransform* const projection = vertex.projection;
+  const Vec3& p = vertex.p_view;
   const int sign = is_low(plane) ? -1 : 1;
-  if (axis_of(plane) == 0) return distance_from_end(sign, vertex);
-  const bool is_x = axis_of(plane) == 1;
-  const auto& sides = vertex.projection->sides[is_x ? 0 : 1];
+  const double w = projection->is_perspective ? -p.z : 1, inset = vertex.clip_inset;
+  // From the plane where at * coordinate = scale * low (or high).
+  const auto distance = [&](double low, double high, double scale, double at, double coordinate) {
+    return exact_sum({{2.0 * sign, scale, sign < 0 ? low : high},
+                      {-2.0 * sign, at, coordinate},
+                      {-inset, w, high},
+                      {inset, w, low}}) /
+           (Ball(high) - low);
+  };
+  const std::size_t axis = axis_of(plane);
+  const double near = projection->near, far = projection->far;
+  const double other = !projection->is_perspective ? 1 : sign < 0 ? far : near;
+  if (axis == 0) return distance(near, far, other, other, -p.z);
+  const auto& sides = projection->sides[axis - 1];
   if (!sides) return std::nullopt;
-  const double w = vertex.projection->is_perspective ? -vertex.p_view.z : 1;
-  return distance_from_side(sign, *sides, is_x ? vertex.p_view.x : vertex.p_view.y, w, vertex.clip_inset);
+  return distance(sides->low, sides->high, w, sides->at, axis == 1 ? p.x : p.y);
 }
 
 /// The distance with a certain sign, if possible, where `distance`, from the coordinates, leaves it open.
