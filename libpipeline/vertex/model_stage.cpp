@@ -219,28 +219,24 @@ void ModelStage::add_facets(TriangleBatch& batch) {
 // M2, M5
 void ModelStage::carry_out(const Command& command) {
   if (const auto* translate = std::get_if<TranslateCommand>(&command)) {
-    odd_transforms_.add_transform(scene_.location());
     stack_.translate(translate->offset);
-    is_matrix_new_ = true;
   } else if (const auto* scale = std::get_if<ScaleCommand>(&command)) {
     const Vec3& factors = scale->factors;
     if (!scale_by_0_ && (factors.x == 0 || factors.y == 0 || factors.z == 0)) scale_by_0_ = scene_.location();
-    odd_transforms_.add_transform(scene_.location());
     stack_.scale(factors);
-    is_matrix_new_ = true;
   } else if (const auto* rotate = std::get_if<RotateCommand>(&command)) {
     odd_transforms_.add(*rotate, scene_.location());
     stack_.multiply(rotation(rotate->angle_degrees, rotate->axis));
-    is_matrix_new_ = true;
-  } else if (std::holds_alternative<PushCommand>(command)) {
-    push();
-  } else if (std::holds_alternative<PopCommand>(command)) {
-    pop();
-  } else if (const auto* light = std::get_if<LightCommand>(&command)) {
-    lights_.push_back(transformed(stack_.top(), light->light, uncertain_lights_));
   } else {
+    if (std::holds_alternative<PushCommand>(command)) push();
+    if (std::holds_alternative<PopCommand>(command)) pop();
+    if (const auto* light = std::get_if<LightCommand>(&command))
+      lights_.push_back(transformed(stack_.top(), light->light, uncertain_lights_));
     done_ = std::holds_alternative<EndCommand>(command);
+    return;
   }
+  odd_transforms_.add_transform(scene_.location());
+  is_matrix_new_ = true;
 }
 
 /// Keeps the last run, whose matrix the next batch begins with.

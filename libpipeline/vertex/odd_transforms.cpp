@@ -51,7 +51,6 @@ std::string in_degrees(double radians) {
 }  // namespace
 
 void OddTransforms::add(const RotateCommand& rotate, const SourceLocation& location) {
-  add_transform(location);
   const Vec3& axis = rotate.axis;
   const double angle = rotate.angle_degrees;
   if (angle == 0 && !without_angle_.is_known() &&
