@@ -20,17 +20,11 @@ Vec3 SphereFacets::normal(std::size_t belt, std::size_t meridian) const {
 
 SphereFacets::Facet SphereFacets::operator()(const SphereCommand& sphere, std::size_t index) const {
   // The first belt and the last have one facet per quadrilateral, the others two.
-  const std::size_t in_belt = 2 * belts_;
-  std::size_t belt = 0, meridian = index, half = 0;
-  if (index >= in_belt) {
-    belt = 1 + (index - in_belt) / (2 * in_belt);
-    meridian = (index - in_belt) % (2 * in_belt) / 2;
-    half = index % 2;
-    if (belt == belts_ - 1) {
-      meridian = (index - in_belt) % (2 * in_belt);
-      half = 1;
-    }
-  }
+  const std::size_t in_belt = 2 * belts_, place = (index + in_belt) % (2 * in_belt);
+  const std::size_t belt = (index + in_belt) / (2 * in_belt);
+  const bool is_first = belt == 0, is_last = belt == belts_ - 1;
+  const std::size_t meridian = is_first ? index : is_last ? place : place / 2;
+  const std::size_t half = is_first ? 0 : is_last ? 1 : place % 2;
   const Vec3 above_left = normal(belt, meridian), below_left = normal(belt + 1, meridian);
   const Vec3 above_right = normal(belt, meridian + 1), below_right = normal(belt + 1, meridian + 1);
   Facet facet;
