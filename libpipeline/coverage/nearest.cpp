@@ -23,8 +23,7 @@ std::size_t nearest_to_the_others(const Triangle& p) {
 
 }  // namespace
 
-DepthInPairs::DepthInPairs(const PixelGrid& grid, const Triangle& p_ndc)
-    : half_width_(grid.half_width), half_height_(grid.half_height), columns_(grid.columns), rows_(grid.rows) {
+DepthInPairs::DepthInPairs(const PixelGrid& grid, const Triangle& p_ndc) : grid_(grid) {
   const std::size_t first = nearest_to_the_others(p_ndc);
   const Vec3 &a = p_ndc[first], &b = p_ndc[(first + 1) % 3], &c = p_ndc[(first + 2) % 3];
   origin_ = a;
@@ -33,14 +32,15 @@ DepthInPairs::DepthInPairs(const PixelGrid& grid, const Triangle& p_ndc)
   const DoubleDouble area = b_x * c_y - c_x * b_y;
   slope_ = (b_z * c_y - c_z * b_y) / area;
   slope_in_y_ = (b_x * c_z - c_x * b_z) / area;
-  half_slope_ = (slope_ * half_width_ / DoubleDouble{static_cast<double>(columns_)}).hi;
+  half_slope_ = (slope_ * grid_.half_width / DoubleDouble{static_cast<double>(grid_.columns)}).hi;
 }
 
 std::optional<SpanDepth> DepthInPairs::along(int row, int first_column, int last_column) const {
   // The middle of the span, in pixels from the middle of the window.
-  const double columns = first_column + last_column + 1 - columns_, rows = rows_ - 2 * row - 1;
-  const DoubleDouble x = two_product(half_width_, columns) / DoubleDouble{static_cast<double>(columns_)};
-  const DoubleDouble y = two_product(half_height_, rows) / DoubleDouble{static_cast<double>(rows_)};
+  const double columns = first_column + last_column + 1 - grid_.columns, rows = grid_.rows - 2 * row - 1;
+  const DoubleDouble x =
+      two_product(grid_.half_width, columns) / DoubleDouble{static_cast<double>(grid_.columns)};
+  const DoubleDouble y = two_product(grid_.half_height, rows) / DoubleDouble{static_cast<double>(grid_.rows)};
   const DoubleDouble rise =
       slope_ * (x - DoubleDouble{origin_.x}) + slope_in_y_ * (y - DoubleDouble{origin_.y});
   const double middle = (rise + DoubleDouble{origin_.z}).hi;

@@ -22,10 +22,7 @@ class DepthInPairs {
   [[nodiscard]] std::optional<SpanDepth> along(int row, int first_column, int last_column) const;
 
  private:
-  double half_width_;
-  double half_height_;
-  int columns_;
-  int rows_;
+  PixelGrid grid_;
   Vec3 origin_;              // a vertex
   DoubleDouble slope_;       // dz/dx
   DoubleDouble slope_in_y_;  // dz/dy
