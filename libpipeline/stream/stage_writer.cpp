@@ -11,33 +11,31 @@
 namespace pipeline {
 namespace {
 
-void print_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
+/// Prints a header line or, if `rest` is no line end, the beginning of one.
+void print_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers,
+                   std::string_view rest = "\n") {
   text.append(keyword);
   for (const double number : numbers) {
     char* out = text.reserve(kMaxNumberLength + 1);
     *out++ = ' ';
     text.commit(print_number(out, number, 0, {.shortest = true}));
   }
-}
-
-void print_header_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
-  print_numbers(text, keyword, numbers);
-  text.append("\n");
+  text.append(rest);
 }
 
 void print_vec3(TextWriter& text, std::string_view keyword, const std::optional<Located<Vec3>>& v) {
-  if (v) print_header_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
+  if (v) print_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
 }
 
 void print_projection(TextWriter& text, const Projection& projection) {
   if (const auto* p = std::get_if<Perspective>(&projection)) {
-    print_numbers(text, "perspective", {p->fov_y_degrees, p->aspect, p->near, p->far});
-    text.append(p->aspect_rule == AspectRule::ratio ? " ratio\n" : "\n");
+    print_numbers(text, "perspective", {p->fov_y_degrees, p->aspect, p->near, p->far},
+                  p->aspect_rule == AspectRule::ratio ? " ratio\n" : "\n");
   } else if (const auto* f = std::get_if<Frustum>(&projection)) {
-    print_header_numbers(text, "frustum", {f->left, f->right, f->bottom, f->top, f->near, f->far});
+    print_numbers(text, "frustum", {f->left, f->right, f->bottom, f->top, f->near, f->far});
   } else {
     const auto& o = std::get<Orthographic>(projection);
-    print_header_numbers(text, "ortho", {o.left, o.right, o.bottom, o.top, o.near, o.far});
+    print_numbers(text, "ortho", {o.left, o.right, o.bottom, o.top, o.near, o.far});
   }
 }
 
@@ -45,29 +43,26 @@ void print_appearance(TextWriter& text, const Appearance& appearance) {
   if (appearance.attributes) text.append(attributes_line(appearance.attributes->value) + "\n");
   if (appearance.background) {
     const auto& [color, alpha] = appearance.background->value;
-    print_numbers(text, "background", {color.x, color.y, color.z});
+    print_numbers(text, "background", {color.x, color.y, color.z}, alpha < 255 ? "" : "\n");
     if (alpha < 255) print_numbers(text, "", {alpha});
-    text.append("\n");
   }
   print_vec3(text, "ambient", appearance.ambient);
   for (const auto& [m, location] : appearance.materials) {
-    print_numbers(text, "material", {m.ambient, m.diffuse, m.specular});
-    text.append(" ");
-    text.append(std::to_string(m.shininess));
-    if (m.reflectance != 0 || m.index != 1 || m.alpha != 1)
-      print_numbers(text, "", {m.reflectance, m.index, m.alpha});
-    text.append("\n");
+    const bool is_traced = m.reflectance != 0 || m.index != 1 || m.alpha != 1;
+    print_numbers(text, "material", {m.ambient, m.diffuse, m.specular},
+                  " " + std::to_string(m.shininess) + (is_traced ? "" : "\n"));
+    if (is_traced) print_numbers(text, "", {m.reflectance, m.index, m.alpha});
     if (m.absorption != Vec3{})
-      print_header_numbers(text, "absorption", {m.absorption.x, m.absorption.y, m.absorption.z});
-    if (m.paint) print_header_numbers(text, "paint", {m.paint->x, m.paint->y, m.paint->z});
+      print_numbers(text, "absorption", {m.absorption.x, m.absorption.y, m.absorption.z});
+    if (m.paint) print_numbers(text, "paint", {m.paint->x, m.paint->y, m.paint->z});
   }
   if (appearance.attenuation) {
     const Attenuation& a = appearance.attenuation->value;
-    print_header_numbers(text, "attenuation", {a.constant, a.linear, a.quadratic});
+    print_numbers(text, "attenuation", {a.constant, a.linear, a.quadratic});
   }
   for (const auto& [light, location] : appearance.lights) {
     const auto& [p, i] = light;
-    print_header_numbers(text, "light", {p.x, p.y, p.z, i.x, i.y, i.z});
+    print_numbers(text, "light", {p.x, p.y, p.z, i.x, i.y, i.z});
   }
 }
 
@@ -92,9 +87,8 @@ void StageWriter::write_header(const StageHeader& header) {
   if (header.bounds) {
     const auto& [error, rounded, space] = header.bounds->value;
     text_.append("bounds ");
-    print_numbers(text_, space, {error.absolute, error.relative});
+    print_numbers(text_, space, {error.absolute, error.relative}, rounded ? "" : "\n");
     if (rounded) print_numbers(text_, "", {rounded->absolute, rounded->relative});
-    text_.append("\n");
   }
   print_appearance(text_, header.appearance);
   columns_ = header.appearance.columns();
