@@ -44,16 +44,14 @@ class CoordinateExtent {
   /// The points c + u a + v b + w d with u^2 + v^2 + w^2 = 1 are up to sqrt(a^2 + b^2 + d^2) from c in each
   /// coordinate.
   void add(const SpherePoints& points) {
-    const Vec3 &c = points[0], a = difference(points[1], c), b = difference(points[2], c),
-               d = difference(points[3], c);
-    const auto add_around = [&](std::size_t axis, double center, double x, double y, double z) {
-      const double reach = std::sqrt(x * x + y * y + z * z);
-      add(axis, {center - reach, 0});
-      add(axis, {center + reach, 0});
-    };
-    add_around(0, c.x, a.x, b.x, d.x);
-    add_around(1, c.y, a.y, b.y, d.y);
-    add_around(2, c.z, a.z, b.z, d.z);
+    const auto& [c, a, b, d] = points;
+    Vec3 reach;
+    for (double Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+      const Vec3 v = {a.*axis - c.*axis, b.*axis - c.*axis, d.*axis - c.*axis};
+      reach.*axis = std::sqrt(dot(v, v));
+    }
+    add(difference(c, reach), {});
+    add(sum(c, reach), {});
   }
   void add(std::size_t axis, const Coordinate& c) {
     std::optional<Range>& range = ranges_[axis];
