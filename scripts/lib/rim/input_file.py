@@ -82,11 +82,17 @@ def is_same_stream(a, b):
 @contextlib.contextmanager
 def readable_again(*paths):
     """Paths to the same inputs that can be opened more than once and that no tool takes for an option. An
-    input that is not a regular file is copied to one, which is removed afterwards."""
+    input that is not a regular file is copied to one, removed at the end; failures name the input."""
     if paths.count("-") > 1:
         raise CommandFailure("expected '-' once, as standard input can be read only once")
     with tempfile.TemporaryDirectory() as folder:
-        yield [path_again(path, os.path.join(folder, str(i))) for i, path in enumerate(paths)]
+        copies = [path_again(path, os.path.join(folder, str(i))) for i, path in enumerate(paths)]
+        try:
+            yield copies
+        except CommandFailure as failure:
+            for copy, path in zip(copies, paths):
+                failure.args = (str(failure).replace(shown(copy), name_of(path)),)
+            raise
 
 
 def path_again(path, folder):
