@@ -103,14 +103,20 @@ void LostDigits::look_for_decimals() {
 void LostDigits::add(const TriangleBatch& p_view, const TriangleBatch& p_ndc) {
   std::size_t whole = 0;
   const auto read = [&](std::size_t index) -> const Triangle& {
-    const std::uint64_t number = p_ndc.numbers[index];
-    if (index < p_view.size() && p_view.numbers[index] == number) whole = index;
-    while (p_view.numbers[whole] != number) ++whole;
+    // Facets of a sphere have one number; a piece's corners are at lines of its triangle.
+    const auto is_whole = [&](std::size_t i) {
+      const auto& [a, b, c] = p_view.locations[i];
+      const LineAndColumn& corner = p_ndc.locations[index][0];
+      return p_view.numbers[i] == p_ndc.numbers[index] && (corner == a || corner == b || corner == c);
+    };
+    if (index < p_view.size() && is_whole(index)) whole = index;
+    while (whole + 1 < p_view.size() && !is_whole(whole)) ++whole;
     return p_view.triangles[whole];
   };
   std::size_t i = 0;
   if (rows_.empty()) {
-    if (p_ndc.size() > 1) kept_.reserve(kSmallScene + 1);
+    if (p_ndc.size() > 1)
+      for (auto* kept : {&kept_, &kept_read_}) kept->reserve(kSmallScene + 1);
     for (; i < p_ndc.size() && kept_.size() <= kSmallScene; ++i) {
       kept_.push_back(p_ndc.triangles[i]);
       kept_read_.push_back(read(i));
@@ -226,7 +232,9 @@ void LostDigits::undo_rounding(Surface& surface) const {
       };
       const Vec3 near = seen_at(-1), along = difference(seen_at(1), near);
       const double share = dot(normal, difference(corner, near)) / dot(normal, along);
-      p_view[i] = sum(near, scaled(along, share));
+      const Vec3 p = sum(near, scaled(along, share));
+      // There is no such point, or it is unknown, if the triangle is seen edge-on, or huge.
+      p_view[i] = std::isfinite(p.x + p.y + p.z) ? p : seen_at(surface.p_ndc[i].z);
     }
   }
   surface = Surface(projected(p_view), p_view);

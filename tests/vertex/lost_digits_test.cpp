@@ -66,8 +66,9 @@ TEST(LostDigits, OfLayersOfAMapAreFound) {
 
 TEST(LostDigits, OfLayersCutAtTheNearPlaneAreFound) {
   TriangleBatch floors;
-  floors.add({Vec3{-50, -1, 50}, Vec3{50, -1, 50}, Vec3{0, -1, -800}}, 0, {});
-  floors.add({Vec3{-50, -0.99999, 50}, Vec3{50, -0.99999, 50}, Vec3{0, -0.99999, -900}}, 1, {});
+  floors.add({Vec3{-50, -1, -800}, Vec3{50, -1, -800}, Vec3{0, -1, 50}}, 0, {});
+  floors.add({Vec3{-50, -0.99999, -900}, Vec3{50, -0.99999, -900}, Vec3{0, -0.99999, 50}}, 1, {});
+  for (const auto n : {7U, 8U, 7U}) floors.add({Vec3{0, 0, -950}, Vec3{1, 0, -950}, Vec3{0, 1, -950}}, n, {});
   EXPECT_TRUE(found(floors));
   EXPECT_FALSE(found(floors, 12));
 }
