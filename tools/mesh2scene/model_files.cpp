@@ -95,7 +95,8 @@ std::string_view ModelFiles::content(int descriptor, const std::string& name) {
   TextWriter& bytes = known->second;
   constexpr std::size_t kBlock = 1 << 16;
   const std::size_t room = megabytes_ * 1'000'000 - size_;
-  const auto size = static_cast<std::size_t>(status.st_size);  // 0 for a pipe
+  // Unknown for standard input, which may be a pipe, or a file of which a part has been read.
+  const std::size_t size = descriptor == STDIN_FILENO ? 0 : static_cast<std::size_t>(status.st_size);
   if (is_new && size <= room) bytes.reserve(size + kBlock);
   for (ssize_t count = is_new ? -1 : 0; count != 0;) {
     char* const p = bytes.reserve(kBlock);
