@@ -105,7 +105,8 @@ struct GltfReader {
   std::string_view binary_;  // of a GLB file
   ModelFiles& files_;
   Model& model_;
-  std::map<const nlohmann::json*, std::string> decoded_{};  // buffers in base64
+  std::map<const nlohmann::json*, std::string> decoded_{};     // buffers in base64
+  std::map<const nlohmann::json*, std::string_view> found_{};  // all buffers
   // assimp keeps the colors of other formats when it converts them.
   bool is_linear_ = !document_["asset"]["generator"].text().starts_with("Open Asset Import Library");
   std::vector<Vec3> linear_colors_{};  // of materials
@@ -165,6 +166,7 @@ struct GltfReader {
 
   std::string_view buffer(Json index) {
     const Json json = item("buffers", index);
+    if (const auto known = found_.find(json.value); known != found_.end()) return known->second;
     const std::string& uri = json["uri"].text();
     std::string_view bytes = binary_;
     if (uri.starts_with("data:")) {
@@ -183,7 +185,7 @@ struct GltfReader {
     if (count(json, "byteLength") > bytes.size())
       model_.fail(counted(count(json, "byteLength"), "byte") + " in a buffer",
                   std::to_string(bytes.size()) + ": it is cut");
-    return bytes;
+    return found_[json.value] = bytes;
   }
 
   /// The first `width` of the components of each of `n` values.
