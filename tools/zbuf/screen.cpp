@@ -106,8 +106,10 @@ std::optional<std::string> squeezed_note(const Projection& projection, const Vie
   if (std::abs(screen.columns - shape * screen.rows) <= (1 + shape) / 2) return std::nullopt;
   const double columns = shape * screen.rows;
   const double rows = screen.columns / shape;
-  const std::string option =
-      is_size(columns) ? size_option(columns, screen.rows) : size_option(screen.columns, rows);
+  const double most = kMaxViewportSize * std::min(shape, 1.0);  // columns of a screen of this shape
+  const std::string option = is_size(columns) ? size_option(columns, screen.rows)
+                             : is_size(rows)  ? size_option(screen.columns, rows)
+                                              : size_option(most, most / shape);
   return "a square is drawn " + times_as_wide(screen.columns / columns) + option +
          " has the shape of the camera's window";
 }
