@@ -1,6 +1,7 @@
 #include "libpipeline/raytracing/surface_caster.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace pipeline {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "libpipeline/scene/color.h"
 #include "libpipeline/text/error.h"
