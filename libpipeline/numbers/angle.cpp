@@ -9,7 +9,7 @@
 namespace pipeline {
 namespace {
 
-/// The nearest pair to 1 / n, within 2^-107 of it.
+/// The nearest pair to 1 / n, with a relative error of at most 2^-107.
 constexpr DoubleDouble inverse_pair(UInt128 n) {
   const BinaryInverse inverse = binary_inverse(n);
   DoubleDouble pair = {static_cast<double>(inverse.factor), 0};

@@ -13,7 +13,7 @@ namespace {
 constexpr int kMinExponent = -40 - 52;
 constexpr int kMaxPower = 28;
 
-/// 10^n = factor * 2^(log2 - 127) but for bits below the factor's 128; these are its high 64 and low 64.
+/// 10^n = factor * 2^(log2 - 127), exactly, by the factor's high and low 64 bits.
 struct PowerOfTen {
   std::uint64_t high = 0;
   std::uint64_t low = 0;

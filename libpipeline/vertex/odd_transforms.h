@@ -13,7 +13,7 @@ namespace pipeline {
 /// Finds a scene's legal but probably mistaken transforms and triangles; notes the first of each kind.
 class OddTransforms {
  public:
-  /// Adds a rotate; add_transform adds it, too.
+  /// Looks at a rotate's numbers; the caller adds it by add_transform, too.
   void add(const RotateCommand& rotate, const SourceLocation& location);
   /// Adds a translate, scale or rotate.
   void add_transform(const SourceLocation& location) { last_transform_ = at(location); }
