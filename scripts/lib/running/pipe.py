@@ -7,6 +7,7 @@ import shlex
 import subprocess
 
 from lib.rim.child import run
+from lib.rim.command import shown
 from lib.running.owners import owners_in
 from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.showing.pictures import read_picture
@@ -79,11 +80,12 @@ def exact(rule):
 
 class Pipe:
     """A scene and a config on their way through the tools; `folder` holds the files in between."""
-    def __init__(self, tools, scene, config, of_project, folder, of_camera=(), of_view=()):
-        """`of_project` and `of_camera` are the user's options for project, and for trace in its place."""
+    def __init__(self, tools, scene, config, of_project, folder, of_camera=(), of_view=(), name=None):
+        """`of_project` and `of_camera` are the user's options for project, and for trace in its place; `name`
+        is the scene's in notes."""
         self.tools, self.scene, self.config = tools, scene, config
         self.of_project, self.of_camera, self.of_view = of_project, of_camera, of_view
-        self.folder = pathlib.Path(folder)
+        self.folder, self.name = pathlib.Path(folder), name or shown(scene)
         self.texts = {}  # by Setting.of_texts: (the path of project's text, bytes in the pipes, notes)
         self.opaque = []  # words for zbuf to write a BMP of a background with an alpha; set by text()
 
@@ -102,7 +104,8 @@ class Pipe:
             source, size, notes = None, 0, []
             for tool in TOOLS[:3]:
                 target = self.folder / f"{tool} {key}.txt"
-                notes += self.tools.write(target, tool, *self.words(tool, key), source or self.scene)
+                printed = self.tools.write(target, tool, *self.words(tool, key), source or self.scene)
+                notes += [note.replace(shown(self.scene), self.name) for note in printed]
                 size += target.stat().st_size
                 if source:
                     source.unlink()
