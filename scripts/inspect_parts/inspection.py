@@ -77,9 +77,9 @@ class Inspection:
         self.count = self.lines["model"].count
         self.step = max(1, math.ceil(self.count / MAX_DRAWN_TRIANGLES))
         self.stages = [self.stage(tool, TITLES[tool], texts[tool]) for tool in texts]
+        self.draw(texts["project"].stdout, folder)  # refuses what is no config
         note = note_on_squares(line_of(self.header.get), text_of(self.config_data, self.config))
         self.square_notes = [f"note: {note}"] if note else []
-        self.draw(texts["project"].stdout, folder)
 
     def first_run(self, tool, data, *words):
         try:
