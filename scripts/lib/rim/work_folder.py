@@ -88,7 +88,7 @@ class WorkFolder:
                 path for path in paths if path != str(self.mark) and is_own(os.path.relpath(path, self.path))]
             for path in own:
                 os.unlink(path)
-            if own and folder != str(self.path):
+            if own and folder != str(self.path) and self.mark.exists():
                 with contextlib.suppress(OSError):
                     os.removedirs(folder)  # not self.path, which holds the mark
 
