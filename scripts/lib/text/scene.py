@@ -50,6 +50,11 @@ def filled_lines(text):
             if (words := line.split("#")[0].split()))
 
 
+def projection_words(text):
+    """The words of the fourth line that has some; none if there is no such line."""
+    return next(itertools.islice((words for _, words in filled_lines(text)), CAMERA_LINES - 1, None), [])
+
+
 def camera(text):
     """The words of eye, look, up and, with its keyword, the projection."""
     *position, projection = (words for _, words in itertools.islice(filled_lines(text), CAMERA_LINES))
