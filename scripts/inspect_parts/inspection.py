@@ -9,6 +9,7 @@ import tempfile
 from inspect_parts.explanations import explanations
 from inspect_parts.packing import packed
 from inspect_parts.stage_lines import NUMBER_BEGINS, StageLines
+from lib.rim.command import renaming
 from lib.rim.input_file import read_input
 from lib.running.pipe_tools import (FRAMING, ToolCrash, ToolFailure, bare_blocks, expect_rows, of_bare_text,
                                     opaque_background)
@@ -82,10 +83,8 @@ class Inspection:
         self.square_notes = [f"note: {note}"] if note else []
 
     def first_run(self, tool, data, *words):
-        try:
+        with renaming({"model: <stdin>:": f"model: {self.name}:"}):  # model has read the scene from a pipe
             return self.tools.run(tool, "--timing", *words, stdin=data)
-        except ToolFailure as failure:  # model has read the scene from a pipe
-            raise ToolFailure(str(failure).replace("model: <stdin>:", f"model: {self.name}:", 1)) from None
 
     def faceted(self, stage2):
         """The input of project: the output of view, with facets in place of spheres."""

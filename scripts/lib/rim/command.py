@@ -4,6 +4,7 @@ import contextlib
 import errno
 import io
 import os
+import re
 import secrets
 import shutil
 import signal
@@ -51,6 +52,23 @@ def shown(name):
         return f"\\x{ord(c) - 0xdc00:02x}" if "\udc80" <= c <= "\udcff" else ascii(c)[1:-1]
 
     return "".join(c if c.isprintable() else escaped(c) for c in os.fspath(name))
+
+
+def renamed(message, names):
+    """A message with names of files, the values, in place of others, the keys."""
+    names = {shown(known): shown(name) for known, name in names.items()}
+    known = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))  # a name may begin another one
+    return re.sub(known, lambda found: names[found[0]], message) if names else message
+
+
+@contextlib.contextmanager
+def renaming(names):
+    """Puts the values in place of the keys, names of files, in the text of a failure."""
+    try:
+        yield
+    except CommandFailure as failure:
+        failure.args = (renamed(str(failure), names),)
+        raise
 
 
 def run_command(main, name, failure_status=1):

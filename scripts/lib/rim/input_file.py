@@ -5,7 +5,7 @@ import os
 import stat
 import tempfile
 
-from lib.rim.command import CommandFailure, shown
+from lib.rim.command import CommandFailure, renaming, shown
 from lib.rim.output_file import write_file
 
 MAX_BYTES = 1 << 29
@@ -87,12 +87,8 @@ def readable_again(*paths):
         raise CommandFailure("expected '-' once, as standard input can be read only once")
     with tempfile.TemporaryDirectory() as folder:
         copies = [path_again(path, os.path.join(folder, str(i))) for i, path in enumerate(paths)]
-        try:
+        with renaming({copy: name_of(path) for copy, path in zip(copies, paths)}):
             yield copies
-        except CommandFailure as failure:
-            for copy, path in zip(copies, paths):
-                failure.args = (str(failure).replace(shown(copy), name_of(path)),)
-            raise
 
 
 def path_again(path, folder):

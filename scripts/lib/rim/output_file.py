@@ -6,7 +6,7 @@ import re
 import secrets
 import stat
 
-from lib.rim.command import CommandFailure, errors, leftovers, shown, unbroken
+from lib.rim.command import CommandFailure, errors, leftovers, renaming, unbroken
 
 MAX_LINKS = 40  # the kernel's limit
 OWN_FILE = re.compile(r"/dev/(?:(stdout)|(stderr)|fd/(\d+))|/proc/self/fd/(\d+)")
@@ -159,14 +159,8 @@ def replaced_at_end(*paths, others=()):
                 if path not in (None, "-") and (os.path.isfile(path) or not os.path.exists(path)):
                     files[path] = stack.enter_context(OutputFile(path))
         beside = {path: file.temporary for path, file in files.items() if file.temporary}
-        try:
+        with renaming({temporary: path for path, temporary in beside.items()}):
             yield [beside.get(path, path) for path in paths]
-        except CommandFailure as failure:
-            text = str(failure)
-            for path, temporary in beside.items():
-                text = text.replace(shown(temporary), shown(path))
-            failure.args = (text,)
-            raise
         commit_all([*(files[path] for path in beside), *others])
 
 

@@ -7,7 +7,7 @@ import shlex
 import subprocess
 
 from lib.rim.child import run
-from lib.rim.command import shown
+from lib.rim.command import renamed
 from lib.running.owners import owners_in
 from lib.running.pipe_tools import ToolFailure, opaque_background
 from lib.showing.pictures import read_picture
@@ -85,7 +85,7 @@ class Pipe:
         is the scene's in notes."""
         self.tools, self.scene, self.config = tools, scene, config
         self.of_project, self.of_camera, self.of_view = of_project, of_camera, of_view
-        self.folder, self.name = pathlib.Path(folder), name or shown(scene)
+        self.folder, self.name = pathlib.Path(folder), name or scene
         self.texts = {}  # by Setting.of_texts: (the path of project's text, bytes in the pipes, notes)
         self.opaque = []  # words for zbuf to write a BMP of a background with an alpha; set by text()
 
@@ -105,7 +105,7 @@ class Pipe:
             for tool in TOOLS[:3]:
                 target = self.folder / f"{tool} {key}.txt"
                 printed = self.tools.write(target, tool, *self.words(tool, key), source or self.scene)
-                notes += [note.replace(shown(self.scene), self.name) for note in printed]
+                notes += [renamed(note, {self.scene: self.name}) for note in printed]
                 size += target.stat().st_size
                 if source:
                     source.unlink()
